@@ -1,0 +1,1 @@
+"""What rcyaml says about a document: spans, diagnostics, their table of codes, and how each output shows them."""

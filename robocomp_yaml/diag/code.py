@@ -1,0 +1,35 @@
+"""The row of the table of codes: what a diagnostic says, why, and an example of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+
+Files = Mapping[str, "str | bytes | None"]
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """One kind of diagnostic. Ids are never reused.
+
+    `message` is a format string for the facts given to `at`. `why` explains (Markdown). `wrong` and `right` are small
+    trees of files, path to text (bytes for what is no text, None for an empty folder, "-> target" for a symlink), on
+    which `rcyaml COMMAND` gives this diagnostic, and gives none: the tests run both.
+    """
+
+    id: str
+    severity: str
+    message: str
+    why: str
+    wrong: Files
+    right: Files
+    command: str = "check ."
+
+    def at(
+        self, span: Span, *, hint: str = "", related: Iterable[Related] = (), more: str = "", **facts: object
+    ) -> Diagnostic:
+        """The diagnostic of this code at a place; `facts` fill the message."""
+        return Diagnostic(self.id, self.severity, self.message.format(**facts), span, hint, tuple(related), more)

@@ -1,0 +1,26 @@
+"""The table of codes, one module a family; a constant of these modules is a row.
+
+RC0xxx files and YAML · RC1xxx IDSL · RC2xxx CDSL · RC3xxx PDSL and values · RC4xxx DDSL · RC5xxx migration ·
+RC6xxx emitting · RC7xxx deploying. Within a family the number says nothing; a retired number stays retired.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from functools import cache
+
+from robocomp_yaml.diag.code import Code
+
+
+@cache
+def table() -> dict[str, Code]:
+    """Every row by its id, in order of id. Raises ValueError when two rows share an id."""
+    rows: dict[str, Code] = {}
+    for module in pkgutil.iter_modules(__path__):
+        for row in vars(importlib.import_module(f"{__name__}.{module.name}")).values():
+            if isinstance(row, Code):
+                if row.id in rows:
+                    raise ValueError(f"two diagnostics are called {row.id}")
+                rows[row.id] = row
+    return dict(sorted(rows.items()))

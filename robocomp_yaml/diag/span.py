@@ -1,0 +1,20 @@
+"""A place in a file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Span:
+    """From (line, column) to (end_line, end_column) of a file; lines and columns count from 1, in characters.
+
+    The end is exclusive: a one-letter word at the start of a file is 1:1–1:2. `file` is the path as the user gave it
+    (or as found from there), so that it can be opened from the user's folder.
+    """
+
+    file: str
+    line: int = 1
+    column: int = 1
+    end_line: int = 1
+    end_column: int = 1

@@ -1,0 +1,33 @@
+"""Where the data folders live: `schemas/`, `templates/` and `migrate/`.
+
+In a wheel they stand inside the package, under `_data/`; in a checkout (and so in an editable install) they stand
+beside the package, where people look for them.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+_PACKAGE = Path(__file__).resolve().parent
+
+
+@cache
+def folder(name: str) -> Path:
+    """The data folder `schemas`, `templates` or `migrate`.
+
+    Raises FileNotFoundError where the installation is broken: rcyaml cannot work without its data.
+    """
+    shipped = _PACKAGE / "_data" / name
+    if shipped.is_dir():
+        return shipped
+    beside = _PACKAGE.parent / name
+    if (_PACKAGE.parent / "pyproject.toml").is_file() and beside.is_dir():
+        return beside
+    raise FileNotFoundError(f"rcyaml's folder '{name}' is missing from this installation: reinstall rcyaml")
+
+
+def text(path: str) -> str:
+    """The text of one data file, such as `schemas/idsl.schema.json`."""
+    head, _, tail = path.partition("/")
+    return (folder(head) / tail).read_text(encoding="utf-8")
