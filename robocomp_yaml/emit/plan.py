@@ -1,0 +1,27 @@
+"""The emit plan: files to be, each with its text and its policy. Pure data; `writer` carries it out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+ALWAYS, ONCE = "always", "once"
+
+
+@dataclass(frozen=True, slots=True)
+class FilePlan:
+    """One file below an output root. `path` is relative, with '/'. `policy` ALWAYS: ours, rewritten whenever it
+    changes. ONCE: written if it is missing, then the user's."""
+
+    path: str
+    text: str
+    policy: str = ALWAYS
+    executable: bool = False
+
+
+@dataclass(slots=True)
+class RootPlan:
+    """All that one owner (the path of a document relative to `root`) puts below the folder `root`."""
+
+    root: str
+    owner: str
+    files: list[FilePlan] = field(default_factory=list)

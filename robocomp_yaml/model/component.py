@@ -1,0 +1,68 @@
+"""The CDSL model: what a component is made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.interface import Import, _span
+
+WAIT, FAIL, IGNORE = "wait", "fail", "ignore"
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """An entry of `implements`, `requires`, `publishes` or `subscribes`.
+
+    `interface` is as written: `Camera`, or `RoboCompCamera.Camera` / `Camera.Camera`. `name` is the interface's name,
+    or the entry's own (`{Camera1: Camera}`). `absent` says what a required proxy does when the other side is not
+    there; `timeout` is in seconds: how long to wait for it (None: for ever), and for each call thereafter (None: Ice's
+    default).
+    """
+
+    name: str
+    interface: str
+    absent: str = WAIT
+    timeout: float | None = None
+    doc: str = ""
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Language:
+    """`name` is 'python' or 'cpp'; `standard` is C++'s (17, 20, …) or None."""
+
+    name: str
+    standard: int | None = None
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Gui:
+    toolkit: str
+    base: str
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Component:
+    """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written
+    (`statemachine` is '<inline>' where the machine stands in the document), or ''."""
+
+    name: str
+    path: str
+    language: Language
+    imports: tuple[Import, ...] = ()
+    implements: tuple[Use, ...] = ()
+    requires: tuple[Use, ...] = ()
+    publishes: tuple[Use, ...] = ()
+    subscribes: tuple[Use, ...] = ()
+    parameters: str = ""
+    period: int | None = None
+    statemachine: str = ""
+    gui: Gui | None = None
+    options: tuple[str, ...] = ()
+    compatibility: str = ""
+    has_uses: bool = False
+    doc: str = ""
+    span: Span = _span()
