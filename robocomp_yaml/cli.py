@@ -1,0 +1,89 @@
+"""The command line: a table of commands, each imported only when it is called.
+
+Only click is imported here, so that `rcyaml --help` answers at once.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from dataclasses import dataclass
+
+import click
+
+from robocomp_yaml import __version__
+
+COMMANDS = {
+    "init": "Make a folder a workspace that already checks.",
+    "new": "Write a new interface or component that already compiles.",
+    "check": "Report everything that is wrong with the documents.",
+    "compile": "Write Slice and components; only what changed.",
+    "migrate": "Carry legacy files over to YAML, losing nothing.",
+    "schema": "Print the JSON Schema of a kind of document.",
+    "explain": "Say what a diagnostic means, with examples.",
+}
+
+
+@dataclass(slots=True)
+class Options:
+    """What holds for every command. `verbosity`: -1 quiet, 0, 1 verbose; `color`: None = as the terminal wants."""
+
+    color: bool | None = None
+    verbosity: int = 0
+
+
+class LazyGroup(click.Group):
+    """A group whose commands live in `robocomp_yaml.commands.NAME.command`."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in COMMANDS:
+            return None
+        return importlib.import_module(f"robocomp_yaml.commands.{cmd_name}").command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        try:
+            return super().resolve_command(ctx, args)
+        except click.UsageError as error:
+            from robocomp_yaml.link.suggest import suggest
+
+            meant = suggest(args[0], COMMANDS)
+            error.message = f"there is no command '{args[0]}'" + (f"; did you mean '{meant}'?" if meant else "")
+            raise
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, "-V", "--version", prog_name="rcyaml")
+@click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", help="Colour the output.")
+@click.option("-q", "--quiet", is_flag=True, help="Say only what is wrong.")
+@click.option("-v", "--verbose", is_flag=True, help="Say what is done to each file.")
+@click.pass_context
+def group(ctx: click.Context, color: str, quiet: bool, verbose: bool) -> None:
+    """The configuration compiler for component-based robotics.
+
+    Interfaces and components are YAML documents; rcyaml checks them and compiles them to Ice Slice and to components
+    that run.
+    """
+    wanted = {"always": True, "never": False}.get(color)
+    if wanted is None and os.environ.get("NO_COLOR"):
+        wanted = False
+    ctx.color = wanted
+    ctx.obj = Options(wanted, -1 if quiet else int(verbose))
+
+
+def main() -> None:
+    """Run rcyaml; the exit code is 0 (fine), 1 (the documents have errors) or 2 (wrong usage)."""
+    try:
+        group(prog_name="rcyaml")
+    except BrokenPipeError:  # `rcyaml check | head`: the reader has enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)

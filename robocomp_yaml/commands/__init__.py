@@ -1,0 +1,1 @@
+"""One module a command: parse the options, call, render. `cli.COMMANDS` names them."""

@@ -1,0 +1,1 @@
+"""From RoboComp's legacy formats to our documents. Grammars and rules are data, in `migrate/`."""

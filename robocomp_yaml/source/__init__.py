@@ -1,0 +1,1 @@
+"""From bytes to positioned nodes that fit their schema."""
