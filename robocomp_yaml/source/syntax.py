@@ -1,0 +1,166 @@
+"""YAML's syntax: text to composed nodes, by libyaml or, where that refuses, by ruamel.yaml's own parser.
+
+libyaml reads YAML 1.1 syntax, in which `{key: a:b}` is an error; YAML 1.2 allows it. So the slower parser has the last
+word on what is wrong. Both compose recursively, libyaml in C without a guard: the depth is bounded before.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from ruamel.yaml.cyaml import CParser
+from ruamel.yaml.error import MarkedYAMLError
+from ruamel.yaml.nodes import MappingNode, Node, ScalarNode
+
+from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+
+MAX_DEPTH = 100
+
+_BRACKET = re.compile(r"[\[{\]}]")
+_DEEP_BLOCK = re.compile(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
+
+# The parsers' words, by a part of them: what a user is told, and how to mend it.
+_WORDS = (
+    ("cannot start any token", "{found} cannot start a value here", "put the text in quotes"),
+    ("mapping values are not allowed", "a ':' makes a mapping here, where none can stand",
+     "put text that holds ': ' in quotes, and check that the lines above line up"),
+    ("could not find expected ':'", "this line has no ':' after its key", "write 'key: value'"),
+    ("expected <block end>", "this line does not line up with the lines before it", "check the indentation"),
+    ("did not find expected key", "this line does not line up with the lines before it", "check the indentation"),
+    ("did not find expected '-' indicator", "this line belongs to no list entry", "start it with '- ', or indent it"),
+    ("did not find expected ',' or '}'", "a '}}' or a ',' is missing before this", ""),
+    ("expected ',' or '}'", "a '}}' or a ',' is missing before this", ""),
+    ("did not find expected ',' or ']'", "a ']' or a ',' is missing before this", ""),
+    ("expected ',' or ']'", "a ']' or a ',' is missing before this", ""),
+    ("did not find expected node content", "a value is missing here", ""),
+    ("expected the node content", "a value is missing here", ""),
+    ("unexpected end of stream", "the document ends inside of a quoted text", "close the quotes"),
+    ("document separator", "a quoted text is not closed before '---'", "close the quotes"),
+    ("undefined alias", "no anchor (&name) of this name stands before this alias", "quote a text that starts with '*'"),
+    ("unknown escape", "this escape means nothing in double quotes", "double the backslash, or use single quotes"),
+    ("duplicate anchor", "this anchor stands twice", "give it another name"),
+    ("undefined tag handle", "this tag has no meaning here", "quote a text that starts with '!'"),
+)
+
+
+@dataclass(slots=True)
+class Refused(Exception):
+    """The text cannot be composed at all."""
+
+    diagnostic: Diagnostic
+
+
+class _Composer(CParser):  # type: ignore[misc]
+    """libyaml's composer; implicit tags stay empty, so that an explicit one can be told apart."""
+
+    def resolve(self, kind: type, value: str, implicit: object) -> str:
+        return ""
+
+    def descend_resolver(self, current: object, index: object) -> None:
+        pass
+
+    def ascend_resolver(self) -> None:
+        pass
+
+
+def compose(path: str, text: str) -> Node | None:
+    """The root node, or None for a text without content. Raises Refused."""
+    if _may_be_deep(text) and _depth(text) > MAX_DEPTH:
+        raise Refused(codes.TOO_DEEP.at(_deep_place(path, text), limit=MAX_DEPTH))
+    try:
+        return _Composer(text).get_single_node()
+    except MarkedYAMLError as error:
+        fault = error
+    try:
+        return _compose_as_1_2(text)
+    except MarkedYAMLError as error:
+        # libyaml marks an unclosed bracket better than the end of the file; where both name a place, its is kept.
+        raise Refused(_diagnostic(path, text, fault if fault.problem_mark else error)) from None
+    except (RecursionError, ValueError, AttributeError, NotImplementedError):
+        raise Refused(_diagnostic(path, text, fault)) from None
+
+
+def _compose_as_1_2(text: str) -> Node | None:
+    from ruamel.yaml import YAML
+
+    root = YAML(typ="safe", pure=True).compose(text)
+    todo, seen = [root] if root is not None else [], set()
+    while todo:
+        node = todo.pop()
+        if id(node) in seen:
+            continue
+        seen.add(id(node))
+        if not _has_explicit_tag(text, node.start_mark.index):
+            node.tag = ""
+        if isinstance(node, MappingNode):
+            todo += [part for pair in node.value for part in pair]
+        elif not isinstance(node, ScalarNode):
+            todo += node.value
+    return root
+
+
+def _has_explicit_tag(text: str, index: int) -> bool:
+    return re.compile(r"(?:&\S+\s+)?!").match(text, index) is not None
+
+
+def _may_be_deep(text: str) -> bool:
+    return text.count("[") + text.count("{") > MAX_DEPTH or _DEEP_BLOCK.search(text) is not None
+
+
+def _depth(text: str) -> int:
+    """The depth of nesting, by libyaml's events, which are read without recursion."""
+    from ruamel.yaml.events import MappingEndEvent, MappingStartEvent, SequenceEndEvent, SequenceStartEvent
+
+    deepest = depth = 0
+    parser = _Composer(text)
+    try:
+        while parser.check_event():
+            event = parser.get_event()
+            if isinstance(event, MappingStartEvent | SequenceStartEvent):
+                depth += 1
+                deepest = max(deepest, depth)
+                if deepest > MAX_DEPTH:
+                    break
+            elif isinstance(event, MappingEndEvent | SequenceEndEvent):
+                depth -= 1
+    except MarkedYAMLError:
+        pass  # composing will say what is wrong; the depth so far counts
+    return deepest
+
+
+def _deep_place(path: str, text: str) -> Span:
+    """Where the brackets are deepest past the limit, else the first line that is indented as far."""
+    depth = 0
+    for bracket in _BRACKET.finditer(text):
+        depth += 1 if bracket[0] in "[{" else -1
+        if depth > MAX_DEPTH:
+            break
+    else:
+        bracket = _DEEP_BLOCK.search(text) or bracket
+    line = text.count("\n", 0, bracket.start()) + 1
+    column = bracket.start() - text.rfind("\n", 0, bracket.start())
+    return Span(path, line, column, line, column + 1)
+
+
+def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
+    mark = error.problem_mark or error.context_mark
+    line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+    span = Span(path, line, column, line, column + 1)
+    problem = " ".join(str(part) for part in (error.context, error.problem) if part)
+    if "but found another document" in problem:
+        return codes.SEVERAL_DOCUMENTS.at(span, hint="put it into a file of its own")
+    lines = text.splitlines()
+    if line > len(lines):  # the end of the file: shown behind its last character
+        line = max(1, len(lines))
+        column = len(lines[-1]) + 1 if lines else 1
+        span = Span(path, line, column, line, column + 1)
+    rest = lines[line - 1][column - 1 :] if lines else ""
+    if rest.startswith("\t"):
+        return codes.SYNTAX.at(span, problem="a tab stands where only blanks can indent", hint="indent with blanks")
+    for part, words, hint in _WORDS:
+        if part in problem:
+            return codes.SYNTAX.at(span, problem=words.format(found=f"'{rest[:1]}'"), hint=hint)
+    return codes.SYNTAX.at(span, problem=f"this is not YAML: {error.problem or problem}")

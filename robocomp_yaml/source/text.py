@@ -1,0 +1,59 @@
+"""Reading a file as text, or saying why that cannot be done."""
+
+from __future__ import annotations
+
+import os
+import re
+
+from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+
+MAX_DOCUMENT = 16 << 20
+MAX_SCALAR = 1 << 20
+
+# What YAML 1.2 (5.1) calls non-printable: C0 but tab and line ends, DEL, surrogates, and the two non-characters.
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
+
+
+def size_in_words(size: int) -> str:
+    return f"{size / (1 << 20):.1f} MiB" if size >= 1 << 20 else f"{size / 1024:.1f} KiB"
+
+
+def position(text: str, index: int) -> tuple[int, int]:
+    """Line and column, from 1, of a character of the text."""
+    return text.count("\n", 0, index) + 1, index - (text.rfind("\n", 0, index) + 1) + 1
+
+
+def _at(path: str, text: str, index: int) -> Span:
+    line, column = position(text, index)
+    return Span(path, line, column, line, column + 1)
+
+
+def decode(path: str, raw: bytes) -> tuple[str | None, list[Diagnostic]]:
+    """The text of UTF-8 bytes without byte order mark, or what is wrong with them."""
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = raw[: error.start].decode("utf-8-sig")
+        return None, [codes.NOT_UTF8.at(
+            _at(path, before, len(before)), byte=f"0x{raw[error.start]:02X}", hint="save the file as UTF-8"
+        )]
+    control = _CONTROL.search(text)
+    if control:
+        return None, [codes.BINARY.at(_at(path, text, control.start()), byte=f"U+{ord(control[0]):04X}")]
+    return text, []
+
+
+def read_bytes(path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
+    """The bytes of a file no larger than `limit`."""
+    try:
+        with open(path, "rb") as file:
+            size = os.fstat(file.fileno()).st_size
+            if size > limit:
+                return None, [codes.TOO_LARGE.at(
+                    Span(path), what="the file", size=size_in_words(size), limit=size_in_words(limit)
+                )]
+            return file.read(), []
+    except OSError as error:
+        return None, [codes.UNREADABLE.at(Span(path), reason=(error.strerror or str(error)).lower())]

@@ -1,0 +1,218 @@
+"""YAML text as a tree of positioned nodes.
+
+The syntax is libyaml's, composed in C with marks on keys and values; what libyaml (YAML 1.1 syntax) refuses gets a
+second chance with ruamel.yaml's own YAML 1.2 parser, twenty times slower. Plain scalars are resolved here, by exactly
+YAML 1.2's core schema (https://yaml.org/spec/1.2.2/#103-core-schema): `on`, `yes`, `12:30` and `1_000` are text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ruamel.yaml.nodes import MappingNode, ScalarNode
+from ruamel.yaml.nodes import Node as YamlNode
+
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source import syntax
+from robocomp_yaml.source.text import MAX_SCALAR, size_in_words
+
+MAX_ALIASED = 100_000  # nodes that aliases may add, all together
+
+_INT = re.compile(r"[-+]?[0-9]+\Z")
+_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?\Z")
+_NAMED = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
+_NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
+_NAMED |= {sign + dot: float(sign + "inf") for sign in ("", "+", "-") for dot in (".inf", ".Inf", ".INF")}
+_NAMED |= {word: float("nan") for word in (".nan", ".NaN", ".NAN")}
+_CORE_START = frozenset("0123456789+-.~nNtTfF")  # no other first character can begin a core scalar
+
+
+class Node:
+    """A value with its place. `data` is the same value as plain Python data, all the way down."""
+
+    __slots__ = ("file", "_start", "_end", "data")
+
+    def __init__(self, file: str, node: YamlNode, data: object) -> None:
+        self.file, self._start, self._end, self.data = file, node.start_mark, node.end_mark, data
+
+    @property
+    def span(self) -> Span:
+        start, end = self._start, self._end
+        return Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
+
+
+class Scalar(Node):
+    """`lexeme` is the text as spelled, without quotes; `quoted` holds for every style but plain."""
+
+    __slots__ = ("lexeme", "quoted")
+
+    def __init__(self, file: str, node: ScalarNode, value: object) -> None:
+        super().__init__(file, node, value)
+        self.lexeme: str = node.value
+        self.quoted: bool = node.style is not None and node.style != ""
+
+
+class Mapping(Node):
+    """`entries` maps each key to (key, value), in the document's order."""
+
+    __slots__ = ("entries",)
+
+    def __init__(self, file: str, node: MappingNode, entries: dict[str, tuple[Scalar, Node]]) -> None:
+        super().__init__(file, node, {key: value.data for key, (_, value) in entries.items()})
+        self.entries = entries
+
+    def get(self, key: str) -> Node | None:
+        """The value of a key; None where it is missing or null."""
+        entry = self.entries.get(key)
+        return entry[1] if entry and entry[1].data is not None else None
+
+    def items(self) -> Iterator[tuple[Scalar, Node]]:
+        return iter(self.entries.values())
+
+
+class Sequence(Node):
+    __slots__ = ("items",)
+
+    def __init__(self, file: str, node: YamlNode, items: list[Node]) -> None:
+        super().__init__(file, node, [item.data for item in items])
+        self.items = items
+
+
+def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
+    """The tree of a document's text, and all that is wrong with it; no tree when there is an error."""
+    try:
+        root = syntax.compose(path, text)
+    except syntax.Refused as refused:
+        return None, [refused.diagnostic]
+    if root is None:
+        return None, [codes.EMPTY.at(Span(path))]
+    builder = _Builder(path, text)
+    tree = builder.build(root)
+    return (None if builder.diagnostics else tree), builder.diagnostics
+
+
+class _Builder:
+    """Turns composed nodes into ours, collecting what is wrong."""
+
+    def __init__(self, path: str, text: str) -> None:
+        self.path, self.text = path, text
+        self.diagnostics: list[Diagnostic] = []
+        self.known: dict[int, tuple[Node, int]] = {}  # by composed node: ours, and its size with aliases expanded
+        self.open: set[int] = set()
+        self.size = 0
+        self.aliased = 0
+
+    def build(self, node: YamlNode) -> Node:
+        known = self.known.get(id(node))
+        if known is not None:
+            self._alias(node, known[1])
+            return known[0]
+        if node.tag:
+            self._explicit_tag(node)
+        before = self.size
+        self.size += 1
+        if isinstance(node, ScalarNode):
+            built: Node = self._scalar(node)
+        elif id(node) in self.open:
+            self._say(codes.ALIASES, node, problem="an alias stands inside of what it repeats")
+            return Scalar(self.path, ScalarNode(None, "", node.start_mark, node.end_mark), None)
+        else:
+            self.open.add(id(node))
+            built = self._mapping(node) if isinstance(node, MappingNode) else Sequence(
+                self.path, node, [self.build(item) for item in node.value]
+            )
+            self.open.discard(id(node))
+        if node.anchor is not None:
+            self.known[id(node)] = (built, self.size - before)
+        return built
+
+    def _alias(self, node: YamlNode, size: int) -> None:
+        self.size += size
+        too_many = self.aliased <= MAX_ALIASED < self.aliased + size
+        self.aliased += size
+        if too_many:
+            self._say(
+                codes.ALIASES, node, problem=f"aliases of this anchor make the document too large: more than "
+                f"{MAX_ALIASED} values are repeats", hint="write the values out, or repeat less",
+            )
+
+    def _scalar(self, node: ScalarNode) -> Scalar:
+        lexeme = node.value
+        if len(lexeme) > MAX_SCALAR:
+            self._say(
+                codes.TOO_LARGE, node, what="this text", size=size_in_words(len(lexeme)),
+                limit=size_in_words(MAX_SCALAR),
+            )
+        if node.style is not None and node.style != "":
+            return Scalar(self.path, node, lexeme)
+        if lexeme and lexeme[0] not in _CORE_START:
+            return Scalar(self.path, node, lexeme)
+        return Scalar(self.path, node, self._core(node, lexeme))
+
+    def _core(self, node: ScalarNode, lexeme: str) -> object:
+        """A plain scalar by YAML 1.2's core schema."""
+        if lexeme in _NAMED:
+            return _NAMED[lexeme]
+        if _INT.match(lexeme):
+            digits = lexeme.lstrip("+-")
+            if digits[0] == "0" and len(digits) > 1:
+                zeros = digits.lstrip("0") or "0"
+                self._say(
+                    codes.LEADING_ZEROS, node, lexeme=lexeme,
+                    hint=f'write "{lexeme}" for text, or {lexeme[: len(lexeme) - len(digits)]}{zeros} for a number',
+                )
+            return int(lexeme) if len(digits) <= 4000 else float(lexeme)
+        if _FLOAT.match(lexeme):
+            return float(lexeme)
+        for prefix, base in (("0x", 16), ("0o", 8)):
+            if lexeme.startswith(prefix):
+                try:
+                    return int(lexeme[2:], base) if "_" not in lexeme and lexeme[2:].isalnum() else lexeme
+                except ValueError:
+                    return lexeme
+        return lexeme
+
+    def _mapping(self, node: MappingNode) -> Mapping:
+        entries: dict[str, tuple[Scalar, Node]] = {}
+        for key_node, value_node in node.value:
+            value = self.build(value_node)
+            if not isinstance(key_node, ScalarNode):
+                kind = "a mapping" if isinstance(key_node, MappingNode) else "a list"
+                self._say(codes.KEY_TYPE, key_node, what=kind)
+                continue
+            key = self._key(node, key_node, value)
+            if key.lexeme in entries:
+                first = entries[key.lexeme][0]
+                self._say(
+                    codes.DUPLICATE_KEY, key_node, key=key.lexeme,
+                    related=[Related("it stands here first", first.span)],
+                )
+                continue
+            entries[key.lexeme] = (key, value)
+        return Mapping(self.path, node, entries)
+
+    def _key(self, mapping: MappingNode, node: ScalarNode, value: Node) -> Scalar:
+        """A key is the text as spelled: `2d`, `on` and `1` are keys like any other."""
+        if node.tag:
+            self._explicit_tag(node)
+        if not node.style and mapping.flow_style and ":" in node.value:
+            missing_value = value.data is None and isinstance(value, Scalar) and not value.lexeme
+            if node.value.endswith(":") or missing_value:
+                head, _, tail = node.value.partition(":")
+                self._say(codes.KEY_COLON, node, key=node.value, hint=f"write '{head}: {tail.lstrip(':')}'".rstrip())
+        return Scalar(self.path, node, node.value)
+
+    def _explicit_tag(self, node: YamlNode) -> None:
+        tag = str(node.tag).replace("tag:yaml.org,2002:", "!!")
+        self._say(codes.TAG, node, tag=tag, hint="leave the tag out" + (", and use quotes" if tag == "!!str" else ""))
+
+    def _say(self, code: Code, node: YamlNode, *, hint: str = "", related: list[Related] | None = None,
+             **facts: object) -> None:
+        start, end = node.start_mark, node.end_mark
+        span = Span(self.path, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
+        self.diagnostics.append(code.at(span, hint=hint, related=related or (), **facts))
+
