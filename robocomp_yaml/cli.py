@@ -54,7 +54,7 @@ class LazyGroup(click.Group):
         try:
             return super().resolve_command(ctx, args)
         except click.UsageError as error:
-            from robocomp_yaml.link.suggest import suggest
+            from robocomp_yaml.diag.suggest import suggest
 
             meant = suggest(args[0], COMMANDS)
             error.message = f"there is no command '{args[0]}'" + (f"; did you mean '{meant}'?" if meant else "")

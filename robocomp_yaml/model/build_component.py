@@ -1,0 +1,84 @@
+"""A CDSL document's tree as a `Component`. The tree has the schema's shape."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text
+from robocomp_yaml.model.component import WAIT, Component, Gui, Language, Use
+from robocomp_yaml.source.tree import Mapping, Node, Scalar
+
+_SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
+_DURATION = re.compile(r"(\d+(?:\.\d*)?|\.\d+)\s*(us|ms|s|min|h)")
+
+
+def build(root: Mapping, path: str) -> Component:
+    """The component of a document that fits `cdsl.schema.json`."""
+    machine = root.get("statemachine")
+    period = seconds(root.get("period"))
+    return Component(
+        name=text(root, "component"),
+        path=path,
+        language=_language(root),
+        imports=tuple(imports(root)),
+        implements=tuple(_uses(root, "implements")),
+        requires=tuple(_uses(root, "requires")),
+        publishes=tuple(_uses(root, "publishes")),
+        subscribes=tuple(_uses(root, "subscribes")),
+        parameters=text(root, "parameters"),
+        period=None if period is None else round(period * 1000),
+        statemachine="<inline>" if isinstance(machine, Mapping) else text(root, "statemachine"),
+        gui=_gui(root.get("gui")),
+        options=tuple(item.lexeme for item in items(root, "options") if isinstance(item, Scalar)),
+        compatibility=text(root, "compatibility"),
+        has_uses=root.get("uses") is not None,
+        doc=doc(root),
+        span=span_of(root, "component"),
+    )
+
+
+def seconds(node: Node | None) -> float | None:
+    """A duration in seconds: `100 ms`, `10 s`, or a bare number of milliseconds."""
+    if not isinstance(node, Scalar) or node.data is None:
+        return None
+    if isinstance(node.data, int | float):
+        return node.data / 1000
+    parts = _DURATION.fullmatch(node.lexeme.strip())
+    return float(parts[1]) * _SECONDS[parts[2]] if parts else None
+
+
+def _language(root: Mapping) -> Language:
+    node = root.get("language")
+    if isinstance(node, Mapping):
+        standard = node.data.get("standard")  # type: ignore[attr-defined]
+        return Language(text(node, "name"), None if standard is None else int(standard), span=node.span)
+    assert isinstance(node, Scalar)
+    return Language(node.lexeme, span=node.span)
+
+
+def _gui(node: Node | None) -> Gui | None:
+    return Gui(text(node, "toolkit", "qt"), text(node, "base", "QWidget"), span=node.span) if node else None
+
+
+def _uses(root: Mapping, key: str) -> Iterator[Use]:
+    for item in items(root, key):
+        if isinstance(item, Scalar):
+            yield Use(item.lexeme.rpartition(".")[2], item.lexeme, span=item.span)
+        elif isinstance(item, Mapping):
+            for name, node in item.items():
+                yield _named_use(name, node)
+
+
+def _named_use(name: Scalar, node: Node) -> Use:
+    if isinstance(node, Scalar):
+        return Use(name.lexeme, node.lexeme, span=node.span)
+    assert isinstance(node, Mapping)
+    return Use(
+        name.lexeme,
+        text(node, "interface", name.lexeme),
+        absent=text(node, "absent", WAIT),
+        timeout=seconds(node.get("timeout")),
+        doc=doc(node),
+        span=span_of(node, "interface"),
+    )

@@ -1,0 +1,173 @@
+"""An IDSL document's tree as a `Module`. The tree has the schema's shape; what each value may be is said there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.interface import (
+    Constant,
+    Enum,
+    Enumerator,
+    ExceptionType,
+    Import,
+    Interface,
+    Literal,
+    Map,
+    Member,
+    Method,
+    Module,
+    Sequence as SequenceType,
+    Struct,
+    TypeDefinition,
+    TypeRef,
+)
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+
+
+def build(root: Mapping, path: str) -> Module:
+    """The module of a document that fits `idsl.schema.json`."""
+    return Module(
+        name=text(root, "module"),
+        path=path,
+        imports=tuple(imports(root)),
+        constants=tuple(_constant(key, value) for key, value in entries(root, "constants")),
+        types=tuple(_type(key, value) for key, value in entries(root, "types")),
+        exceptions=tuple(
+            ExceptionType(key.lexeme, _members(value, "struct"), doc(value), span=key.span)
+            for key, value in entries(root, "exceptions")
+        ),
+        interfaces=tuple(_interface(key, value, False) for key, value in entries(root, "interfaces")),
+        topics=tuple(_interface(key, value, True) for key, value in entries(root, "topics")),
+        doc=doc(root),
+        span=span_of(root, "module"),
+    )
+
+
+# What the builders of every kind of document share.
+
+
+def entries(parent: Node | None, key: str) -> Iterator[tuple[Scalar, Node]]:
+    """Keys and values of the mapping under a key; none where it is missing or null."""
+    child = parent.get(key) if isinstance(parent, Mapping) else None
+    return child.items() if isinstance(child, Mapping) else iter(())
+
+
+def items(parent: Node | None, key: str) -> list[Node]:
+    child = parent.get(key) if isinstance(parent, Mapping) else None
+    return child.items if isinstance(child, Sequence) else []
+
+
+def text(parent: Node | None, key: str, default: str = "") -> str:
+    """A scalar's text as spelled."""
+    child = parent.get(key) if isinstance(parent, Mapping) else None
+    return child.lexeme if isinstance(child, Scalar) else default
+
+
+def doc(node: Node | None) -> str:
+    return text(node, "doc").strip()
+
+
+def span_of(parent: Mapping, key: str) -> Span:
+    """Where the value of a key stands, else where the mapping does."""
+    child = parent.get(key)
+    return (child or parent).span
+
+
+def imports(root: Mapping) -> Iterator[Import]:
+    for node in items(root, "imports"):
+        if isinstance(node, Scalar):
+            yield Import(node.lexeme, span=node.span)
+
+
+def type_ref(node: Node | None) -> TypeRef | None:
+    """A type in its short form, or in its long form's `type`."""
+    if isinstance(node, Mapping):
+        node = node.get("type")
+    return TypeRef(node.lexeme, span=node.span) if isinstance(node, Scalar) and node.data is not None else None
+
+
+def literal(node: Node | None) -> Literal | None:
+    if not isinstance(node, Scalar) or node.data is None:
+        return None
+    return Literal(node.data, node.lexeme, span=node.span)  # type: ignore[arg-type]
+
+
+def _constant(key: Scalar, node: Node) -> Constant:
+    type_, value = type_ref(node), literal(node.get("value") if isinstance(node, Mapping) else None)
+    assert type_ is not None and value is not None
+    return Constant(key.lexeme, type_, value, doc(node), text(node, "unit"), span=key.span)
+
+
+def _member(key: Scalar, node: Node) -> Member:
+    type_ = type_ref(node)
+    assert type_ is not None
+    default = literal(node.get("default")) if isinstance(node, Mapping) else None
+    return Member(key.lexeme, type_, doc(node), text(node, "unit"), default, span=key.span)
+
+
+def _members(node: Node | None, key: str) -> tuple[Member, ...]:
+    return tuple(_member(name, value) for name, value in entries(node, key))
+
+
+def _struct(key: Scalar, node: Mapping) -> Struct:
+    return Struct(key.lexeme, _members(node, "struct"), doc(node), span=key.span)
+
+
+def _enum(key: Scalar, node: Mapping) -> Enum:
+    listed = node.get("enum")
+    enumerators: list[Enumerator] = []
+    if isinstance(listed, Sequence):
+        enumerators = [Enumerator(n.lexeme, span=n.span) for n in listed.items if isinstance(n, Scalar)]
+    elif isinstance(listed, Mapping):
+        for name, value in listed.items():
+            number = value.data if isinstance(value, Scalar) else value.data.get("value")  # type: ignore[attr-defined]
+            enumerators.append(
+                Enumerator(name.lexeme, None if number is None else int(number), doc(value), span=name.span)
+            )
+    return Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span)
+
+
+def _sequence(key: Scalar, node: Mapping) -> SequenceType:
+    element = type_ref(node.get("sequence"))
+    assert element is not None
+    return SequenceType(key.lexeme, element, doc(node), span=key.span)
+
+
+def _map(key: Scalar, node: Mapping) -> Map:
+    inner = node.get("map")
+    assert isinstance(inner, Mapping)
+    key_type, value_type = type_ref(inner.get("key")), type_ref(inner.get("value"))
+    assert key_type is not None and value_type is not None
+    return Map(key.lexeme, key_type, value_type, doc(node), span=key.span)
+
+
+TYPE_KINDS: dict[str, Callable[[Scalar, Mapping], TypeDefinition]] = {
+    "struct": _struct, "enum": _enum, "sequence": _sequence, "map": _map,
+}  # fmt: skip
+
+
+def _type(key: Scalar, node: Node) -> TypeDefinition:
+    assert isinstance(node, Mapping)
+    kind = next(kind for kind in TYPE_KINDS if kind in node.entries)
+    return TYPE_KINDS[kind](key, node)
+
+
+def _interface(key: Scalar, node: Node, is_topic: bool) -> Interface:
+    methods = tuple(_method(name, value) for name, value in entries(node, "methods"))
+    return Interface(key.lexeme, methods, is_topic, doc(node), span=key.span)
+
+
+def _method(key: Scalar, node: Node) -> Method:
+    throws = (type_ref(item) for item in items(node, "throws"))
+    return Method(
+        key.lexeme,
+        inputs=_members(node, "in"),
+        outputs=_members(node, "out"),
+        returns=type_ref(node.get("returns")) if isinstance(node, Mapping) else None,
+        throws=tuple(ref for ref in throws if ref is not None),
+        idempotent=isinstance(node, Mapping) and node.data.get("idempotent") is True,  # type: ignore[attr-defined]
+        doc=doc(node),
+        legacy_name=text(node, "x-legacy-name"),
+        span=key.span,
+    )

@@ -1,0 +1,211 @@
+"""Does a document have its kind's shape? The schemas are the only place that says so; here are the words for it.
+
+jsonschema-rs judges; each of its errors carries the place in the document and in the schema, from which one message in
+the user's words is made. A subschema's `errorMessage` (yaml-language-server shows it too) wins over generated words.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence as Path
+from functools import cache
+from typing import Any
+
+import jsonschema_rs
+
+from robocomp_yaml import resources
+from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+
+_IN_WORDS = {
+    "string": "text", "integer": "a whole number", "number": "a number", "boolean": "true or false",
+    "array": "a list", "object": "a mapping", "null": "nothing",
+}
+_APPLICATORS = frozenset(("allOf", "anyOf", "oneOf", "then", "else", "if"))
+
+
+@cache
+def schema(kind: str) -> dict[str, Any]:
+    """The JSON Schema of a kind of document: 'idsl', 'cdsl' or 'workspace'."""
+    loaded: dict[str, Any] = json.loads(resources.text(f"schemas/{kind}.schema.json"))
+    return loaded
+
+
+@cache
+def _validator(kind: str) -> jsonschema_rs.Draft7Validator:
+    return jsonschema_rs.Draft7Validator(schema(kind))
+
+
+def validate(kind: str, root: Node) -> list[Diagnostic]:
+    """All that the schema refuses, one diagnostic a cause."""
+    if not isinstance(root, Mapping):
+        return [codes.NOT_A_MAPPING.at(root.span, what=_what(root))]
+    validator = _validator(kind)
+    if validator.is_valid(root.data):
+        return []
+    explained: dict[tuple[object, ...], list[Diagnostic]] = {}
+    for error in validator.iter_errors(root.data):
+        place = tuple(error.instance_path)
+        said = list(_explain(schema(kind), root, place, list(error.schema_path), error.kind))
+        at_place = explained.setdefault(place, [])
+        # At one place, shape (`type`, `enum` …) is one cause; every missing or unknown key is a cause of its own.
+        at_place += [d for d in said if d.code in _KEY_CODES or all(o.code in _KEY_CODES for o in at_place)]
+    return [d for at_place in explained.values() for d in _without_misspelled(at_place)]
+
+
+_KEY_CODES = (codes.UNKNOWN_KEY.id, codes.MISSING_KEY.id, codes.WRONG_NAME.id)
+
+
+def _without_misspelled(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
+    """A missing key whose misspelling stands there is one cause, not two."""
+    hints = " ".join(d.hint for d in diagnostics if d.code == codes.UNKNOWN_KEY.id)
+    return list(dict.fromkeys(
+        d for d in diagnostics if d.code != codes.MISSING_KEY.id or f"'{d.message.split(chr(39))[1]}'" not in hints
+    ))
+
+
+def _explain(
+    whole: dict[str, Any], root: Node, place: Path[str | int], path: list[str | int], kind: Any
+) -> Iterator[Diagnostic]:
+    node, key = _find(root, place)
+    facts = kind.as_dict()
+    match kind.name:
+        case "additionalProperties":
+            assert isinstance(node, Mapping)
+            for unknown in facts["unexpected"]:
+                yield _unknown_key(whole, node, place, path, unknown)
+        case "propertyNames":
+            assert isinstance(node, Mapping)
+            name = facts["error"].instance
+            entry = node.entries.get(name)
+            yield codes.WRONG_NAME.at((entry[0] if entry else node).span, name=name, hint=_name_hint(name))
+        case "required":
+            yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(place, root))
+        case _:
+            message = _own_message(whole, path)
+            if kind.name == "pattern" and not message and isinstance(node, Scalar):
+                yield codes.WRONG_NAME.at(node.span, name=node.lexeme, hint=_name_hint(node.lexeme))
+                return
+            yield codes.WRONG_SHAPE.at(_span(node, key), problem=message or _in_words(kind.name, facts, node, place))
+
+
+def _unknown_key(
+    whole: dict[str, Any], node: Mapping, place: Path[str | int], path: list[str | int], unknown: str
+) -> Diagnostic:
+    from robocomp_yaml.diag.suggest import suggest
+
+    key = node.entries[unknown][0]
+    around = _subschema(whole, path[:-1])
+    if not isinstance(around, dict):
+        around = {}
+    named = [p for p in around.get("patternProperties", {}) if not p.startswith("^x-")]
+    known = [k for k in around.get("properties", {}) if k not in node.entries]
+    if named and not around.get("properties"):
+        return codes.WRONG_NAME.at(key.span, name=unknown, hint=_name_hint(unknown))
+    meant = suggest(unknown, known)
+    if meant:
+        hint = f"did you mean '{meant}'?"
+    else:
+        hint = f"there can be: {', '.join(known)}" if known else ""
+    return codes.UNKNOWN_KEY.at(key.span, key=unknown, where=_where(place, None, node), hint=hint)
+
+
+def _find(root: Node, place: Path[str | int]) -> tuple[Node, Scalar | None]:
+    """The node at a place, and the key that it stands behind."""
+    node, key = root, None
+    for step in place:
+        if isinstance(node, Mapping):
+            key, node = node.entries[str(step)]
+        else:
+            assert isinstance(node, Sequence)
+            key, node = None, node.items[int(step)]
+    return node, key
+
+
+def _subschema(whole: dict[str, Any], path: list[str | int]) -> Any:
+    part: Any = whole
+    for step in path:
+        part = part[step] if isinstance(part, dict) else part[int(step)]
+    return part
+
+
+def _own_message(whole: dict[str, Any], path: list[str | int]) -> str:
+    """The nearest `errorMessage` around the keyword that failed, at the same place of the document."""
+    for end in range(len(path) - 1, -1, -1):
+        part = _subschema(whole, path[:end])
+        if isinstance(part, dict) and "errorMessage" in part:
+            return str(part["errorMessage"])
+        step = path[end - 1] if end else ""
+        if not (isinstance(step, int) or str(step).isdigit() or step in _APPLICATORS):
+            return ""
+    return ""
+
+
+def _head(node: Node, key: Scalar | None) -> Span:
+    """Where a mapping that lacks something begins: its key, its first key, or itself."""
+    if key is not None:
+        return key.span
+    if isinstance(node, Mapping) and node.entries:
+        return next(iter(node.entries.values()))[0].span
+    return node.span
+
+
+def _span(node: Node, key: Scalar | None) -> Span:
+    """A value's own place; its key's where the value is empty or fills many lines."""
+    span = node.span
+    empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
+    return key.span if key is not None and (empty or span.line != span.end_line) else span
+
+
+def _where(place: Path[str | int], root: Node | None, node: Node | None = None) -> str:
+    names = [step for step in place if isinstance(step, str)]
+    return f"in '{names[-1]}'" if names else "at the top of the document"
+
+
+def _what(node: Node) -> str:
+    if isinstance(node, Mapping):
+        return "a mapping"
+    if isinstance(node, Sequence):
+        return "a list"
+    assert isinstance(node, Scalar)
+    if node.data is None:
+        return "empty"
+    kind = {bool: "a boolean", int: "a number", float: "a number"}.get(type(node.data), "text")
+    shown = node.lexeme if len(node.lexeme) <= 30 else node.lexeme[:27] + "…"
+    return f"{kind}, '{shown}'" if kind == "text" else f"{kind}, {shown}"
+
+
+def _name_hint(name: str) -> str:
+    cleaned = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name).strip("_")
+    if cleaned[:1].isdigit():
+        cleaned = f"n{cleaned}"
+    return "a name has letters, digits and underscores, and starts with no digit" + (
+        f": for instance '{cleaned}'" if cleaned and len(cleaned) < 60 else ""
+    )
+
+
+def _in_words(keyword: str, facts: dict[str, Any], node: Node, place: Path[str | int]) -> str:
+    names = [step for step in place if isinstance(step, str)]
+    it = f"'{names[-1]}'" if names else "the document"
+    match keyword:
+        case "type":
+            *most, last = [_IN_WORDS[t] for t in facts["types"] if t != "null"] or ["nothing"]
+            return f"{it} must be {', '.join(most)}{' or ' if most else ''}{last}, and is {_what(node)}"
+        case "enum":
+            return f"{it} must be one of {', '.join(str(o) for o in facts['options'])}, and is {_what(node)}"
+        case "const":
+            return f"{it} must be {facts.get('expected_value')}, and is {_what(node)}"
+        case "minimum" | "exclusiveMinimum":
+            return f"{it} must be {'above' if 'exclusive' in keyword else 'at least'} {facts['limit']}"
+        case "maximum" | "exclusiveMaximum":
+            return f"{it} must be {'below' if 'exclusive' in keyword else 'at most'} {facts['limit']}"
+        case "minItems" | "minProperties" | "minLength":
+            return f"{it} must not be empty" if facts["limit"] == 1 else f"{it} must have at least {facts['limit']}"
+        case "maxItems" | "maxProperties" | "maxLength":
+            return f"{it} must have at most {facts['limit']}"
+        case "uniqueItems":
+            return f"{it} holds the same entry twice"
+        case _:
+            return f"{it} has a form that cannot stand here"
