@@ -23,7 +23,7 @@ import pytest
 PATIENCE = 20.0  # seconds: generous, because the machines that run the tests may be busy; never waited in full
 
 
-def until(condition: Callable[[], Any], what: str, timeout: float = PATIENCE) -> Any:
+def until(condition: Callable[[], Any], what: str | Callable[[], str], timeout: float = PATIENCE) -> Any:
     """The first true value of `condition`, asked again and again; fails the test after `timeout`."""
     end = time.monotonic() + timeout
     while not (value := condition()):

@@ -1,0 +1,60 @@
+"""Templates rendered from views.
+
+A view is a dataclass of ready strings (and lists of views); its fields are the template's names. Compiled templates are
+kept in the user's cache folder, since compiling them costs more than all the rest of a run.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from contextlib import suppress
+from dataclasses import fields
+from functools import cache
+from pathlib import Path
+
+from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, FileSystemLoader, StrictUndefined
+from jinja2.bccache import Bucket
+
+from robocomp_yaml import resources
+
+
+def render(name: str, view: object) -> str:
+    """The template `templates/NAME` filled in with the fields of `view`, a dataclass."""
+    values = {field.name: getattr(view, field.name) for field in fields(view)}  # type: ignore[arg-type]
+    return _environment().get_template(name).render(values)
+
+
+class _Cache(FileSystemBytecodeCache):
+    """Jinja2's, which checks the source's checksum, but a full disk does not end the run."""
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        with suppress(OSError):
+            super().dump_bytecode(bucket)
+
+
+@cache
+def _environment() -> Environment:
+    return Environment(
+        loader=FileSystemLoader(resources.folder("templates")),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+        auto_reload=False,
+        bytecode_cache=_bytecode_cache(),
+    )
+
+
+def _bytecode_cache() -> BytecodeCache | None:
+    """None where there is no folder that only this user can write: what is cached is code, and it will be run."""
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    folder = Path(base) / "rcyaml" / "templates"
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        found = folder.stat()
+    except OSError:
+        return None
+    private = stat.S_IMODE(found.st_mode) & 0o077 == 0 and found.st_uid == os.getuid()
+    return _Cache(str(folder)) if private and os.access(folder, os.W_OK) else None
