@@ -52,15 +52,16 @@ class LinkedModule:
     def closure(self) -> list[LinkedModule]:
         """This module and all that it imports, directly or not: imported ones first, each once."""
         done: dict[int, LinkedModule] = {}
-
-        def visit(scope: LinkedModule, above: tuple[int, ...]) -> None:
-            if id(scope) in done or id(scope) in above:
-                return
-            for imported in scope.imports:
-                visit(imported, (*above, id(scope)))
-            done[id(scope)] = scope
-
-        visit(self, ())
+        todo: list[tuple[LinkedModule, bool]] = [(self, False)]
+        entered: set[int] = set()
+        while todo:  # without recursion: a chain of imports may be long
+            scope, left = todo.pop()
+            if left:
+                done[id(scope)] = scope
+            elif id(scope) not in entered:
+                entered.add(id(scope))
+                todo.append((scope, True))
+                todo += [(imported, False) for imported in reversed(scope.imports)]
         return list(done.values())
 
 

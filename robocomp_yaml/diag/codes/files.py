@@ -187,6 +187,22 @@ WRONG_NAME = Code(
     _wrong("module: ../../etc/Speech\n"),
     _GOOD,
 )
+NO_KIND = Code(
+    "RC0206",
+    "error",
+    "type '{name}' does not say what it is",
+    "A type is a `struct`, an `enum`, a `sequence` or a `map`.",
+    _wrong("module: RoboCompSpeech\ntypes:\n  Words: {doc: Some words.}\n"),
+    {"Speech.idsl.yaml": "module: RoboCompSpeech\ntypes:\n  Words: {sequence: string}\n"},
+)
+TWO_KINDS = Code(
+    "RC0207",
+    "error",
+    "type '{name}' cannot be {kinds} at once",
+    "A type is one of `struct`, `enum`, `sequence` and `map`.",
+    _wrong("module: RoboCompSpeech\ntypes:\n  Words: {sequence: string, enum: [one, two]}\n"),
+    {"Speech.idsl.yaml": "module: RoboCompSpeech\ntypes:\n  Words: {sequence: string}\n"},
+)
 WORKSPACE_SETTING = Code(
     "RC0301",
     "warning",

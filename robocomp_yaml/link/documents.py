@@ -1,0 +1,91 @@
+"""Each document read once: bytes to tree to shape to model."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.model import build_component, build_interface
+from robocomp_yaml.model.component import Component
+from robocomp_yaml.model.interface import Module
+from robocomp_yaml.source import schema
+from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.text import decode, read_bytes
+from robocomp_yaml.source.tree import Mapping, Node, parse
+
+BUILDERS: dict[str, Callable[[Mapping, str], Module | Component]] = {
+    "idsl": build_interface.build,
+    "cdsl": build_component.build,
+}
+
+
+@dataclass(slots=True)
+class Document:
+    """A document as far as it could be read: `model` is None where it has errors of its own. `real` is its real
+    path, `module` the name of the module it defines, as far as that can be told."""
+
+    path: str
+    real: str
+    kind: str
+    model: Module | Component | None = None
+    module: str = ""
+
+
+@dataclass(slots=True)
+class Documents:
+    """The documents of a run by real path, with all that is wrong with each by itself."""
+
+    read: dict[str, Document] = field(default_factory=dict)
+    contents: dict[str, bytes] = field(default_factory=dict)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def get(self, path: str) -> Document:
+        """The document at a path, read at the first call."""
+        real = os.path.realpath(path)
+        document = self.read.get(real)
+        if document is None:
+            document = self.read[real] = Document(path, real, kind_of(path) or "idsl")
+            self.diagnostics += self._load(document)
+        return document
+
+    def _load(self, document: Document) -> Iterator[Diagnostic]:
+        raw, diagnostics = read_bytes(document.path)
+        yield from diagnostics
+        if raw is None:
+            return
+        self.contents[document.path] = raw
+        text, diagnostics = decode(document.path, raw)
+        yield from diagnostics
+        if text is None:
+            return
+        tree, diagnostics = parse(document.path, text)
+        yield from diagnostics
+        if tree is None:
+            return
+        yield from (diagnostics := self._fits(document, tree))
+        if not has_errors(diagnostics):
+            assert isinstance(tree, Mapping)
+            document.model = BUILDERS[document.kind](tree, document.path)
+        if isinstance(tree, Mapping):
+            document.module = build_interface.text(tree, "module")
+
+    def _fits(self, document: Document, tree: Node) -> list[Diagnostic]:
+        diagnostics = schema.validate(document.kind, tree)
+        if not diagnostics and document.kind == "idsl" and isinstance(tree, Mapping):
+            diagnostics = list(_kinds_of_types(tree))
+        return diagnostics
+
+
+def _kinds_of_types(tree: Mapping) -> Iterator[Diagnostic]:
+    """Each type is of exactly one kind: a rule that a schema can state, but not explain."""
+    for key, node in build_interface.entries(tree, "types"):
+        kinds = [kind for kind in build_interface.TYPE_KINDS if isinstance(node, Mapping) and kind in node.entries]
+        if not kinds:
+            yield codes.NO_KIND.at(key.span, name=key.lexeme, hint="write {struct: …}, {enum: …}, {sequence: …} or "
+                                   "{map: …}")
+        elif len(kinds) > 1:
+            assert isinstance(node, Mapping)
+            yield codes.TWO_KINDS.at(node.entries[kinds[1]][0].span, name=key.lexeme, kinds=" and ".join(kinds))

@@ -1,0 +1,176 @@
+"""Imports resolved and names looked up: documents become one program."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from graphlib import CycleError, TopologicalSorter
+from types import ModuleType
+
+from robocomp_yaml.diag.codes import cdsl, idsl
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.documents import Document, Documents
+from robocomp_yaml.link.ports import link_ports
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
+from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
+from robocomp_yaml.model.component import Component
+from robocomp_yaml.model.interface import Import, Module
+
+
+@dataclass(slots=True)
+class Linker:
+    """Links the documents of one run; `diagnostics` collects what is wrong with references."""
+
+    documents: Documents
+    search: Search
+    program: Program = field(default_factory=Program)
+    workspaces: dict[str, Workspace] = field(default_factory=dict)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    _by_folder: dict[str, Workspace] = field(default_factory=dict)
+
+    def link(self, paths: Iterable[str]) -> Program:
+        """The program of these documents and of all that they import."""
+        todo = [self.documents.get(path) for path in paths]
+        self.program.asked = {document.real for document in todo}
+        components: list[tuple[Document, LinkedComponent]] = []
+        while todo:
+            document = todo.pop()
+            if document.real in self.program.modules or document.real in self.program.components:
+                continue
+            if isinstance(document.model, Module):
+                linked = self.program.modules[document.real] = LinkedModule(document.model)
+                todo += self._imports(document, document.model.imports, linked.unresolved, idsl)
+            elif isinstance(document.model, Component):
+                component = self.program.components[document.real] = LinkedComponent(document.model)
+                components.append((document, component))
+                unresolved: set[str] = set()
+                todo += self._imports(document, document.model.imports, unresolved, cdsl)
+                component.broken = bool(unresolved)
+        self._join()
+        for document, component in sorted(components, key=lambda pair: pair[0].path):
+            self.diagnostics += link_ports(component, self._suggest_import(document))
+        self.program.documents = len(self.documents.read)
+        return self.program
+
+    def workspace_of(self, path: str) -> Workspace:
+        """The workspace that a document belongs to; without a declared one, its own folder."""
+        folder = os.path.dirname(path)
+        if folder not in self._by_folder:
+            root = root_above(folder)
+            if root is None:
+                self._by_folder[folder] = Workspace(folder)
+            else:
+                real = os.path.realpath(root)
+                if real not in self.workspaces:
+                    self.workspaces[real], diagnostics = read(root)
+                    self.diagnostics += diagnostics
+                self._by_folder[folder] = self.workspaces[real]
+        return self._by_folder[folder]
+
+    def _imports(
+        self, document: Document, imports: tuple[Import, ...], unresolved: set[str], codes: ModuleType
+    ) -> list[Document]:
+        """The documents that imports name. What an import that cannot be used might have defined goes to
+        `unresolved`."""
+        workspace = self.workspace_of(document.path)
+        found: dict[str, Document] = {}
+        for imported in imports:
+            path, other_case = self.search.find(imported.text, document.path, workspace)
+            if path is None:
+                self._unresolved(document, imported, workspace, codes)
+                unresolved.update(_names(imported.text))
+                continue
+            target = self.documents.get(path)
+            name = os.path.basename(path).removesuffix(SUFFIX)
+            if other_case:
+                self.diagnostics.append(codes.IMPORT_CASE.at(
+                    imported.span, name=imported.text, found=name, hint=f"write '{name}'"
+                ))
+            if target.real in found or target.real == document.real:
+                self.diagnostics.append(codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text))
+                continue
+            found[target.real] = target
+            if not isinstance(target.model, Module):
+                unresolved.update(_names(imported.text), {target.module} - {""})
+        self._found[document.real] = [real for real in found if isinstance(found[real].model, Module)]
+        return list(found.values())
+
+    _found: dict[str, list[str]] = field(default_factory=dict)
+
+    def _unresolved(self, document: Document, imported: Import, workspace: Workspace, codes: ModuleType) -> None:
+        meant = suggest(imported.text, self.search.known(document.path, workspace))
+        hint = f"did you mean '{meant}'?" if meant else (
+            "put its document beside this one, or name its folder under `interfaces:` in rcyaml.yaml, or with -I"
+        )
+        self.diagnostics.append(codes.UNRESOLVED_IMPORT.at(imported.span, name=imported.text, hint=hint))
+
+    def _join(self) -> None:
+        """Modules point at the modules they import, but for imports in a circle, which are reported."""
+        graph = {
+            real: [other for other in self._found.get(real, ()) if other in self.program.modules]
+            for real in self.program.modules
+        }
+        in_circle = self._circles(graph)
+        for real, linked in self.program.modules.items():
+            for other in graph[real]:
+                if (real, other) in in_circle:
+                    imported = self.program.modules[other].module
+                    linked.unresolved.update((imported.name, imported.stem))
+                else:
+                    linked.imports.append(self.program.modules[other])
+        for real, component in self.program.components.items():
+            component.imports = [self.program.modules[other] for other in self._found.get(real, ())]
+
+    def _circles(self, graph: dict[str, list[str]]) -> set[tuple[str, str]]:
+        """The imports that lie on a circle, each circle reported once, at the first of its documents."""
+        try:
+            TopologicalSorter(graph).prepare()
+            return set()
+        except CycleError:
+            import networkx  # slow to import, and wanted only to explain
+
+        circles: set[tuple[str, str]] = set()
+        for members in networkx.strongly_connected_components(networkx.DiGraph(graph)):
+            if len(members) < 2:
+                continue
+            circles |= {(real, other) for real in members for other in graph[real] if other in members}
+            first = min(members, key=lambda real: self.program.modules[real].module.path)
+            circle = next(networkx.simple_cycles(networkx.DiGraph(graph).subgraph(members)))
+            start = circle.index(first) if first in circle else 0
+            around = [self.program.modules[real].module for real in (*circle[start:], *circle[:start])]
+            around.append(around[0])
+            places = [
+                Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
+                for one, next_ in zip(around, around[1:], strict=False)
+            ]
+            self.diagnostics.append(idsl.IMPORT_CYCLE.at(
+                places[0].span, cycle=" → ".join(module.stem for module in around), related=places[1:],
+                hint="move what both need to a third document",
+            ))
+        return circles
+
+    def _suggest_import(self, document: Document):  # type: ignore[no-untyped-def]
+        """Says which document to import for an interface that no import defines."""
+
+        def importable(interface: str) -> str | None:
+            for linked in sorted(self.program.modules.values(), key=lambda m: m.module.path):
+                if any(i.name == interface for i in linked.module.all_interfaces):
+                    return linked.module.stem
+            known = self.search.known(document.path, self.workspace_of(document.path))
+            return next((name for name in known if name == interface), None)
+
+        return importable
+
+
+def _names(imported: str) -> set[str]:
+    stem = imported.rpartition("/")[2].removesuffix(SUFFIX)
+    return {stem, f"RoboComp{stem}"}
+
+
+def _import_of(module: Module, other: Module) -> Import:
+    for imported in module.imports:
+        if imported.text.rpartition("/")[2].removesuffix(SUFFIX).lower() == other.stem.lower():
+            return imported
+    return module.imports[0]

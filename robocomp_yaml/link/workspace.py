@@ -1,0 +1,129 @@
+"""The workspace: the nearest folder above a document that holds `rcyaml.yaml`, and where imports are looked for."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
+from robocomp_yaml.model.build_interface import entries, items, text
+from robocomp_yaml.source import schema
+from robocomp_yaml.source.discover import WORKSPACE_FILE
+from robocomp_yaml.source.text import decode, read_bytes
+from robocomp_yaml.source.tree import Mapping, Scalar, parse
+
+SUFFIX = ".idsl.yaml"
+
+
+@dataclass(slots=True)
+class Workspace:
+    """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
+    look for imports in, `slice_folder` is where Slice goes (both joined with the root), `lint` a severity (or 'off')
+    by code."""
+
+    root: str
+    declared: bool = False
+    interfaces: tuple[str, ...] = ()
+    slice_folder: str = ""
+    lint: dict[str, str] = field(default_factory=dict)
+
+
+def root_above(folder: str) -> str | None:
+    """The nearest folder at or above one that holds `rcyaml.yaml`, spelled relative where `folder` is."""
+    here = folder or "."
+    for _ in range(len(os.path.abspath(here).split(os.sep)) + 1):
+        if os.path.isfile(os.path.join(here, WORKSPACE_FILE)):
+            return os.path.normpath(here)
+        here = os.path.join(here, os.pardir)
+    return None
+
+
+def read(root: str) -> tuple[Workspace, list[Diagnostic]]:
+    """The workspace that `root/rcyaml.yaml` declares; an empty file is one without settings."""
+    workspace = Workspace(root, declared=True)
+    path = os.path.normpath(os.path.join(root, WORKSPACE_FILE))
+    raw, diagnostics = read_bytes(path)
+    if raw is None:
+        return workspace, diagnostics
+    content, diagnostics = decode(path, raw)
+    if content is None:
+        return workspace, diagnostics
+    tree, diagnostics = parse(path, content)
+    if tree is None:
+        return workspace, [d for d in diagnostics if d.code != codes.EMPTY.id]
+    diagnostics = schema.validate("workspace", tree)
+    if diagnostics or not isinstance(tree, Mapping):
+        return workspace, diagnostics
+    workspace.interfaces = tuple(
+        os.path.normpath(os.path.join(root, node.lexeme))
+        for node in items(tree, "interfaces")
+        if isinstance(node, Scalar)
+    )
+    slice_folder = text(tree.get("output"), "slice")
+    workspace.slice_folder = os.path.normpath(os.path.join(root, slice_folder)) if slice_folder else ""
+    workspace.lint = {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None}
+    return workspace, list(_idle_settings(tree, root))
+
+
+def _idle_settings(tree: Mapping, root: str) -> Iterator[Diagnostic]:
+    from robocomp_yaml.diag.codes import table
+
+    for node in items(tree, "interfaces"):
+        if isinstance(node, Scalar) and not os.path.isdir(os.path.join(root, node.lexeme)):
+            yield codes.WORKSPACE_SETTING.at(node.span, problem=f"there is no folder '{node.lexeme}'")
+    for key, value in entries(tree, "lint"):
+        if key.lexeme not in table():
+            yield codes.WORKSPACE_SETTING.at(
+                key.span, problem=f"no diagnostic is called {key.lexeme}", hint="`rcyaml explain` lists them"
+            )
+        elif value.data not in (*SEVERITIES, "off"):
+            yield codes.WORKSPACE_SETTING.at(value.span, problem=f"'{value.data}' is no severity")
+
+
+@dataclass(slots=True)
+class Search:
+    """Looks imports up: beside the document, in the workspace's folders, then in the extra ones (`-I`, RCYAML_PATH).
+
+    `absent` collects the paths at which nothing was found, so that a later run can tell whether the answer still holds.
+    """
+
+    extra: tuple[str, ...] = ()
+    absent: set[str] = field(default_factory=set)
+    _names: dict[str, tuple[frozenset[str], dict[str, str]]] = field(default_factory=dict)
+
+    def find(self, name: str, document: str, workspace: Workspace) -> tuple[str | None, bool]:
+        """The path of an imported document, or None; and whether its name differs in case."""
+        beside = os.path.dirname(document)
+        tail = name if name.endswith(SUFFIX) else name + SUFFIX
+        folders = [beside]
+        if not name.startswith((".", "/")):
+            folders += [*workspace.interfaces, *self.extra]
+        candidates = list(dict.fromkeys(os.path.normpath(os.path.join(folder, tail)) for folder in folders))
+        for path in candidates:
+            if os.path.basename(path) in self._listed(path)[0]:
+                return path, False
+            self.absent.add(path)
+        for path in candidates:
+            actual = self._listed(path)[1].get(os.path.basename(path).lower())
+            if actual:
+                return os.path.join(os.path.dirname(path), actual), True
+        return None, False
+
+    def known(self, document: str, workspace: Workspace) -> list[str]:
+        """The names that an import of this document could have."""
+        folders = [os.path.dirname(document), *workspace.interfaces, *self.extra]
+        names = {n for f in folders for n in self._listed(os.path.join(f, "x"))[0] if n.endswith(SUFFIX)}
+        return sorted(name.removesuffix(SUFFIX) for name in names)
+
+    def _listed(self, path: str) -> tuple[frozenset[str], dict[str, str]]:
+        """The names in a path's folder, and the same by their lower case."""
+        folder = os.path.dirname(path)
+        if folder not in self._names:
+            try:
+                names = sorted(os.listdir(folder or "."))
+            except OSError:
+                names = []
+            self._names[folder] = frozenset(names), {name.lower(): name for name in names}
+        return self._names[folder]

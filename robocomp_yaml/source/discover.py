@@ -1,0 +1,71 @@
+"""Which files are documents: by their names, below the paths that a user gives."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+
+KINDS = ("idsl", "cdsl")
+WORKSPACE_FILE = "rcyaml.yaml"
+_SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
+
+
+def kind_of(path: str) -> str | None:
+    """`idsl` for `NAME.idsl.yaml` and for `idsl.yaml`; None for what is no document of ours."""
+    name = os.path.basename(path)
+    for kind in KINDS:
+        if name == f"{kind}.yaml" or name.endswith(f".{kind}.yaml"):
+            return kind
+    return None
+
+
+@dataclass(slots=True)
+class Found:
+    """Documents in the order of their paths; `folders` are those that were asked for."""
+
+    documents: list[str] = field(default_factory=list)
+    folders: list[str] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+
+def discover(paths: list[str] | tuple[str, ...]) -> Found:
+    """The documents named, and all below the folders named; hidden and generated folders are passed over."""
+    found = Found()
+    seen: set[str] = set()
+    for path in paths:
+        if os.path.isdir(path):
+            found.folders.append(path)
+            below = list(documents_below(path))
+            if not below:
+                found.diagnostics.append(codes.NOTHING_FOUND.at(
+                    Span(path), hint="`rcyaml new interface NAME` writes a first one, `rcyaml migrate` carries over "
+                    "what you have",
+                ))
+        elif kind_of(path) is None and os.path.lexists(path):
+            expected = " or ".join(f".{kind}.yaml" for kind in KINDS)
+            hint = "`rcyaml migrate` carries legacy files over" if not path.endswith(".yaml") else ""
+            found.diagnostics.append(codes.UNKNOWN_KIND.at(
+                Span(path), name=os.path.basename(path), kinds=expected, hint=hint
+            ))
+            continue
+        else:
+            below = [os.path.normpath(path)]
+        for document in below:
+            if document not in seen:
+                seen.add(document)
+                found.documents.append(document)
+    return found
+
+
+def documents_below(folder: str) -> Iterator[str]:
+    """Every document below a folder, sorted within each folder; a link to a folder is not followed."""
+    for where, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
+        for name in sorted(names):
+            if kind_of(name):
+                yield os.path.normpath(os.path.join(where, name))
