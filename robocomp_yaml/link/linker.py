@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 from types import ModuleType
@@ -29,6 +29,7 @@ class Linker:
     workspaces: dict[str, Workspace] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
     _by_folder: dict[str, Workspace] = field(default_factory=dict)
+    _found: dict[str, list[str]] = field(default_factory=dict)  # real path: those of the modules it imports
 
     def link(self, paths: Iterable[str]) -> Program:
         """The program of these documents and of all that they import."""
@@ -97,8 +98,6 @@ class Linker:
         self._found[document.real] = [real for real in found if isinstance(found[real].model, Module)]
         return list(found.values())
 
-    _found: dict[str, list[str]] = field(default_factory=dict)
-
     def _unresolved(self, document: Document, imported: Import, workspace: Workspace, codes: ModuleType) -> None:
         meant = suggest(imported.text, self.search.known(document.path, workspace))
         hint = f"did you mean '{meant}'?" if meant else (
@@ -151,7 +150,7 @@ class Linker:
             ))
         return circles
 
-    def _suggest_import(self, document: Document):  # type: ignore[no-untyped-def]
+    def _suggest_import(self, document: Document) -> Callable[[str], str | None]:
         """Says which document to import for an interface that no import defines."""
 
         def importable(interface: str) -> str | None:

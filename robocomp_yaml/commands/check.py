@@ -1,0 +1,23 @@
+"""`rcyaml check`: every diagnostic of the documents."""
+
+from __future__ import annotations
+
+import click
+
+from robocomp_yaml.commands import _options
+
+
+@click.command(short_help="Report everything that is wrong with the documents.")
+@_options.paths
+@_options.include
+@_options.format_
+@click.pass_context
+def command(ctx: click.Context, paths: tuple[str, ...], include: tuple[str, ...], format_: str) -> None:
+    """Report everything that is wrong with the documents at PATHS (by default, below this folder).
+
+    A folder means all documents below it. Documents that they import are looked at too.
+    """
+    from robocomp_yaml.pipeline import analyse
+
+    analysis = analyse(paths or (".",), include)
+    _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)

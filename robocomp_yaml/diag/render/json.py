@@ -1,0 +1,37 @@
+"""Diagnostics as JSON, for tools."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+
+
+def as_data(diagnostic: Diagnostic) -> dict[str, object]:
+    """One diagnostic as JSON's types; `more` only where there is one."""
+    data: dict[str, object] = {
+        "code": diagnostic.code,
+        "severity": diagnostic.severity,
+        "message": diagnostic.message,
+        "hint": diagnostic.hint,
+        **_place(diagnostic.span),
+        "related": [{"message": related.message, **_place(related.span)} for related in diagnostic.related],
+    }
+    return {**data, "more": diagnostic.more} if diagnostic.more else data
+
+
+def _place(span: Span) -> dict[str, object]:
+    return {
+        "file": span.file,
+        "line": span.line,
+        "column": span.column,
+        "end_line": span.end_line,
+        "end_column": span.end_column,
+    }
+
+
+def render(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> str:
+    data = {"diagnostics": [as_data(diagnostic) for diagnostic in diagnostics], "documents": documents}
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"

@@ -1,0 +1,118 @@
+"""Diagnostics for people: what is wrong, the line, and how to mend it.
+
+    error[RC2003]: component SpeechComp requires interface 'Mouht', which no imported module defines
+      ┌─ components/speech/speech.cdsl.yaml:7:12
+    7 │ requires: [Mouht]
+      │            ^^^^^ did you mean 'Mouth' (interfaces/Mouth.idsl.yaml)?
+"""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Sequence
+
+from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic
+from robocomp_yaml.diag.span import Span
+
+WIDEST = 160  # a longer line is cut around its fault
+_COLORS = {ERROR: "31", WARNING: "33", NOTE: "36"}
+
+
+def render(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> str:
+    """Each diagnostic with its line, and a last line that counts them."""
+    lines = _Lines()
+    shown = [_one(diagnostic, lines, color) for diagnostic in diagnostics]
+    return "\n".join([*shown, _summary(diagnostics, documents, color)]) + "\n"
+
+
+def _summary(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> str:
+    counts = [
+        _paint(f"{n} {severity}{'' if n == 1 else 's'}", _COLORS[severity], color)
+        for severity in _COLORS
+        if (n := sum(d.severity == severity for d in diagnostics))
+    ]
+    looked_at = f"{documents} document{'' if documents == 1 else 's'}"
+    return f"{looked_at}: {', '.join(counts)}" if counts else f"{looked_at}: nothing wrong"
+
+
+def _one(diagnostic: Diagnostic, lines: _Lines, color: bool) -> str:
+    tint = _COLORS[diagnostic.severity]
+    head = _paint(f"{diagnostic.severity}[{diagnostic.code}]", f"1;{tint}", color)
+    out = [f"{head}: {_paint(diagnostic.message, '1', color)}"]
+    width = len(str(diagnostic.span.line))
+    out += _snippet(diagnostic.span, diagnostic.hint, width, tint, lines, color)
+    for related in diagnostic.related:
+        width = len(str(related.span.line))
+        out += _snippet(related.span, related.message, width, _COLORS[NOTE], lines, color)
+    if diagnostic.more:
+        out += [f"    {line}" if line else "" for line in diagnostic.more.splitlines()]
+    return "\n".join(out) + "\n"
+
+
+def _snippet(span: Span, label: str, width: int, tint: str, lines: _Lines, color: bool) -> list[str]:
+    pad = " " * width
+    rail, corner = _paint("│", "34", color), _paint("┌─", "34", color)
+    text = lines.get(span.file, span.line)
+    if text is None:  # a folder, or a file that cannot be read: there is no line to show
+        out = [f"{pad} {corner} {span.file}"]
+        return [*out, f"{pad} {_paint('=', '34', color)} {label}"] if label else out
+    start = span.column - 1
+    end = span.end_column - 1 if span.end_line == span.line else len(text.rstrip())
+    text, start, end = _cut(text, start, max(start + 1, min(end, len(text))))
+    marks = " " * _columns(text[:start]) + _paint("^" * max(1, _columns(text[start:end])), f"1;{tint}", color)
+    return [
+        f"{pad} {corner} {span.file}:{span.line}:{span.column}",
+        f"{_paint(str(span.line).rjust(width), '34', color)} {rail} {_visible(text)}",
+        f"{pad} {rail} {marks} {label}".rstrip(),
+    ]
+
+
+def _cut(text: str, start: int, end: int) -> tuple[str, int, int]:
+    """A long line around its fault, with the fault's place in it."""
+    if len(text) <= WIDEST:
+        return text, start, end
+    first = max(0, min(start - WIDEST // 4, len(text) - WIDEST))
+    head = "…" if first else ""
+    piece = text[first : first + WIDEST]
+    tail = "…" if first + WIDEST < len(text) else ""
+    shift = first - len(head)
+    return head + piece + tail, start - shift, min(end - shift, len(head) + len(piece))
+
+
+def _visible(text: str) -> str:
+    """Tabs as blanks, and control characters as pictures, so that the marks below stand right and a document cannot
+    send commands to the terminal."""
+    return "".join("    " if c == "\t" else "␦" if unicodedata.category(c) in ("Cc", "Cf") else c for c in text)
+
+
+def _columns(text: str) -> int:
+    """How wide a terminal shows the text."""
+    width = 0
+    for c in text:
+        if c == "\t":
+            width += 4
+        elif not unicodedata.combining(c):
+            width += 2 if unicodedata.east_asian_width(c) in "WF" else 1
+    return width
+
+
+def _paint(text: str, tint: str, color: bool) -> str:
+    return f"\x1b[{tint}m{text}\x1b[0m" if color else text
+
+
+class _Lines:
+    """The lines of the files that diagnostics point at, each file read once."""
+
+    def __init__(self) -> None:
+        self._files: dict[str, list[str] | None] = {}
+
+    def get(self, file: str, line: int) -> str | None:
+        if file not in self._files:
+            try:
+                with open(file, "rb") as opened:
+                    text = opened.read().decode("utf-8-sig", errors="replace")
+                self._files[file] = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+            except OSError:
+                self._files[file] = None
+        lines = self._files[file]
+        return lines[line - 1] if lines and line <= len(lines) else None

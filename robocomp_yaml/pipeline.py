@@ -1,0 +1,69 @@
+"""The pipeline: paths to a linked program and everything that is wrong with it.
+
+discover → (read → tree → shape → model, each document once) → link → checks. `check` is this and no more; `compile`
+goes on from the program that it gives.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import pkgutil
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml import check
+from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
+from robocomp_yaml.link.documents import Documents
+from robocomp_yaml.link.linker import Linker
+from robocomp_yaml.link.program import Program
+from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.source.discover import Found, discover
+
+Check = Callable[[Program], Iterator[Diagnostic]]
+
+
+@dataclass(slots=True)
+class Analysis:
+    """A program with its diagnostics, sorted, and what they were read from: the bytes of each document, and the paths
+    at which an import was looked for in vain."""
+
+    program: Program
+    linker: Linker
+    found: Found
+    diagnostics: list[Diagnostic]
+    contents: dict[str, bytes] = field(default_factory=dict)
+    absent: set[str] = field(default_factory=set)
+
+
+def checks() -> list[Check]:
+    """Every check, in the order of their modules' names."""
+    modules = sorted(module.name for module in pkgutil.iter_modules(check.__path__))
+    return [importlib.import_module(f"{check.__name__}.{name}").check for name in modules]
+
+
+def search_folders(given: Iterable[str]) -> tuple[str, ...]:
+    """The folders of `-I` and, behind them, of RCYAML_PATH."""
+    return (*given, *(folder for folder in os.environ.get("RCYAML_PATH", "").split(os.pathsep) if folder))
+
+
+def analyse(paths: Iterable[str], extra: Iterable[str] = ()) -> Analysis:
+    """All about the documents at these paths; `extra` are folders to look for imports in."""
+    found = discover(list(paths))
+    documents = Documents()
+    linker = Linker(documents, Search(search_folders(extra)))
+    program = linker.link(found.documents)
+    said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]
+    for run in checks():
+        said += run(program)
+    return Analysis(
+        program, linker, found, in_order(_with_lint(said, linker)), documents.contents, linker.search.absent
+    )
+
+
+def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
+    """The severities that each document's workspace asks for."""
+    for diagnostic in diagnostics:
+        wanted = linker.workspace_of(diagnostic.span.file).lint.get(diagnostic.code, diagnostic.severity)
+        if wanted != "off":
+            yield diagnostic if wanted == diagnostic.severity else diagnostic.as_severity(wanted)
