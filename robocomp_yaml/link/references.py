@@ -1,4 +1,4 @@
-"""What a definition names: the types it refers to, and the identifiers it introduces."""
+"""What documents and definitions name: the types they refer to, the identifiers they introduce."""
 
 from __future__ import annotations
 
@@ -85,3 +85,8 @@ def groups(definition: Definition) -> Iterator[list[Name]]:
             for method in methods:
                 parameters = (*method.inputs, *method.outputs)
                 yield [Name("parameter", parameter.name, parameter.span) for parameter in parameters]
+
+
+def macro(stem: str) -> str:
+    """A document's name in the characters of a macro. Documents that share it cannot become files of one program."""
+    return "".join(c if c.isascii() and c.isalnum() else "_" for c in stem).upper()

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
 from robocomp_yaml.emit.slice_literal import literal
 from robocomp_yaml.link.program import Definition, LinkedModule
-from robocomp_yaml.link.references import exceptions_of, groups, types_of
+from robocomp_yaml.link.references import exceptions_of, groups, macro, types_of
 from robocomp_yaml.model.interface import (
     Constant,
     Enum,
@@ -35,8 +35,7 @@ def file_name(linked: LinkedModule) -> str:
 
 def guard(linked: LinkedModule) -> str:
     """The macro that keeps the file from being read twice. No identifier of Slice ends in an underscore."""
-    stem = "".join(c if c.isascii() and c.isalnum() else "_" for c in linked.module.stem)
-    return f"ROBOCOMP{stem.upper()}_ICE_"
+    return f"ROBOCOMP{macro(linked.module.stem)}_ICE_"
 
 
 def text(linked: LinkedModule) -> str:
