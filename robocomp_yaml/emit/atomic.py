@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import fcntl
 import os
 import time
@@ -15,6 +16,8 @@ from robocomp_yaml.source.digest import digest
 
 PATIENCE = 10.0
 """Seconds to wait for another rcyaml that writes into the same root."""
+
+_NO_LINKS = (errno.EPERM, errno.EMLINK, errno.ENOSYS, errno.EOPNOTSUPP)
 
 
 class WriteFailed(Exception):
@@ -29,8 +32,8 @@ class WriteFailed(Exception):
 class Step:
     """One file that changes: from `before` (None: nothing is there) to `after` (None: nothing shall be there).
 
-    `mode` are the permissions, where a file that stands there has some already. `orig` is a name to keep under what
-    stands there. `durable` files are on the disk before they count: they are not made again.
+    `mode` are the permissions, where a file that stands there has some already. `orig` is a name under which what
+    stands there is kept.
     """
 
     path: str
@@ -39,7 +42,6 @@ class Step:
     executable: bool = False
     mode: int | None = None
     orig: str = ""
-    durable: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,8 +181,9 @@ class _Commit:
             os.mkdir(os.path.join(self.root, folder))
         for step, mark in zip(self.batch.steps, marks, strict=True):
             self.at = step.path
-            if mark.new:
-                _write(os.path.join(self.root, mark.new), step)
+            if step.after is not None:
+                default = 0o777 if step.executable else 0o666
+                _create(os.path.join(self.root, mark.new), step.after, step.mode, default)
             if mark.old:
                 _second_name(os.path.join(self.root, step.path), os.path.join(self.root, mark.old))
 
@@ -229,12 +232,7 @@ def _mark(step: Step, number: int) -> Mark:
     )
 
 
-def _write(path: str, step: Step) -> None:
-    assert step.after is not None
-    _create(path, step.after, step.mode, 0o777 if step.executable else 0o666, durable=step.durable)
-
-
-def _create(path: str, data: bytes, mode: int | None, default: int, *, durable: bool = False) -> None:
+def _create(path: str, data: bytes, mode: int | None, default: int) -> None:
     file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, default)
     try:
         if mode is not None:
@@ -242,8 +240,6 @@ def _create(path: str, data: bytes, mode: int | None, default: int, *, durable: 
         rest = memoryview(data)
         while rest:
             rest = rest[os.write(file, rest) :]
-        if durable:
-            os.fsync(file)
     finally:
         os.close(file)
 
@@ -252,9 +248,9 @@ def _second_name(path: str, name: str) -> None:
     """Keeps what stands at a path under another name too: a second link, or a copy where there are no links."""
     try:
         os.link(path, name, follow_symlinks=False)
-    except FileExistsError:
-        raise
-    except OSError:
+    except OSError as error:
+        if error.errno not in _NO_LINKS:
+            raise
         if os.path.islink(path):
             os.symlink(os.readlink(path), name)
             return

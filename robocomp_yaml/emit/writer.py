@@ -112,7 +112,7 @@ class _Root:
                 hint="update rcyaml" if "newer" in str(unusable) else "take it back from version control, or delete it",
             ))
             return False
-        if any(self.root.look(name, read=False).exists for name in (JOURNAL, JOURNAL_DONE)):
+        if any(os.path.lexists(f"{self.root.real}/{name}") for name in (JOURNAL, JOURNAL_DONE)):
             self.diagnostics.append(codes.INTERRUPTED.at(
                 Span(self.root.shown(JOURNAL)), what="the next `rcyaml compile` puts the folder in order"
             ))
@@ -199,7 +199,7 @@ class _Root:
             # Whoever may read it may run it.
             mode |= (mode & 0o444) >> 2
         self.result.steps.append(atomic.Step(
-            plan.path, found.data if found.exists else None, text, plan.executable, mode, orig, plan.policy == ONCE
+            plan.path, found.data if found.exists else None, text, plan.executable, mode, orig
         ))
         return self._note(plan.path, action, found.data, text, orig)
 
@@ -232,10 +232,12 @@ class _Root:
         self._remember(f"{manifest.BASE}/{path}", None)
 
     def _manifest(self, found: Found) -> None:
-        text = self.new.text().encode() if self.new.files else None
-        self.result.settled.update({manifest.PATH: text} if text else {})
-        if self.new != self.old or (found.exists and text is None):
+        text = found.data
+        if self.new != self.old or not self.new.files:
+            text = self.new.text().encode() if self.new.files else None
             self._remember(manifest.PATH, text)
+        if text is not None:
+            self.result.settled[manifest.PATH] = text
 
     def _remember(self, path: str, text: bytes | None) -> None:
         """A file of our own, which no report mentions."""
@@ -244,7 +246,7 @@ class _Root:
             self._refuse(path, found)
         elif found.data != text:
             before = found.data if found.exists else None
-            self.result.steps.append(atomic.Step(path, before, text, durable=True))
+            self.result.steps.append(atomic.Step(path, before, text))
 
 
 def _same_properties(one: bytes, other: bytes) -> bool:
