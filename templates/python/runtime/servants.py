@@ -86,5 +86,5 @@ def _call(worker: Worker, method: Method, inputs: Sequence[Any]) -> Any:
         raise
     except Exception as error:
         logging.getLogger(worker.log.name).exception("%s() failed", method.calls)
-        summary = f"{method.calls}: {type(error).__name__}: {error}"
+        summary = " ".join(f"{method.calls}: {type(error).__name__}: {error}".split())
         raise Ice.UnknownException(ALREADY_LOGGED + summary) from None
