@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 ALWAYS, ONCE = "always", "once"
 
+CONFIG = "etc/config"
+
 
 @dataclass(frozen=True, slots=True)
 class FilePlan:
@@ -20,8 +22,12 @@ class FilePlan:
 
 @dataclass(slots=True)
 class RootPlan:
-    """All that one owner (the path of a document relative to `root`) puts below the folder `root`."""
+    """All that one owner (the path of a document relative to `root`, with '/') puts below the folder `root`.
+
+    `partial` when only some of it was asked for (one target of several): what is not in `files` then stays.
+    """
 
     root: str
     owner: str
     files: list[FilePlan] = field(default_factory=list)
+    partial: bool = False

@@ -160,14 +160,17 @@ def _interface(key: Scalar, node: Node, is_topic: bool) -> Interface:
 
 def _method(key: Scalar, node: Node) -> Method:
     throws = (type_ref(item) for item in items(node, "throws"))
+    returns = node.get("returns") if isinstance(node, Mapping) else None
     return Method(
         key.lexeme,
         inputs=_members(node, "in"),
         outputs=_members(node, "out"),
-        returns=type_ref(node.get("returns")) if isinstance(node, Mapping) else None,
+        returns=type_ref(returns),
         throws=tuple(ref for ref in throws if ref is not None),
         idempotent=isinstance(node, Mapping) and node.data.get("idempotent") is True,  # type: ignore[attr-defined]
         doc=doc(node),
         legacy_name=text(node, "x-legacy-name"),
+        returns_doc=doc(returns),
+        returns_unit=text(returns, "unit"),
         span=key.span,
     )

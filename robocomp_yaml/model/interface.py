@@ -133,6 +133,8 @@ class Method:
     idempotent: bool = False
     doc: str = ""
     legacy_name: str = ""
+    returns_doc: str = ""
+    returns_unit: str = ""
     span: Span = _span()
 
     @property

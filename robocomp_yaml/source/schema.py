@@ -23,6 +23,7 @@ _IN_WORDS = {
     "string": "text", "integer": "a whole number", "number": "a number", "boolean": "true or false",
     "array": "a list", "object": "a mapping", "null": "nothing",
 }
+NAME = "^[A-Za-z_][A-Za-z0-9_]*$"
 _APPLICATORS = frozenset(("allOf", "anyOf", "oneOf", "then", "else", "if"))
 
 
@@ -85,7 +86,7 @@ def _explain(
             yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(place, root))
         case _:
             message = _own_message(whole, path)
-            if kind.name == "pattern" and not message and isinstance(node, Scalar):
+            if kind.name == "pattern" and facts["pattern"] == NAME and isinstance(node, Scalar):
                 yield codes.WRONG_NAME.at(node.span, name=node.lexeme, hint=_name_hint(node.lexeme))
                 return
             yield codes.WRONG_SHAPE.at(_span(node, key), problem=message or _in_words(kind.name, facts, node, place))

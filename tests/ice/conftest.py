@@ -6,91 +6,15 @@ Language-neutral: the tests of the Python and of the C++ target use the same fix
 from __future__ import annotations
 
 import os
-import random
 import shutil
-import signal
-import socket
 import subprocess
-import threading
-import time
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
-
-PATIENCE = 20.0  # seconds: generous, because the machines that run the tests may be busy; never waited in full
-
-
-def until(condition: Callable[[], Any], what: str | Callable[[], str], timeout: float = PATIENCE) -> Any:
-    """The first true value of `condition`, asked again and again; fails the test after `timeout`."""
-    end = time.monotonic() + timeout
-    while not (value := condition()):
-        if time.monotonic() > end:
-            pytest.fail(f"waited {timeout} s in vain: {what() if callable(what) else what}")
-        time.sleep(0.02)
-    return value
-
-
-@dataclass
-class Running:
-    """A process that a test started, with what it has printed so far (standard output and error together)."""
-
-    process: subprocess.Popen[bytes]
-    chunks: list[bytes] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        self._reader = threading.Thread(target=self._read, daemon=True)
-        self._reader.start()
-
-    def _read(self) -> None:
-        assert self.process.stdout is not None
-        with self.process.stdout as stream:
-            while chunk := os.read(stream.fileno(), 65536):
-                self.chunks.append(chunk)
-
-    @property
-    def output(self) -> str:
-        return b"".join(self.chunks).decode("utf-8", "replace")
-
-    def wait_for(self, text: str, timeout: float = PATIENCE) -> Running:
-        """Until it has printed `text`; fails when it ends without."""
-
-        def printed() -> bool:
-            if text in self.output:
-                return True
-            if self.process.poll() is not None:
-                self._reader.join(1)
-                if text not in self.output:
-                    pytest.fail(f"ended with {self.process.returncode} without printing {text!r}:\n{self.output}")
-            return text in self.output
-
-        until(printed, lambda: f"{text!r} in:\n{self.output}", timeout)
-        return self
-
-    def exit_code(self, timeout: float = PATIENCE) -> int:
-        """Until it ends by itself."""
-        try:
-            code = self.process.wait(timeout)
-        except subprocess.TimeoutExpired:
-            pytest.fail(f"still running after {timeout} s:\n{self.output}")
-        self._reader.join(2)
-        return code
-
-    def stop(self, number: int = signal.SIGTERM, within: float = 2.0) -> int:
-        """Signals it, and fails if it takes longer than `within` to end; the exit code."""
-        self.process.send_signal(number)
-        return self.exit_code(within)
-
-    def end(self) -> None:
-        if self.process.poll() is None:
-            self.process.kill()
-            self.process.wait()
-        self._reader.join(2)
-
-
-Start = Callable[..., Running]
+from components import Build, Built, build as build_components
+from processes import Ports, Running, Start, Storm, answers, until
 
 
 @pytest.fixture
@@ -115,27 +39,6 @@ def start() -> Iterator[Start]:
         running.end()
 
 
-class Ports:
-    """Free TCP ports, each handed out once.
-
-    They lie below the range that the system gives to outgoing connections, and each process begins at a random place,
-    so that test runs side by side do not meet.
-    """
-
-    def __init__(self) -> None:
-        self._next = random.SystemRandom().randrange(15000, 31000)
-
-    def __call__(self) -> int:
-        while True:
-            self._next = self._next + 1 if self._next < 31999 else 15000
-            with socket.socket() as probe:
-                try:
-                    probe.bind(("127.0.0.1", self._next))
-                except OSError:
-                    continue
-            return self._next
-
-
 @pytest.fixture(scope="session")
 def free_port() -> Ports:
     """`free_port()`: a TCP port that nobody uses."""
@@ -153,13 +56,6 @@ def ice() -> Iterator[Any]:
     communicator = Ice.initialize(data)
     yield communicator
     communicator.destroy()
-
-
-@dataclass(frozen=True)
-class Storm:
-    """A running IceStorm: the proxy string of its topic manager."""
-
-    manager: str
 
 
 @pytest.fixture(scope="session")
@@ -194,12 +90,11 @@ def icestorm(ice: Any, free_port: Ports, tmp_path_factory: pytest.TempPathFactor
         running.end()
 
 
-def answers(ice: Any, proxy: str) -> bool:
-    """Whether the object answers a ping."""
-    import Ice
+@pytest.fixture
+def build(tmp_path: Path) -> Build:
+    """`build({path: YAML})`: the components among these documents, compiled, by name."""
 
-    try:
-        ice.stringToProxy(proxy).ice_ping()
-    except Ice.Exception:
-        return False
-    return True
+    def build_here(documents: Mapping[str, str]) -> dict[str, Built]:
+        return build_components(documents, tmp_path)
+
+    return build_here

@@ -52,7 +52,7 @@ UNKNOWN_KIND = Code(
     "The name says what a document is: NAME.KIND.yaml, where KIND is `idsl` (interfaces) or `cdsl` (a component).",
     {"Speech.yaml": "module: RoboCompSpeech\n"},
     _GOOD,
-    "check Speech.yaml",
+    "check *",
 )
 NOTHING_FOUND = Code(
     "RC0006",

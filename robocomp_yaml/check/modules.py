@@ -1,0 +1,100 @@
+"""Modules that meet: documents that some importer joins must not define the same name, nor become the same file.
+
+Two documents may have a module of the same name, as long as nobody needs both. So the rules are asked of each module
+and component that brings two such documents together, and of none that merely imports it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.codes import idsl as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
+from robocomp_yaml.link.references import macro
+
+Importer = LinkedModule | LinkedComponent
+
+_FILE_NAME = re.compile(r"\w[\w.+-]*\Z")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    importers: dict[int, list[Importer]] = defaultdict(list)
+    by_name: dict[str, list[LinkedModule]] = defaultdict(list)
+    by_file: dict[str, list[LinkedModule]] = defaultdict(list)
+    for importer in (*program.modules.values(), *program.components.values()):
+        for imported in importer.imports:
+            importers[id(imported)].append(importer)
+    for linked in sorted(program.modules.values(), key=lambda linked: linked.module.path):
+        by_name[linked.module.name.lower()].append(linked)
+        by_file[macro(linked.module.stem)].append(linked)
+        if not _FILE_NAME.match(linked.module.stem):
+            yield codes.FILE_NAME.at(
+                linked.module.span, name=linked.module.stem, hint="use letters, digits and underscores"
+            )
+    for alike in (*by_name.values(), *by_file.values()):
+        if len(alike) > 1:
+            yield from _meetings(alike, importers)
+
+
+def _meetings(alike: list[LinkedModule], importers: dict[int, list[Importer]]) -> Iterator[Diagnostic]:
+    """What is wrong where two of these documents first meet."""
+    seen_by: dict[int, dict[int, tuple[Importer, LinkedModule]]] = defaultdict(dict)
+    for linked in alike:
+        for importer in _reach(linked, importers):
+            seen_by[id(importer)][id(linked)] = (importer, linked)
+    for sees in seen_by.values():
+        importer = next(iter(sees.values()))[0]
+        below = [seen_by.get(id(imported), {}) for imported in importer.imports]
+        if len(sees) > 1 and not any(len(lower) == len(sees) for lower in below):
+            met = [linked for _, linked in sees.values()]
+            for other in met[1:]:
+                yield from _together(importer, met[0], other)
+
+
+def _reach(linked: LinkedModule, importers: dict[int, list[Importer]]) -> list[Importer]:
+    """A module and all that import it, directly or not."""
+    reached: dict[int, Importer] = {id(linked): linked}
+    todo: list[Importer] = [linked]
+    while todo:
+        for importer in importers.get(id(todo.pop()), ()):
+            if id(importer) not in reached:
+                reached[id(importer)] = importer
+                todo.append(importer)
+    return list(reached.values())
+
+
+def _together(importer: Importer, one: LinkedModule, other: LinkedModule) -> Iterator[Diagnostic]:
+    related = [Related(f"{linked.module.stem} stands here", linked.module.span) for linked in (one, other)]
+    first, second = one.module, other.module
+
+    def at(code: Code, hint: str, **facts: str) -> Diagnostic:
+        span = _import_of(importer, other) or _import_of(importer, one) or _span(importer)
+        return code.at(span, hint=hint, related=related, one=first.path, two=second.path, **facts)
+
+    if macro(first.stem) == macro(second.stem):
+        yield at(codes.SAME_FILE, "rename one of the documents", file=f"{second.stem}.ice")
+    elif first.name != second.name:
+        if first.name.lower() == second.name.lower():
+            yield at(codes.MODULE_CASE, "spell both alike, or rename one", name=first.name, second=second.name)
+    else:
+        names = {definition.name.lower(): definition.name for definition in first.definitions}
+        twice = [definition.name for definition in second.definitions if definition.name.lower() in names]
+        if twice:
+            yield at(codes.REDEFINED, "import only one of them", name=twice[0], module=first.name)
+
+
+def _import_of(importer: Importer, linked: LinkedModule) -> Span | None:
+    document = importer.component if isinstance(importer, LinkedComponent) else importer.module
+    for imported in document.imports:
+        if imported.text.rpartition("/")[2].removesuffix(".idsl.yaml").lower() == linked.module.stem.lower():
+            return imported.span
+    return None
+
+
+def _span(importer: Importer) -> Span:
+    return importer.component.span if isinstance(importer, LinkedComponent) else importer.module.span

@@ -1,0 +1,111 @@
+"""References to types and exceptions: that each names something, and something of the right kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import idsl as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.link.program import LinkedModule, Program
+from robocomp_yaml.link.references import exceptions_of, kind_of, types_of
+from robocomp_yaml.link.suggest import suggest
+from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Module, TypeDefinition, TypeRef
+
+# How other languages call the basic types.
+_FOREIGN = {
+    "bool": "boolean Boolean Bool",
+    "byte": "char uint8 uint8_t int8 int8_t octet",
+    "short": "int16 int16_t",
+    "int": "integer Integer int32 int32_t Int",
+    "long": "int64 int64_t Long",
+    "float": "float32 real single Float",
+    "double": "float64 Double",
+    "string": "str text String wstring",
+}
+MOST_SUGGESTIONS = 100  # in a run: each compares a word with every name in reach
+_MEANT = {foreign: ours for ours, others in _FOREIGN.items() for foreign in others.split()}
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    index = _Index(program)
+    for linked in program.modules.values():
+        for definition in linked.module.definitions:
+            for ref in types_of(definition):
+                yield from _type(linked, ref, index)
+            for ref in exceptions_of(definition):
+                yield from _exception(linked, ref, index)
+
+
+class _Index:
+    """What helps to explain a name that is not found; made only when there is one."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self._by_name: dict[str, list[Module]] = {}
+        self._suggestions_left = MOST_SUGGESTIONS
+
+    def suggest(self, word: str, candidates: Iterator[str]) -> str | None:
+        self._suggestions_left -= 1
+        return suggest(word, candidates) if self._suggestions_left >= 0 else None
+
+    def definers(self, name: str) -> list[Module]:
+        if not self._by_name:
+            for linked in sorted(self.program.modules.values(), key=lambda linked: linked.module.path):
+                for definition in linked.module.definitions:
+                    self._by_name.setdefault(definition.name, []).append(linked.module)
+        return self._by_name.get(name, [])
+
+
+def _type(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnostic]:
+    if ref.is_basic or ref.module in linked.unresolved:
+        return
+    found = linked.find(ref)
+    if found is None:
+        yield codes.UNKNOWN_TYPE.at(ref.span, name=ref.text, hint=_hint(linked, ref, index))
+    elif not isinstance(found[1], TypeDefinition):
+        kind = kind_of(found[1])
+        yield codes.NOT_A_TYPE.at(
+            ref.span, name=ref.text, kind=kind, hint="a type is a basic one, or one defined under `types:`",
+            related=[Related(f"the {kind} stands here", found[1].span)],
+        )
+
+
+def _exception(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnostic]:
+    if ref.module in linked.unresolved:
+        return
+    found = None if ref.is_basic else linked.find(ref)
+    if found is not None and not isinstance(found[1], ExceptionType):
+        kind = kind_of(found[1])
+        yield codes.NOT_AN_EXCEPTION.at(
+            ref.span, name=ref.text, kind=kind, hint="an exception is defined under `exceptions:`",
+            related=[Related(f"the {kind} stands here", found[1].span)],
+        )
+    elif found is None:
+        hint = _hint(linked, ref, index, exception=True)
+        yield codes.UNKNOWN_EXCEPTION.at(ref.span, name=ref.text, hint=hint)
+
+
+def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, exception: bool = False) -> str:
+    """How to mend a name that is not there."""
+    if not exception and ref.text == "void":
+        return "a method that returns nothing has no `returns`"
+    if not exception and ref.text in _MEANT:
+        return f"did you mean '{_MEANT[ref.text]}'?"
+    definers = [m for m in index.definers(ref.name) if ref.module in ("", m.name, m.stem)]
+    for imported in linked.imports:
+        if imported.module in definers:
+            return f"write '{imported.module.stem}.{ref.name}': a name of another module stands behind that module's"
+    if definers:
+        return f"add {definers[0].stem} to `imports`, and write '{definers[0].stem}.{ref.name}'"
+    meant = index.suggest(ref.text, _known(linked, exception))
+    return f"did you mean '{meant}'?" if meant else "define it, or import the module that does"
+
+
+def _known(linked: LinkedModule, exception: bool) -> Iterator[str]:
+    """The names that could stand there."""
+    wanted = ExceptionType if exception else TypeDefinition
+    yield from (d.name for d in linked.module.definitions if isinstance(d, wanted))
+    if not exception:
+        yield from BASIC_TYPES
+    for imported in linked.imports:
+        yield from (f"{imported.module.stem}.{d.name}" for d in imported.module.definitions if isinstance(d, wanted))

@@ -1,0 +1,95 @@
+"""`rcyaml explain CODE`: what a diagnostic means, with a wrong and a right example."""
+
+from __future__ import annotations
+
+import json
+
+import click
+
+from robocomp_yaml.diag.code import Code, Files
+
+
+@click.command(short_help="Say what a diagnostic means, with examples.")
+@click.argument("code", required=False)
+@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@click.pass_context
+def command(ctx: click.Context, code: str | None, format_: str) -> None:
+    """Say what the diagnostic CODE means, such as RC2003; without a code, list them all."""
+    from robocomp_yaml.diag.codes import table
+    from robocomp_yaml.diag.suggest import suggest
+
+    rows = table()
+    if code is None:
+        click.echo(_as_json(list(rows.values())) if format_ == "json" else _listed(list(rows.values())), nl=False)
+        return
+    row = rows.get(code.upper())
+    if row is None:
+        meant = suggest(code.upper(), rows)
+        raise click.UsageError(f"no diagnostic is called {code}" + (f"; did you mean {meant}?" if meant else ""))
+    click.echo(_as_json([row]) if format_ == "json" else _explained(row), nl=False)
+
+
+def summary(row: Code) -> str:
+    """The message with its facts as words: `{name}` as `NAME`."""
+    return row.message.format_map(_Facts())
+
+
+class _Facts(dict[str, str]):
+    def __missing__(self, key: str) -> str:
+        return key.upper()
+
+
+def _listed(rows: list[Code]) -> str:
+    return "".join(f"{row.id}  {row.severity:<7}  {summary(row)}\n" for row in rows)
+
+
+def _explained(row: Code) -> str:
+    parts = [
+        f"{row.id} ({row.severity}): {summary(row)}",
+        _wrapped(row.why),
+        f"Wrong:\n\n{_tree(row.wrong)}",
+        f"Right:\n\n{_tree(row.right)}",
+    ]
+    if row.command != "check .":
+        parts.append(f"It is given by `rcyaml {row.command}`.")
+    return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
+
+
+def _wrapped(text: str) -> str:
+    import textwrap
+
+    return "\n\n".join(textwrap.fill(paragraph, 100) for paragraph in text.split("\n\n"))
+
+
+def _tree(files: Files) -> str:
+    """A small tree of files as text; of long texts, the beginning."""
+    out = []
+    for path, content in files.items():
+        if content is None:
+            out.append(f"  {path}/  (an empty folder)")
+        elif isinstance(content, str) and content.startswith("-> "):
+            out.append(f"  {path} {content}  (a link)")
+        else:
+            text = content if isinstance(content, str) else content.decode("utf-8", "backslashreplace")
+            lines = [line if len(line) <= 100 else line[:97] + "…" for line in text.splitlines()]
+            out.append("\n".join([f"  # {path}", *(f"  {line}".rstrip() for line in lines)]))
+    return "\n".join(out)
+
+
+def _as_json(rows: list[Code]) -> str:
+    def text(content: str | bytes | None) -> str | None:
+        return content.decode("utf-8", "backslashreplace") if isinstance(content, bytes) else content
+
+    data = [
+        {
+            "code": row.id,
+            "severity": row.severity,
+            "message": summary(row),
+            "why": row.why,
+            "wrong": {path: text(content) for path, content in row.wrong.items()},
+            "right": {path: text(content) for path, content in row.right.items()},
+            "command": row.command,
+        }
+        for row in rows
+    ]
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"

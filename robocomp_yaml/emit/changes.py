@@ -1,0 +1,80 @@
+"""What carrying out a plan would do to the disk, file by file: for reports, `--dry-run`, `--diff` and `--check`."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.emit.atomic import Step
+
+CREATE, UPDATE, ADOPT, EDITED = "create", "update", "adopt", "edited"
+REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", "refused"
+"""What happens to a file.
+
+EDITED: someone changed a generated file; their version is kept under `orig`, ours is written (or, where it is no longer
+generated, nothing is). ADOPT: it was there before rcyaml, and is kept under `orig` likewise. KEPT: it is the user's,
+and stays. LEFT: it is the user's, and no document asks for it any more. REFUSED: a diagnostic says why not.
+"""
+
+WRITING = (CREATE, UPDATE, ADOPT, EDITED, REMOVE)
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What happens to one file. `path` can be opened from the user's folder, `orig` too ('' where nothing is kept)."""
+
+    path: str
+    action: str
+    before: bytes | None = None
+    after: bytes | None = None
+    orig: str = ""
+
+    def diff(self) -> Iterator[str]:
+        """A unified diff, line by line."""
+        yield from difflib.unified_diff(
+            _lines(self.before), _lines(self.after),
+            os.devnull if self.before is None else f"a/{self.path}",
+            os.devnull if self.after is None else f"b/{self.path}",
+        )
+
+
+@dataclass(slots=True)
+class RootChanges:
+    """The changes below one output root, with the steps that make them. A `refused` root gets no steps.
+
+    `settled` are the files that then hold what rcyaml wrote, with their content; `once` those that must only exist.
+    """
+
+    root: str
+    real: str
+    changes: list[Change] = field(default_factory=list)
+    steps: list[Step] = field(default_factory=list)
+    settled: dict[str, bytes] = field(default_factory=dict)
+    once: list[str] = field(default_factory=list)
+    refused: bool = False
+
+
+@dataclass(slots=True)
+class Changes:
+    roots: list[RootChanges] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def __iter__(self) -> Iterator[Change]:
+        for root in self.roots:
+            yield from root.changes
+
+    @property
+    def dirty(self) -> bool:
+        """Whether a file that a user sees would change."""
+        return any(change.action in (*WRITING, REFUSED) for change in self)
+
+
+def _lines(data: bytes | None) -> list[str]:
+    """With ends, the last one too: a file without one shows as the text it is."""
+    lines = (data or b"").decode("utf-8", "replace").splitlines(keepends=True)
+    if lines and not lines[-1].endswith("\n"):
+        lines[-1] += "\n\\ No newline at end of file\n"
+    return lines

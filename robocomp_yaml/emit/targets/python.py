@@ -1,0 +1,118 @@
+"""The Python target: a component that runs with Python 3.9 and Ice 3.7 alone.
+
+Most of it is the same for every component and is copied as it stands (`templates/python/runtime/`); what differs are
+three small generated files, the user's skeleton and a launcher.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cache
+
+from robocomp_yaml import resources
+from robocomp_yaml.emit.plan import ONCE, FilePlan
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.targets.python_names import ice_name, module_variable
+from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
+from robocomp_yaml.emit.targets.python_text import docstring, one_line
+from robocomp_yaml.emit.targets.slice import file_name
+from robocomp_yaml.link.program import LinkedComponent
+
+LANGUAGE = "python"
+
+DEFAULT_PERIOD = 100
+BEHAVIOR = "RoboCompCommonBehavior"
+
+
+@dataclass(frozen=True, slots=True)
+class SliceModule:
+    """A Slice module: the name Ice gives it, and the variable that holds it."""
+
+    name: str
+    variable: str
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """What the templates show: each file is about the same few things. `files` are literals of Python; `imports` names
+    the modules that the file at hand uses."""
+
+    source: str
+    name: str
+    title: str
+    docstring: str
+    period: int
+    files: list[str]
+    modules: list[SliceModule]
+    behavior: str
+    implements: list[ServedView]
+    subscribes: list[ServedView]
+    served: list[ServedView]
+    requires: list[AccessorView]
+    publishes: list[AccessorView]
+    accessors: list[AccessorView]
+    imports: str = ""
+
+
+def plan(component: LinkedComponent) -> list[FilePlan]:
+    """The component's files but for `slice/` and `etc/`."""
+    view = _view(component)
+    methods = [method for port in view.served for method in port.new_methods]
+    proxies = [port.proxy for port in view.accessors]
+    signatures = [method.signature for method in methods]
+    table = [view.behavior + ".", *proxies, *(port.interface for port in view.served)]
+    table += [method.throws for port in view.implements for method in port.methods]
+    stubs = [*signatures, *(method.value for method in methods)]
+    return [
+        *_runtime(),
+        FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
+        FilePlan("generated/component.py", _rendered("component.py", view, table)),
+        FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
+        FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
+        FilePlan(f"bin/{view.name}", _rendered("launcher", view), ONCE, executable=True),
+    ]
+
+
+def _rendered(template: str, view: View, code: Iterable[str] = ()) -> str:
+    """The template, importing those modules that the pieces of code name."""
+    named = {name for piece in code for name in re.findall(r"(\w+)\.", piece)}
+    imports = ", ".join(sorted(module.variable for module in view.modules if module.variable in named))
+    return render(f"python/{template}.j2", replace(view, imports=imports))
+
+
+@cache
+def _runtime() -> tuple[FilePlan, ...]:
+    """The files that are the same in every component."""
+    folder = resources.folder("templates") / "python" / "runtime"
+    texts = {file.name: file.read_text(encoding="utf-8") for file in sorted(folder.glob("*.py"))}
+    package = FilePlan("generated/__init__.py", texts["__init__.py"])
+    return (package, *(FilePlan(f"generated/runtime/{name}", text) for name, text in texts.items()))
+
+
+def _view(linked: LinkedComponent) -> View:
+    component = linked.component
+    ports = Ports(linked)
+    names = dict.fromkeys([*(scope.module.name for scope in linked.modules()), BEHAVIOR])
+    files = [file_name(scope) for scope in linked.imports]
+    if all(scope.module.name != BEHAVIOR for scope in linked.modules()):
+        files.append("CommonBehavior.ice")
+    doc = f"{component.name}: {component.doc}" if component.doc else component.name
+    return View(
+        source=one_line(component.path.rpartition("/")[2]),
+        name=component.name,
+        title=docstring(doc, ""),
+        docstring=docstring(doc, "    "),
+        period=component.period or DEFAULT_PERIOD,
+        files=[json.dumps(file, ensure_ascii=False) for file in files],
+        modules=[SliceModule(ice_name(name), module_variable(name)) for name in names],
+        behavior=module_variable(BEHAVIOR),
+        implements=ports.implements,
+        subscribes=ports.subscribes,
+        served=[*ports.implements, *ports.subscribes],
+        requires=ports.requires,
+        publishes=ports.publishes,
+        accessors=[*ports.requires, *ports.publishes],
+    )

@@ -1,0 +1,184 @@
+"""A component's ports as Python spells them: accessors, and the worker's methods with their signatures.
+
+All that is here goes to the templates as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from robocomp_yaml.emit.targets.python_names import (
+    WORKER_ATTRIBUTES,
+    Names,
+    ice_name,
+    module_variable,
+    parameters,
+    python_name,
+)
+from robocomp_yaml.emit.targets.python_text import docstring, one_line, signature
+from robocomp_yaml.emit.targets.python_types import hint, qualified, zero
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
+from robocomp_yaml.model.interface import Member, Method, TypeRef
+
+IN = "    "
+
+
+@dataclass(frozen=True, slots=True)
+class MethodView:
+    """A method of the worker that a servant calls; `value` is what its stub returns, '' where there is nothing."""
+
+    operation: str
+    name: str
+    signature: str
+    throws: str
+    docstring: str
+    summary: str
+    value: str
+
+
+@dataclass(frozen=True, slots=True)
+class ServedView:
+    """An implemented or subscribed port. `new_methods` are those that no earlier port has brought."""
+
+    name: str
+    identity: str
+    topic: str
+    interface: str
+    title: str
+    methods: list[MethodView]
+    new_methods: list[MethodView]
+
+
+@dataclass(frozen=True, slots=True)
+class AccessorView:
+    """A proxy that the worker has. `options` are the further arguments of its row in the table."""
+
+    name: str
+    topic: str
+    attribute: str
+    proxy: str
+    docstring: str
+    summary: str
+    options: str
+
+
+class Ports:
+    """All ports of a component, with names that do not clash."""
+
+    def __init__(self, component: LinkedComponent) -> None:
+        self._names = Names(WORKER_ATTRIBUTES)
+        self._methods: dict[tuple[int, str, str], MethodView] = {}
+        self._modules = [module_variable(linked.module.name) for linked in component.modules()]
+        self.requires = [self._required(port) for port in component.requires]
+        self.publishes = [self._published(port) for port in component.publishes]
+        self.implements = [
+            self._served(port, f"{port.name}: other components call these.", port.interface.methods)
+            for port in component.implements
+        ]
+        self.subscribes = [
+            self._served(port, f"{port.name}: events that others publish.", _published_methods(port))
+            for port in component.subscribes
+        ]
+
+    def _required(self, port: Port) -> AccessorView:
+        options = "" if port.use.absent == "wait" else f', absent="{port.use.absent}"'
+        if port.use.timeout is not None:
+            options += f", timeout={port.use.timeout!r}"
+        attribute = self._names.take(f"{port.name.lower()}_proxy")
+        text = port.use.doc or port.interface.doc
+        note = f"{port.name}, at the address that the property `{port.name}Proxy` gives.\n\n{text}"
+        return AccessorView(
+            port.name, "", attribute, _proxy(port), docstring(note, IN * 2), f"calls {port.name}", options
+        )
+
+    def _published(self, port: Port) -> AccessorView:
+        lower = port.name.lower()
+        attribute = self._names.take(f"{lower}_proxy", f"{lower}_pubproxy")
+        events = ", ".join(
+            f"{python_name(m.name)}({', '.join(member.name for member in m.inputs)})" for m in _published_methods(port)
+        )
+        note = f"Publishes {port.name}: {events}.\n\n{port.use.doc or port.interface.doc}"
+        summary = f"publishes {port.name}: {events}"
+        topic = port.interface.name
+        return AccessorView(port.name, topic, attribute, _proxy(port), docstring(note, IN * 2), summary, "")
+
+    def _served(self, port: Port, title: str, methods: Sequence[Method]) -> ServedView:
+        every, new = [], []
+        for method in methods:
+            key = (id(port.scope), port.interface.name, method.name)
+            if key not in self._methods:
+                self._methods[key] = self._method(port, method)
+                new.append(self._methods[key])
+            every.append(self._methods[key])
+        name = port.interface.name
+        return ServedView(port.name, name.lower(), name, qualified(port.scope, name), title, every, new)
+
+    def _method(self, port: Port, method: Method) -> MethodView:
+        scope = port.scope
+        name = self._names.take(f"{port.interface.name}_{method.name}")
+        names = list(parameters((member.name for member in method.inputs), self._modules))
+        typed = [f"{n}: {hint(member.type, scope)}" for n, member in zip(names, method.inputs, strict=True)]
+        results = list(_results(method))
+        types = [hint(ref, scope) for ref in results]
+        returns = "None" if not types else types[0] if len(types) == 1 else f"tuple[{', '.join(types)}]"
+        throws = [_exception(ref, scope) for ref in method.throws]
+        doc = method.doc or f"{port.interface.name}.{method.name}"
+        details = "\n".join(_details(method, names, throws))
+        return MethodView(
+            operation=ice_name(method.name),
+            name=name,
+            signature=signature(name, typed, returns, IN),
+            throws=_throws(throws),
+            docstring=docstring(f"{doc}\n\n{details}", IN * 2),
+            summary=docstring(one_line(doc.strip().partition("\n")[0]), IN * 2),
+            value=", ".join(zero(ref, scope) for ref in results),
+        )
+
+
+def _results(method: Method) -> Iterator[TypeRef]:
+    """In the order of Ice's Python mapping."""
+    if method.returns is not None:
+        yield method.returns
+    yield from (member.type for member in method.outputs)
+
+
+def _details(method: Method, names: Sequence[str], throws: Sequence[str]) -> Iterator[str]:
+    """What the signature does not say."""
+    for name, member in zip(names, method.inputs, strict=True):
+        if said := _said(member):
+            yield f"{name}: {said}"
+    results = ["the result"] if method.returns is not None else []
+    results += [member.name for member in method.outputs]
+    if method.outputs:
+        yield f"Returns {', '.join(results)}."
+    for member in method.outputs:
+        if said := _said(member):
+            yield f"{member.name}: {said}"
+    if throws:
+        yield f"Raises {', '.join(throws)}."
+
+
+def _throws(exceptions: Sequence[str]) -> str:
+    """The argument of the method's row in the table."""
+    inner = ", ".join(exceptions)
+    return f", throws=({inner},)" if len(exceptions) == 1 else f", throws=({inner})" if exceptions else ""
+
+
+def _said(member: Member) -> str:
+    return " ".join(part for part in (one_line(member.doc), f"[{member.unit}]" if member.unit else "") if part)
+
+
+def _published_methods(port: Port) -> list[Method]:
+    return [method for method in port.interface.methods if method.can_be_published]
+
+
+def _proxy(port: Port) -> str:
+    return f"{module_variable(port.scope.module.name)}.{port.interface.name}Prx"
+
+
+def _exception(ref: TypeRef, scope: LinkedModule) -> str:
+    found = scope.find(ref)
+    if found is None:
+        raise LookupError(f"{ref.text} is not linked: {scope.module.path}")
+    return qualified(found[0], found[1].name)

@@ -1,0 +1,42 @@
+"""Pieces of Python source: docstrings and signatures, laid out as a person would."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+WIDTH = 110
+
+
+def docstring(text: str, indent: str) -> str:
+    """The text between triple quotes, its lines below the first one indented; without the first line's indent."""
+    lines = [_plain(line) for line in text.strip().splitlines()]
+    if len(lines) < 2:
+        return f'"""{_closable("".join(lines))}"""'
+    rest = [f"{indent}{line}" if line else "" for line in lines[1:]]
+    return "\n".join([f'"""{lines[0]}', *rest, f'{indent}"""'])
+
+
+def signature(name: str, parameters: Sequence[str], returns: str, indent: str) -> str:
+    """`def name(self, …) -> …:`, one parameter a line where it would be too long."""
+    words = ["self", *parameters]
+    line = f"def {name}({', '.join(words)}) -> {returns}:"
+    if len(indent) + len(line) <= WIDTH:
+        return line
+    inner = "".join(f"{indent}    {word},\n" for word in words)
+    return f"def {name}(\n{inner}{indent}) -> {returns}:"
+
+
+def one_line(text: str) -> str:
+    """A document's text as the rest of a line of comment, or of a list."""
+    return " ".join(_plain(text).split())
+
+
+def _plain(line: str) -> str:
+    """Without what would end the docstring, or be no text."""
+    escaped = line.rstrip().replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
+    return "".join(c for c in escaped if c.isprintable() or c == "\t")
+
+
+def _closable(line: str) -> str:
+    """A quote just before the closing ones would join them."""
+    return f"{line[:-1]}\\\"" if line.endswith('"') and not line.endswith('\\"') else line

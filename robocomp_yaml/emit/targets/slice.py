@@ -1,0 +1,225 @@
+"""The Slice target: a module as the `.ice` file that a person would write.
+
+Two blanks of indentation, one blank line between definitions, definitions after those that they use and otherwise in
+the author's order. The text depends on the module and its imports alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
+from robocomp_yaml.emit.slice_literal import literal
+from robocomp_yaml.link.program import Definition, LinkedModule
+from robocomp_yaml.link.references import exceptions_of, groups, macro, types_of
+from robocomp_yaml.model.interface import (
+    Constant,
+    Enum,
+    ExceptionType,
+    Interface,
+    Literal,
+    Map,
+    Member,
+    Method,
+    Sequence,
+    Struct,
+    TypeRef,
+)
+
+IN = "  "
+
+
+def file_name(linked: LinkedModule) -> str:
+    return f"{linked.module.stem}.ice"
+
+
+def guard(linked: LinkedModule) -> str:
+    """The macro that keeps the file from being read twice. No identifier of Slice ends in an underscore."""
+    return f"ROBOCOMP{macro(linked.module.stem)}_ICE_"
+
+
+def text(linked: LinkedModule) -> str:
+    """The file's text. The module has passed every check."""
+    return "\n".join(_File(linked).lines()) + "\n"
+
+
+def in_order(linked: LinkedModule) -> list[Definition]:
+    """The module's definitions, each after those that it uses, else as the author ordered them."""
+    own = {definition.name: definition for definition in linked.module.definitions}
+    done: dict[str, Definition] = {}
+    entered: set[str] = set()
+    todo = [(definition, False) for definition in reversed(own.values())]
+    while todo:  # without recursion: types may be nested a thousand deep
+        definition, ready = todo.pop()
+        if ready:
+            done[definition.name] = definition
+        elif definition.name not in entered:
+            entered.add(definition.name)
+            todo.append((definition, True))
+            needed = [own.get(ref.name) for ref in (*types_of(definition), *exceptions_of(definition))
+                      if _is_own(linked, ref)]
+            todo += [(other, False) for other in reversed(needed) if other is not None]
+    return list(done.values())
+
+
+def _is_own(linked: LinkedModule, ref: TypeRef) -> bool:
+    found = None if ref.is_basic else linked.find(ref)
+    return found is not None and found[0] is linked
+
+
+class _File:
+    def __init__(self, linked: LinkedModule) -> None:
+        self.linked = linked
+        self.module = linked.module
+
+    def lines(self) -> Iterator[str]:
+        yield f"// Compiled by rcyaml from {self.module.path.rpartition('/')[2]}: change that file, not this one."
+        yield from (f"#ifndef {guard(self.linked)}", f"#define {guard(self.linked)}", "")
+        if self._has_underscores():
+            yield from ('[["underscore"]]', "")
+        if self.linked.imports:
+            yield from (f"#include <{file_name(imported)}>" for imported in self.linked.imports)
+            yield ""
+        yield from comment(self.module.doc)
+        yield from (f"module {self.module.name}", "{")
+        for number, definition in enumerate(in_order(self.linked)):
+            if number:
+                yield ""
+            yield from self._definition(definition)
+        yield from ("};", "", "#endif")
+
+    def _has_underscores(self) -> bool:
+        """Slice takes underscores in names only when a file says so."""
+        if "_" in self.module.name:
+            return True
+        for definition in self.module.definitions:
+            refs = (*types_of(definition), *exceptions_of(definition))
+            names = (name.text for group in groups(definition) for name in group)
+            if "_" in definition.name or any("_" in name for name in names):
+                return True
+            if any("_" in self._type(ref) for ref in refs) or any("_" in value for value in _defaults(definition)):
+                return True
+        return False
+
+    def _definition(self, definition: Definition) -> Iterator[str]:
+        unit = definition.unit if isinstance(definition, Constant) else ""
+        yield from comment(definition.doc, IN, unit=unit)
+        match definition:
+            case Constant():
+                value = self._value(definition.type, definition.value)
+                yield f"{IN}const {self._type(definition.type)} {definition.name} = {value};"
+            case Struct():
+                yield from self._members("struct", definition)
+            case ExceptionType():
+                yield from self._members("exception", definition)
+            case Enum():
+                yield from _enum(definition)
+            case Sequence():
+                yield f"{IN}sequence<{self._type(definition.element)}> {definition.name};"
+            case Map():
+                key, value = self._type(definition.key), self._type(definition.value)
+                yield f"{IN}dictionary<{key}, {value}> {definition.name};"
+            case Interface():
+                yield from self._interface(definition)
+
+    def _members(self, keyword: str, definition: Struct | ExceptionType) -> Iterator[str]:
+        if not definition.members:
+            yield f"{IN}{keyword} {definition.name} {{}};"
+            return
+        yield from (f"{IN}{keyword} {definition.name}", f"{IN}{{")
+        for member in definition.members:
+            yield from comment(member.doc, IN * 2, unit=member.unit)
+            default = f" = {self._value(member.type, member.default)}" if member.default is not None else ""
+            yield f"{IN * 2}{self._type(member.type)} {member.name}{default};"
+        yield f"{IN}}};"
+
+    def _interface(self, interface: Interface) -> Iterator[str]:
+        if not interface.methods:
+            yield f"{IN}interface {interface.name} {{}};"
+            return
+        yield from (f"{IN}interface {interface.name}", f"{IN}{{")
+        hidden = {method.name.lower() for method in interface.methods}
+        documented = False
+        for number, method in enumerate(interface.methods):
+            doc = comment(method.doc, IN * 2, tags=self._tags(method))
+            if number and (doc or documented):
+                yield ""
+            yield from doc
+            yield from self._method(method, hidden)
+            documented = bool(doc)
+        yield f"{IN}}};"
+
+    def _tags(self, method: Method) -> list[tuple[str, str]]:
+        """What is said of parameters, result and, where anything is said at all, exceptions."""
+        tags = [(f"@param {p.name}", described(p.doc, p.unit)) for p in (*method.inputs, *method.outputs)]
+        tags.append(("@return", described(method.returns_doc, method.returns_unit)))
+        if (method.doc or any(said for _, said in tags)) and "@throws" not in method.doc:
+            for ref in method.throws:
+                found = self.linked.find(ref)
+                tags.append((f"@throws {self._type(ref)}", described(found[1].doc, "") if found else ""))
+        return tags
+
+    def _method(self, method: Method, hidden: set[str]) -> Iterator[str]:
+        returns = self._type(method.returns, hidden) if method.returns else "void"
+        head = f"{IN * 2}{'idempotent ' if method.idempotent else ''}{returns} {method.name}("
+        parameters = [self._parameter(parameter, "", hidden) for parameter in method.inputs]
+        parameters += [self._parameter(parameter, "out ", hidden) for parameter in method.outputs]
+        throws = [self._type(ref, hidden) for ref in method.throws]
+        line = f"{head}{', '.join(parameters)}){' throws ' if throws else ''}{', '.join(throws)};"
+        if len(line) <= WIDTH:
+            yield line
+            return
+        end = ")" if throws else ");"
+        yield head + ("" if parameters else end)
+        yield from _listed(parameters, IN * 4, end)
+        if throws:
+            yield f"{IN * 3}throws"
+            yield from _listed(throws, IN * 4, ";")
+
+    def _parameter(self, parameter: Member, direction: str, hidden: set[str]) -> str:
+        return f"{direction}{self._type(parameter.type, hidden)} {parameter.name}"
+
+    def _type(self, ref: TypeRef, hidden: frozenset[str] | set[str] = frozenset()) -> str:
+        """A type's name. `hidden` are names, in lower case, that mean something else where it is used: there the type
+        is named from the root."""
+        if ref.is_basic:
+            return ref.text
+        found = self.linked.find(ref)
+        if found is None:
+            return ref.text.replace(".", "::")
+        scope, definition = found
+        if scope is not self.linked:
+            return f"{scope.module.name}::{definition.name}"
+        return f"::{self.module.name}::{definition.name}" if definition.name.lower() in hidden else definition.name
+
+    def _value(self, type_: TypeRef, value: Literal) -> str:
+        """Enumerators are named with their enum: a member, a type or a module may have an enumerator's name too."""
+        return literal(value, type_.text) if type_.is_basic else f"{self._type(type_)}::{value.lexeme}"
+
+
+def _listed(items: list[str], indent: str, end: str) -> Iterator[str]:
+    for number, item in enumerate(items, 1):
+        yield f"{indent}{item}{',' if number < len(items) else end}"
+
+
+def _enum(enum: Enum) -> Iterator[str]:
+    names = [e.name if e.value is None else f"{e.name} = {e.value}" for e in enum.enumerators]
+    line = f"{IN}enum {enum.name} {{ {', '.join(names)} }};"
+    if len(line) <= WIDTH and not any(e.doc for e in enum.enumerators):
+        yield line
+        return
+    yield from (f"{IN}enum {enum.name}", f"{IN}{{")
+    for number, name in enumerate(names, 1):
+        yield from comment(enum.enumerators[number - 1].doc, IN * 2)
+        yield f"{IN * 2}{name}{',' if number < len(names) else ''}"
+    yield f"{IN}}};"
+
+
+def _defaults(definition: Definition) -> Iterator[str]:
+    """The enumerators that a definition names."""
+    if isinstance(definition, Constant) and not definition.type.is_basic:
+        yield definition.value.lexeme
+    elif isinstance(definition, Struct | ExceptionType):
+        for member in definition.members:
+            if member.default is not None and not member.type.is_basic:
+                yield member.default.lexeme

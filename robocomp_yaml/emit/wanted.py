@@ -1,0 +1,80 @@
+"""What several plans want below one output root, taken together: one text for each path, with its owners."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import emitting as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit.manifest import Entry
+from robocomp_yaml.emit.places import Root
+from robocomp_yaml.emit.plan import FilePlan, RootPlan
+
+
+@dataclass(slots=True)
+class Wanted:
+    plan: FilePlan
+    owners: list[str]
+
+
+@dataclass(slots=True)
+class WantedRoot:
+    """All plans for one root. `owners` says of each owner whether its plan was partial."""
+
+    root: Root
+    files: dict[str, Wanted] = field(default_factory=dict)
+    owners: dict[str, bool] = field(default_factory=dict)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def holders(self, path: str, entry: Entry | None) -> tuple[str, ...]:
+        """The documents that hold on to a file: those that want it now, and of its earlier owners those that were not
+        asked (not planned, or only in part) and still exist."""
+        wanted = self.files.get(path)
+        holders = set(wanted.owners) if wanted else set()
+        for owner in entry.owners if entry else ():
+            partial = self.owners.get(owner)
+            if partial or (partial is None and self._exists(owner)):
+                holders.add(owner)
+        return tuple(sorted(holders))
+
+    def _exists(self, owner: str) -> bool:
+        # A root that is a link has two parents: its own and that of the link.
+        return any(
+            os.path.lexists(os.path.normpath(os.path.join(root, owner)))
+            for root in (os.path.abspath(self.root.path), self.root.real)
+        )
+
+
+def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[WantedRoot]:
+    """One for each root, sorted; `others` are roots to look at though nothing is planned there."""
+    roots: dict[str, WantedRoot] = {}
+    spelled: dict[str, WantedRoot] = {}
+
+    def of(path: str) -> WantedRoot:
+        if path not in spelled:
+            root = Root(path)
+            spelled[path] = roots.setdefault(root.real, WantedRoot(root))
+        return spelled[path]
+
+    for path in others:
+        of(path)
+    for plan in plans:
+        wanted = of(plan.root)
+        wanted.owners[plan.owner] = plan.partial
+        for file in plan.files:
+            _want(wanted, file, plan.owner)
+    return [roots[real] for real in sorted(roots)]
+
+
+def _want(wanted: WantedRoot, file: FilePlan, owner: str) -> None:
+    first = wanted.files.setdefault(file.path, Wanted(file, []))
+    if first.plan != file:
+        wanted.diagnostics.append(codes.CONTESTED.at(
+            Span(wanted.root.shown(file.path)), path=file.path, owner=first.owners[0], other=owner,
+            hint="put each component in a folder of its own, and each interface under a name of its own",
+        ))
+    elif owner not in first.owners:
+        first.owners.append(owner)

@@ -1,0 +1,256 @@
+"""The writer: looks what a plan would change on the disk (`prepare`), and changes it, all or nothing (`commit`)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import replace
+
+from robocomp_yaml.diag.codes import emitting as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit import atomic, changes, manifest, properties
+from robocomp_yaml.emit.changes import Change, Changes, RootChanges
+from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, free_name
+from robocomp_yaml.emit.manifest import Entry, Manifest
+from robocomp_yaml.emit.places import Found
+from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan, RootPlan
+from robocomp_yaml.emit.wanted import WantedRoot, by_root
+from robocomp_yaml.source.digest import digest
+
+
+def prepare(plans: Iterable[RootPlan], *, adopt: bool = False, others: Iterable[str] = ()) -> Changes:
+    """What it takes to carry out the plans. Only looks at the disk.
+
+    `adopt` also takes over files that rcyaml did not write. `others` are roots with a manifest for which nothing is
+    planned: what they hold for documents that are gone is removed.
+    """
+    result = Changes()
+    for wanted in by_root(plans, others):
+        root = _Root(wanted, adopt)
+        root.prepare()
+        result.roots.append(root.result)
+        result.diagnostics += root.diagnostics
+    return result
+
+
+def commit(prepared: Changes) -> list[Diagnostic]:
+    """Makes the changes of all roots that had no refusal; where one of them cannot be made, none is."""
+    batches = [atomic.Batch(root.real, tuple(root.steps)) for root in prepared.roots if root.steps]
+    try:
+        atomic.carry_out(batches)
+    except atomic.WriteFailed as failure:
+        shown = next((root.root for root in prepared.roots if root.real == failure.root), failure.root)
+        path = os.path.normpath(os.path.join(shown, failure.path))
+        return [codes.CANNOT_WRITE.at(
+            Span(path), path=path, reason=failure.reason, hint="nothing was changed by this run"
+        )]
+    return []
+
+
+def recover(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Diagnostic]:
+    """Puts in order the roots that a killed run left in the middle of a commit. To be called before `prepare`, unless
+    nothing may be changed."""
+    diagnostics = []
+    for wanted in by_root(plans, others):
+        try:
+            if atomic.recover(wanted.root.real):
+                diagnostics.append(codes.INTERRUPTED.at(
+                    Span(wanted.root.shown(JOURNAL)), what="the folder was put back as it was before"
+                ))
+        except atomic.WriteFailed as failure:
+            diagnostics.append(_cannot_write(wanted, failure.path, failure.reason))
+        except OSError as error:
+            diagnostics.append(_cannot_write(wanted, "", error.strerror or str(error)))
+    return diagnostics
+
+
+def _cannot_write(wanted: WantedRoot, path: str, reason: str) -> Diagnostic:
+    shown = wanted.root.shown(path)
+    return codes.CANNOT_WRITE.at(Span(shown), path=shown, reason=reason)
+
+
+class _Root:
+    """The look at one root: each planned or known file meets what stands at its path."""
+
+    def __init__(self, wanted: WantedRoot, adopt: bool) -> None:
+        self.wanted = wanted
+        self.root = wanted.root
+        self.adopt = adopt
+        self.old = Manifest()
+        self.new = Manifest()
+        self.diagnostics = list(wanted.diagnostics)
+        self.result = RootChanges(wanted.root.path, wanted.root.real)
+
+    def prepare(self) -> None:
+        manifest_found = self.root.look(manifest.PATH)
+        if not self._usable(manifest_found):
+            self.result.refused = True
+            return
+        for path in sorted({*self.wanted.files, *self.old.files}):
+            wanted, entry = self.wanted.files.get(path), self.old.files.get(path)
+            if wanted is None:
+                self._unwanted(path, entry)
+            elif wanted.plan.policy == ONCE:
+                self._once(wanted.plan, entry)
+            else:
+                self._always(wanted.plan, entry)
+        self._manifest(manifest_found)
+        if any(diagnostic.severity == "error" for diagnostic in self.diagnostics):
+            self.result.refused = True
+            self.result.steps.clear()
+
+    def _usable(self, found: Found) -> bool:
+        if found.problem:
+            self._refuse(manifest.PATH, found)
+            return False
+        try:
+            self.old = manifest.read(found.data)
+        except manifest.Unusable as unusable:
+            self.diagnostics.append(codes.BAD_MANIFEST.at(
+                Span(self.root.shown(manifest.PATH)), reason=str(unusable),
+                hint="update rcyaml" if "newer" in str(unusable) else "take it back from version control, or delete it",
+            ))
+            return False
+        if any(os.path.lexists(f"{self.root.real}/{name}") for name in (JOURNAL, JOURNAL_DONE)):
+            self.diagnostics.append(codes.INTERRUPTED.at(
+                Span(self.root.shown(JOURNAL)), what="the next `rcyaml compile` puts the folder in order"
+            ))
+        return True
+
+    def _once(self, plan: FilePlan, entry: Entry | None) -> None:
+        found = self.root.look(plan.path, read=entry is None)
+        text = plan.text.encode()
+        self.result.once.append(plan.path)
+        if found.exists:
+            self._note(plan.path, changes.KEPT)
+            if entry:
+                self._own(plan.path, entry.hash, once=True)
+            elif found.data == text:
+                # Ours from a run whose manifest was not kept, such as one before a fresh clone.
+                self._own(plan.path, digest(text), once=True)
+                self._keep_base(plan.path, text)
+        elif found.problem:
+            self._refuse(plan.path, found)
+        else:
+            self._write(plan, Found(), changes.CREATE)
+            self._own(plan.path, digest(text), once=True)
+            self._keep_base(plan.path, text)
+
+    def _always(self, plan: FilePlan, entry: Entry | None) -> None:
+        found = self.root.look(plan.path)
+        text = plan.text.encode()
+        if found.problem:
+            return self._refuse(plan.path, found)
+        if not found.exists:
+            self._write(plan, found, changes.CREATE)
+        elif found.data == text:
+            if plan.executable and found.mode and not found.mode & 0o100:
+                self._write(plan, found, changes.UPDATE)
+            else:
+                self._note(plan.path, changes.UNCHANGED)
+        elif entry and digest(found.data or b"") == entry.hash:
+            self._write(plan, found, changes.UPDATE)
+        elif entry and not entry.once:
+            change = self._write(plan, found, changes.EDITED)
+            self._warn_edited(plan.path, f"it is kept as '{os.path.basename(change.orig)}'")
+        elif self.adopt or (plan.path == CONFIG and _same_properties(found.data or b"", text)):
+            self._write(plan, found, changes.ADOPT)
+        else:
+            self._note(plan.path, changes.REFUSED, found.data, text)
+            self.diagnostics.append(codes.NOT_OURS.at(
+                Span(self.root.shown(plan.path)), path=plan.path,
+                hint="`rcyaml compile --adopt` writes it, and keeps yours as .orig",
+            ))
+            return
+        self.result.settled[plan.path] = text
+        self._own(plan.path, digest(text))
+
+    def _unwanted(self, path: str, entry: Entry) -> None:
+        """A file of the manifest that no plan asks for: it stays as long as some document may still want it."""
+        owners = self.wanted.holders(path, entry)
+        if owners:
+            self.new.files[path] = replace(entry, owners=owners)
+            return
+        found = self.root.look(path, read=not entry.once)
+        if entry.once:
+            if found.exists:
+                self._note(path, changes.LEFT)
+            else:
+                self._drop_base(path)
+        elif not found.exists or found.problem:
+            return
+        elif digest(found.data or b"") == entry.hash:
+            self._note(path, changes.REMOVE, found.data)
+            self.result.steps.append(atomic.Step(path, found.data, None))
+        else:
+            orig = free_name(f"{self.root.real}/{path}")[len(self.root.real) + 1 :]
+            self._note(path, changes.EDITED, found.data, orig=orig)
+            self.result.steps.append(atomic.Step(path, found.data, None, orig=orig))
+            self._warn_edited(path, f"it is no longer generated, and kept as '{os.path.basename(orig)}'")
+
+    def _write(self, plan: FilePlan, found: Found, action: str) -> Change:
+        text = plan.text.encode()
+        orig = ""
+        if action in (changes.EDITED, changes.ADOPT):
+            orig = free_name(f"{self.root.real}/{plan.path}")[len(self.root.real) + 1 :]
+        mode = found.mode or None
+        if mode and plan.executable:
+            # Whoever may read it may run it.
+            mode |= (mode & 0o444) >> 2
+        self.result.steps.append(atomic.Step(
+            plan.path, found.data if found.exists else None, text, plan.executable, mode, orig
+        ))
+        return self._note(plan.path, action, found.data, text, orig)
+
+    def _note(
+        self, path: str, action: str, before: bytes | None = None, after: bytes | None = None, orig: str = ""
+    ) -> Change:
+        shown = self.root.shown
+        change = Change(shown(path), action, before, after, shown(orig) if orig else "")
+        self.result.changes.append(change)
+        return change
+
+    def _own(self, path: str, hash_: str, *, once: bool = False) -> None:
+        self.new.files[path] = Entry(hash_, self.wanted.holders(path, self.old.files.get(path)), once)
+
+    def _refuse(self, path: str, found: Found) -> None:
+        self._note(path, changes.REFUSED)
+        code = codes.OUTSIDE if found.outside else codes.CANNOT_WRITE
+        self.diagnostics.append(code.at(Span(self.root.shown(path)), path=path, reason=found.problem))
+
+    def _warn_edited(self, path: str, what: str) -> None:
+        self.diagnostics.append(codes.EDITED.at(
+            Span(self.root.shown(path)), path=path, what=what, hint="what is yours belongs in src/ and etc/"
+        ))
+
+    def _keep_base(self, path: str, text: bytes) -> None:
+        """The text as generated, which a later merge starts from."""
+        self._remember(f"{manifest.BASE}/{path}", text)
+
+    def _drop_base(self, path: str) -> None:
+        self._remember(f"{manifest.BASE}/{path}", None)
+
+    def _manifest(self, found: Found) -> None:
+        text = found.data
+        if self.new != self.old or not self.new.files:
+            text = self.new.text().encode() if self.new.files else None
+            self._remember(manifest.PATH, text)
+        if text is not None:
+            self.result.settled[manifest.PATH] = text
+
+    def _remember(self, path: str, text: bytes | None) -> None:
+        """A file of our own, which no report mentions."""
+        found = self.root.look(path)
+        if found.problem:
+            self._refuse(path, found)
+        elif found.data != text:
+            before = found.data if found.exists else None
+            self.result.steps.append(atomic.Step(path, before, text))
+
+
+def _same_properties(one: bytes, other: bytes) -> bool:
+    try:
+        return properties.read(one.decode()).values == properties.read(other.decode()).values
+    except UnicodeDecodeError:
+        return False

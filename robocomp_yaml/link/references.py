@@ -1,0 +1,92 @@
+"""What documents and definitions name: the types they refer to, the identifiers they introduce."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.program import Definition
+from robocomp_yaml.model.interface import (
+    Constant,
+    Enum,
+    ExceptionType,
+    Interface,
+    Map,
+    Method,
+    Sequence,
+    Struct,
+    TypeRef,
+)
+
+KINDS: dict[type, str] = {
+    Constant: "constant",
+    Struct: "struct",
+    Enum: "enum",
+    Sequence: "sequence",
+    Map: "map",
+    ExceptionType: "exception",
+    Interface: "interface",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """An identifier where it is introduced; `kind` in the user's words."""
+
+    kind: str
+    text: str
+    span: Span
+
+
+def kind_of(definition: Definition) -> str:
+    if isinstance(definition, Interface) and definition.is_topic:
+        return "topic"
+    return KINDS[type(definition)]
+
+
+def types_of(definition: Definition) -> Iterator[TypeRef]:
+    """Every type that a definition refers to, in its order; `throws` apart."""
+    match definition:
+        case Constant(type=type_):
+            yield type_
+        case Struct(members=members) | ExceptionType(members=members):
+            yield from (member.type for member in members)
+        case Sequence(element=element):
+            yield element
+        case Map(key=key, value=value):
+            yield from (key, value)
+        case Interface(methods=methods):
+            for method in methods:
+                yield from types_of_method(method)
+
+
+def types_of_method(method: Method) -> Iterator[TypeRef]:
+    if method.returns is not None:
+        yield method.returns
+    yield from (parameter.type for parameter in (*method.inputs, *method.outputs))
+
+
+def exceptions_of(definition: Definition) -> Iterator[TypeRef]:
+    if isinstance(definition, Interface):
+        for method in definition.methods:
+            yield from method.throws
+
+
+def groups(definition: Definition) -> Iterator[list[Name]]:
+    """The identifiers inside of a definition, by the scope that they share."""
+    match definition:
+        case Struct(members=members) | ExceptionType(members=members):
+            yield [Name("member", member.name, member.span) for member in members]
+        case Enum(enumerators=enumerators):
+            yield [Name("enumerator", enumerator.name, enumerator.span) for enumerator in enumerators]
+        case Interface(methods=methods):
+            yield [Name("method", method.name, method.span) for method in methods]
+            for method in methods:
+                parameters = (*method.inputs, *method.outputs)
+                yield [Name("parameter", parameter.name, parameter.span) for parameter in parameters]
+
+
+def macro(stem: str) -> str:
+    """A document's name in the characters of a macro. Documents that share it cannot become files of one program."""
+    return "".join(c if c.isascii() and c.isalnum() else "_" for c in stem).upper()

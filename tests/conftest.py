@@ -1,0 +1,91 @@
+"""What all tests share: trees of files, running rcyaml, and golden files."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from robocomp_yaml.cli import group
+
+ROOT = Path(__file__).resolve().parent.parent
+CORPUS = ROOT.parent / "shared" / "corpus"
+
+needs_corpus = pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus of legacy files is not beside the checkout")
+
+Tree = Mapping[str, "str | bytes | None"]
+
+
+def write_tree(folder: Path, files: Tree) -> Path:
+    """Writes a tree: text, bytes, None for an empty folder, '-> target' for a symlink."""
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if content is None:
+            path.mkdir(exist_ok=True)
+        elif isinstance(content, bytes):
+            path.write_bytes(content)
+        elif content.startswith("-> "):
+            path.symlink_to(content.removeprefix("-> "))
+        else:
+            path.write_text(content, encoding="utf-8")
+    return folder
+
+
+def read_tree(folder: Path) -> dict[str, str]:
+    """Every file below a folder, path to text, sorted."""
+    return {
+        str(path.relative_to(folder)): path.read_text(encoding="utf-8")
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+@pytest.fixture
+def rcyaml(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
+    """Runs `rcyaml ARGS` in tmp_path, in this process."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("RCYAML_PATH", raising=False)
+
+    def run(*args: str) -> Result:
+        result = CliRunner().invoke(group, list(args), prog_name="rcyaml")
+        if result.exception and not isinstance(result.exception, SystemExit):
+            raise result.exception  # a traceback is never right
+        return result
+
+    return run
+
+
+@pytest.fixture
+def diagnostics(rcyaml: Callable[..., Result], tmp_path: Path) -> Callable[..., list[dict[str, object]]]:
+    """The diagnostics that `rcyaml check` gives for a tree, as data."""
+
+    def check(files: Tree, *args: str) -> list[dict[str, object]]:
+        write_tree(tmp_path, files)
+        return json.loads(rcyaml("check", "--format", "json", *args).stdout)["diagnostics"]
+
+    return check
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--update-golden", action="store_true", help="write what the tests got as the golden files")
+
+
+@pytest.fixture
+def golden(request: pytest.FixtureRequest) -> Callable[[str, Mapping[str, str]], None]:
+    """Compares `{path: text}` with the folder `tests/golden/NAME`; --update-golden makes them equal."""
+
+    def compare(name: str, got: Mapping[str, str]) -> None:
+        folder = ROOT / "tests" / "golden" / name
+        if request.config.getoption("--update-golden"):
+            for stale in set(read_tree(folder)) - set(got) if folder.is_dir() else ():
+                os.unlink(folder / stale)
+            write_tree(folder, got)
+        assert folder.is_dir(), f"no golden files yet: run pytest --update-golden, and read {folder}"
+        assert dict(got) == read_tree(folder)
+
+    return compare

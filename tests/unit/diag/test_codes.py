@@ -1,0 +1,56 @@
+"""Every code has a wrong example that gives it and a right one that gives nothing."""
+
+from __future__ import annotations
+
+import json
+import os
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.codes import table
+
+ROWS = list(table().values())
+
+
+def _run(row: Code, files: object, rcyaml: Callable[..., Result], folder: Path) -> list[dict[str, object]]:
+    write_tree(folder, files)  # type: ignore[arg-type]
+    words = [name for word in shlex.split(row.command) for name in (sorted(os.listdir()) if word == "*" else [word])]
+    result = rcyaml(*words, "--format", "json")
+    return json.loads(result.stdout)["diagnostics"]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
+def test_the_wrong_example_gives_the_code(row: Code, rcyaml: Callable[..., Result], tmp_path: Path) -> None:
+    said = _run(row, row.wrong, rcyaml, tmp_path)
+    assert row.id in [d["code"] for d in said]
+    assert {d["code"] for d in said if d["severity"] == "error"} <= {row.id}
+    assert {d["severity"] for d in said if d["code"] == row.id} == {row.severity}
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
+def test_the_right_example_gives_nothing(row: Code, rcyaml: Callable[..., Result], tmp_path: Path) -> None:
+    assert _run(row, row.right, rcyaml, tmp_path) == []
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
+def test_it_is_explained(row: Code, rcyaml: Callable[..., Result]) -> None:
+    shown = rcyaml("explain", row.id.lower())
+    assert shown.exit_code == 0
+    assert shown.stdout.startswith(f"{row.id} ({row.severity}): ")
+    assert "Wrong:" in shown.stdout and "Right:" in shown.stdout
+
+
+def test_the_list_has_them_all(rcyaml: Callable[..., Result]) -> None:
+    assert [line.split()[0] for line in rcyaml("explain").stdout.splitlines()] == list(table())
+
+
+def test_an_unknown_code_is_wrong_usage(rcyaml: Callable[..., Result]) -> None:
+    result = rcyaml("explain", "RC203")
+    assert result.exit_code == 2
+    assert "did you mean RC2" in result.stderr
