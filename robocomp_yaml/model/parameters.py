@@ -195,6 +195,7 @@ class Constraint:
     expression: Expression
     text: str
     otherwise: str = ""
+    node: Node | None = field(default=None, compare=False, repr=False)
     span: Span = _span()
 
     @property
