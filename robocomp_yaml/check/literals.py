@@ -88,7 +88,8 @@ def _of_real(type_name: str, number: float, lexeme: str) -> tuple[str, str]:
         real = float(number)
         stored = struct.unpack("f", struct.pack("f", real))[0] if type_name == "float" else real
     except OverflowError:
-        return f"it is too large for a {type_name}", f"{'use double, or ' * (type_name == 'float')}write a smaller value"
+        other = "use double, or " if type_name == "float" else ""
+        return f"it is too large for a {type_name}", f"{other}write a smaller value"
     if not math.isfinite(real):
         return "Slice has no infinities, and nothing that is not a number", "write a finite number"
     if stored == 0 and re.search("[1-9]", re.split("[eE]", lexeme)[0]):

@@ -1,6 +1,7 @@
 """Names within a module: what Slice lets them be, and that no two are alike.
 
-Reserved words of target languages are no concern: each target escapes its own.
+Reserved words of target languages are no concern, since Ice's mappings escape them: but for a few that the one to
+Python forgets.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ RESERVED = frozenset(
     "local LocalObject long module Object optional out sequence short string struct throws true Value void".split()
 )
 RESERVED_SUFFIXES = ("Helper", "Holder", "Prx", "Ptr")
+UNESCAPED_IN_PYTHON = frozenset(("False", "True", "as", "async", "await", "nonlocal", "with"))  # by Ice 3.7
 LONGEST_NAME = 200
 
 
@@ -51,6 +53,9 @@ def _legal(name: Name) -> Iterator[Diagnostic]:
         other = word[0].swapcase() + word[1:]
         hint = f"choose another name; '{other}' is allowed"
         yield codes.RESERVED_WORD.at(name.span, name=word, kind=name.kind, hint=hint)
+        return
+    if word in UNESCAPED_IN_PYTHON or (name.kind == "method" and word == "staticmethod"):
+        yield codes.PYTHON_WORD.at(name.span, name=word, kind=name.kind, hint="choose another name")
         return
     parts = [part for part in word.split("_") if part]
     hint = "choose another name"

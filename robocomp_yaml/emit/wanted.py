@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import emitting as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.manifest import Entry
 from robocomp_yaml.emit.places import Root
@@ -27,7 +27,18 @@ class WantedRoot:
     root: Root
     files: dict[str, Wanted] = field(default_factory=dict)
     owners: dict[str, bool] = field(default_factory=dict)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    contested: dict[tuple[str, str], list[str]] = field(default_factory=dict)
+
+    def diagnostics(self) -> Iterator[Diagnostic]:
+        """One for each two documents that want the same files with different contents, whatever the number."""
+        for (first, second), paths in self.contested.items():
+            documents = [self.root.shown(owner) for owner in (first, second)]
+            more = f" and {len(paths) - 1} more" if len(paths) > 1 else ""
+            yield codes.CONTESTED.at(
+                Span(documents[1]), path=f"'{self.root.shown(paths[0])}'{more}", one=documents[0], other=documents[1],
+                related=[Related("the other document", Span(documents[0]))],
+                hint="give each component a folder of its own, and each interface document a name of its own",
+            )
 
     def holders(self, path: str, entry: Entry | None) -> tuple[str, ...]:
         """The documents that hold on to a file: those that want it now, and of its earlier owners those that were not
@@ -72,9 +83,6 @@ def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Wante
 def _want(wanted: WantedRoot, file: FilePlan, owner: str) -> None:
     first = wanted.files.setdefault(file.path, Wanted(file, []))
     if first.plan != file:
-        wanted.diagnostics.append(codes.CONTESTED.at(
-            Span(wanted.root.shown(file.path)), path=file.path, owner=first.owners[0], other=owner,
-            hint="put each component in a folder of its own, and each interface under a name of its own",
-        ))
+        wanted.contested.setdefault((first.owners[0], owner), []).append(file.path)
     elif owner not in first.owners:
         first.owners.append(owner)

@@ -79,7 +79,7 @@ class _Root:
         self.adopt = adopt
         self.old = Manifest()
         self.new = Manifest()
-        self.diagnostics = list(wanted.diagnostics)
+        self.diagnostics = list(wanted.diagnostics())
         self.result = RootChanges(wanted.root.path, wanted.root.real)
 
     def prepare(self) -> None:

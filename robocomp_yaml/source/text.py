@@ -12,8 +12,9 @@ from robocomp_yaml.diag.span import Span
 MAX_DOCUMENT = 16 << 20
 MAX_SCALAR = 1 << 20
 
-# What YAML 1.2 (5.1) calls non-printable: C0 but tab and line ends, DEL, surrogates, and the two non-characters.
-_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
+# What YAML 1.2 (5.1) calls non-printable: C0 but tab and line ends, DEL, C1 but NEL, surrogates, the byte order mark
+# inside of a text, and the two non-characters.
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
 
 
 def size_in_words(size: int) -> str:

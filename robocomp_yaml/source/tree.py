@@ -99,7 +99,8 @@ class _Builder:
     """Turns composed nodes into ours, collecting what is wrong."""
 
     def __init__(self, path: str, text: str) -> None:
-        self.path, self.text = path, text
+        self.path = path
+        self.has_anchors = "&" in text
         self.diagnostics: list[Diagnostic] = []
         self.known: dict[int, tuple[Node, int]] = {}  # by composed node: ours, and its size with aliases expanded
         self.open: set[int] = set()
@@ -126,7 +127,7 @@ class _Builder:
                 self.path, node, [self.build(item) for item in node.value]
             )
             self.open.discard(id(node))
-        if node.anchor is not None:
+        if self.has_anchors:  # the composer does not say which nodes have one
             self.known[id(node)] = (built, self.size - before)
         return built
 

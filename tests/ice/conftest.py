@@ -8,13 +8,14 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
 from components import Build, Built, build as build_components
 from processes import Ports, Running, Start, Storm, answers, until
+from scenario import INTERFACES, cdsl
 
 
 @pytest.fixture
@@ -98,3 +99,26 @@ def build(tmp_path: Path) -> Build:
         return build_components(documents, tmp_path)
 
     return build_here
+
+
+@pytest.fixture(scope="session")
+def slices(ice: Any, tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Makes this process know the interfaces of `scenario` and CommonBehavior: `import RoboCompArm` works then."""
+    import Ice
+
+    folder = tmp_path_factory.mktemp("slices")
+    built = build_components({**INTERFACES, "any.cdsl.yaml": cdsl("Any", implements=["Arm"])}, folder)["Any"].root
+    files = [str(built / "slice" / name) for name in ("Arm.ice", "CommonBehavior.ice")]
+    Ice.loadSlice("", ["--all", f"-I{built / 'slice'}", *files])
+
+
+@pytest.fixture
+def behavior(ice: Any, slices: None) -> Callable[[int], Any]:
+    """`behavior(port)`: the CommonBehavior of the component that serves it there."""
+    import RoboCompCommonBehavior
+
+    def proxy(port: int) -> Any:
+        found = ice.stringToProxy(f"commonbehavior:tcp -h 127.0.0.1 -p {port}")
+        return RoboCompCommonBehavior.CommonBehaviorPrx.uncheckedCast(found)
+
+    return proxy

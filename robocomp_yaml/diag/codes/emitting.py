@@ -39,7 +39,7 @@ OUTSIDE = Code(
 CONTESTED = Code(
     "RC6003",
     "error",
-    "'{path}' is wanted by {owner} and by {other}, with different contents",
+    "{path} would be written for {one} and for {other}, with different contents",
     "Two documents cannot own one file. Give each component a folder of its own, and each interface document its own "
     "name in the output folder.",
     {**_DOCUMENTS, "speech/other.cdsl.yaml": _OTHER},

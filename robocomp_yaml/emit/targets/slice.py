@@ -6,7 +6,7 @@ the author's order. The text depends on the module and its imports alone.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
 from robocomp_yaml.emit.slice_literal import literal
@@ -71,6 +71,7 @@ class _File:
     def __init__(self, linked: LinkedModule) -> None:
         self.linked = linked
         self.module = linked.module
+        self.own_names = {definition.name.lower() for definition in linked.module.definitions}
 
     def lines(self) -> Iterator[str]:
         yield f"// Compiled by rcyaml from {self.module.path.rpartition('/')[2]}: change that file, not this one."
@@ -179,9 +180,9 @@ class _File:
     def _parameter(self, parameter: Member, direction: str, hidden: set[str]) -> str:
         return f"{direction}{self._type(parameter.type, hidden)} {parameter.name}"
 
-    def _type(self, ref: TypeRef, hidden: frozenset[str] | set[str] = frozenset()) -> str:
-        """A type's name. `hidden` are names, in lower case, that mean something else where it is used: there the type
-        is named from the root."""
+    def _type(self, ref: TypeRef, hidden: Collection[str] = ()) -> str:
+        """A type's name. `hidden` are names, in lower case, that mean something else where it is used. From the root
+        where its first word would be taken for something else."""
         if ref.is_basic:
             return ref.text
         found = self.linked.find(ref)
@@ -189,7 +190,9 @@ class _File:
             return ref.text.replace(".", "::")
         scope, definition = found
         if scope is not self.linked:
-            return f"{scope.module.name}::{definition.name}"
+            module = scope.module.name.lower()
+            root = "::" if module in self.own_names or module in hidden else ""
+            return f"{root}{scope.module.name}::{definition.name}"
         return f"::{self.module.name}::{definition.name}" if definition.name.lower() in hidden else definition.name
 
     def _value(self, type_: TypeRef, value: Literal) -> str:

@@ -49,16 +49,19 @@ class Application:
 
     def run(self, only_check: bool) -> int:
         """Until the component is asked to stop; the exit code. `only_check`: it stops as soon as it has started."""
-        thread = threading.Thread(target=self._work, args=(only_check,), name="worker", daemon=True)
-        thread.start()
-        threading.Thread(target=self._watch_ice, name="shutdown", daemon=True).start()
+        work = threading.Thread(target=self._work, args=(only_check,), name="worker", daemon=True)
+        watch = threading.Thread(target=self._watch_ice, name="shutdown", daemon=True)
+        for thread in (work, watch):
+            thread.start()
         self._stopping.wait()
         self._gate.close()
-        thread.join(0.5)
+        work.join(0.5)
         if self._topics:
             self._topics.unsubscribe()
         self._communicator.destroy()
-        thread.join()
+        for thread in (work, watch):
+            thread.join()  # Python must not end while one of its threads is in Ice
+        self._stopping.done()
         return self._stopping.exit_code
 
     def _watch_ice(self) -> None:

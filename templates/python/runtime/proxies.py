@@ -30,12 +30,14 @@ def connect(
     port: Required, communicator: Ice.Communicator, settings: Settings, log: logging.Logger, stopping: Stopping
 ) -> Any:
     """The proxy of a port, when the other side answers, or at once if the port says so."""
-    proxy = from_text(communicator, f"the proxy to {port.name}", settings.proxy(port.name), settings.where)
+    text = settings.proxy(port.name)
+    what = f"{port.name} at {text}"
+    proxy = from_text(communicator, f"the proxy to {port.name}", text, settings.where)
     milliseconds = None if port.timeout is None else max(1, round(port.timeout * 1000))
     if port.absent == "wait":
-        wait_for(port.name, proxy, log, stopping, port.timeout)
+        wait_for(what, proxy, log, stopping, port.timeout)
     elif port.absent == "fail" and (why := ping(proxy, milliseconds or PATIENCE)):
-        raise StartError(f"{port.name} is not there, at {proxy}: {why}")
+        raise StartError(f"{what} is not there ({why})")
     if milliseconds is not None:
         proxy = proxy.ice_invocationTimeout(milliseconds)
     return port.proxy.uncheckedCast(proxy)

@@ -9,6 +9,7 @@ import signal
 import threading
 import time
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
 GRACE = 1.5  # seconds from the request to the end, however stuck a method may be
 
 
@@ -28,8 +29,13 @@ class Stopping:
         threading.Thread(target=self._watch, name="watchdog", daemon=True).start()
 
     def on_signals(self) -> None:
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in SIGNALS:
             signal.signal(number, lambda *_: self.request())
+
+    def done(self) -> None:
+        """All is in order: one more signal must not kill what is left of the process."""
+        for number in SIGNALS:
+            signal.signal(number, signal.SIG_IGN)
 
     def request(self, exit_code: int = 0) -> None:
         """Stop, and end with this code (the first that is not 0 wins)."""

@@ -31,8 +31,9 @@ class Topics:
             raise StartError("this Ice for Python has no IceStorm, which topics need: install python3-zeroc-ice")
         self._settings = settings
         self._subscriptions: list[tuple[Any, Ice.ObjectPrx]] = []
-        proxy = from_text(communicator, "IceStorm's topic manager", settings.topic_manager(), settings.where)
-        wait_for("TopicManager", proxy, log, stopping, None)
+        text = settings.topic_manager()
+        proxy = from_text(communicator, "IceStorm's topic manager", text, settings.where)
+        wait_for(f"TopicManager at {text}", proxy, log, stopping)
         self._manager = IceStorm.TopicManagerPrx.uncheckedCast(proxy)
 
     def publisher(self, port: Published) -> Any:

@@ -32,16 +32,18 @@ def ping(proxy: Ice.ObjectPrx, patience: int = PATIENCE) -> str:
     return ""
 
 
-def wait_for(name: str, proxy: Ice.ObjectPrx, log: logging.Logger, stopping: Stopping, timeout: float | None) -> None:
-    """Until the object answers a ping; for `timeout` seconds at most, if that is not None."""
+def wait_for(
+    what: str, proxy: Ice.ObjectPrx, log: logging.Logger, stopping: Stopping, timeout: float | None = None
+) -> None:
+    """Until the object answers a ping; for `timeout` seconds at most, if that is not None. `what` is for the user."""
     begin = time.monotonic()
     next_line = begin
     while why := ping(proxy):
         now = time.monotonic()
         if timeout is not None and now - begin >= timeout:
-            raise StartError(f"{name} did not answer within {timeout:g} s at {proxy}: {why}")
+            raise StartError(f"{what} did not answer within {timeout:g} s ({why})")
         if now >= next_line:
-            log.info("waiting for %s at %s ... (%s)", name, proxy, why)
+            log.info("waiting for %s ... (%s)", what, why)
             next_line = now + REMIND
         if stopping.wait(PAUSE):
             raise Stopped

@@ -83,10 +83,11 @@ def test_a_root_nobody_plans_for_is_swept_when_asked(tmp_path: Path) -> None:
 
 def test_two_documents_cannot_want_one_file(tmp_path: Path) -> None:
     changes, said = carry_out(
-        plan(tmp_path, always("A.ice", "1\n"), owner="x/A.idsl.yaml"),
-        plan(tmp_path, always("A.ice", "2\n"), owner="y/A.idsl.yaml"),
+        plan(tmp_path, always("A.ice", "1\n"), once("b", "1\n"), always("c", "1\n"), owner="x/A.idsl.yaml"),
+        plan(tmp_path, always("A.ice", "2\n"), once("b", "2\n"), always("c", "1\n"), owner="y/A.idsl.yaml"),
     )
-    assert codes(said) == ["RC6003"]
+    assert codes(said) == ["RC6003"], "one for both files"
+    assert "A.ice' and 1 more would" in said[0].message
     assert "x/A.idsl.yaml" in said[0].message and "y/A.idsl.yaml" in said[0].message
     assert not (tmp_path / "A.ice").exists() and changes.roots[0].refused
 

@@ -1,0 +1,132 @@
+"""`rcyaml migrate`: legacy files to documents."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+from robocomp_yaml.commands import _options
+
+if TYPE_CHECKING:
+    from robocomp_yaml.legacy.migration import Migration
+    from robocomp_yaml.legacy.sources import LegacyFile
+
+LONG = 50
+"""So many files are worth a progress bar."""
+
+
+@click.command(short_help="Carry legacy files over to YAML, losing nothing.")
+@click.argument("paths", nargs=-1, required=True, type=click.Path())
+@click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False),
+              help="Write below DIR, in the folders of the sources. Default: beside each source.")
+@click.option("--dry-run", is_flag=True, help="Write nothing; say what would be written.")
+@click.option("--diff", "show_diff", is_flag=True, help="Show what changes, as a unified diff.")
+@click.option("--report", "report", metavar="FILE", type=click.Path(dir_okay=False, allow_dash=True),
+              help="Write what became of each line of each file, as JSON.")
+@click.option("--strict", is_flag=True, help="Fail when a line of a source is lost.")
+@click.option("--force", is_flag=True, help="Overwrite documents that were edited since, showing the difference first.")
+@_options.include
+@_options.format_
+@click.pass_context
+def command(
+    ctx: click.Context, paths: tuple[str, ...], output: str | None, dry_run: bool, show_diff: bool,
+    report: str | None, strict: bool, force: bool, include: tuple[str, ...], format_: str,
+) -> None:  # fmt: skip
+    """Write documents for the legacy files at PATHS: IDSL and Slice interfaces, CDSL components.
+
+    A folder means all legacy files below it, and becomes a workspace. Comments come along. Nothing that you wrote or
+    edited is overwritten, and the sources stay as they are.
+    """
+    from robocomp_yaml.legacy.ledger import as_json
+    from robocomp_yaml.legacy.migration import forced, migrate
+    from robocomp_yaml.pipeline import search_folders
+
+    run = migrate(paths, output, search_folders(include), force=force, progress=_progress)
+    shown = run.changes() if show_diff else forced(run)
+    for path, change in list(shown):
+        click.echo(change.diff(path), nl=False, err=format_ != "text")
+    if not dry_run:
+        _write(run)
+    lost = sum(entry.lines()["lost"] for entry in run.entries)
+    if report is not None:
+        _save(report, as_json(run.entries))
+    _print(ctx, run, format_, dry_run)
+    failed = any(entry.status == "refused" for entry in run.entries) or any(
+        diagnostic.severity == "error" for diagnostic in run.diagnostics
+    )
+    if strict and lost:
+        click.echo(f"{lost} line{'s are' if lost > 1 else ' is'} lost, and --strict does not allow that", err=True)
+    ctx.exit(1 if failed or (strict and lost) else 0)
+
+
+def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
+    if len(files) < LONG or not sys.stderr.isatty():
+        yield from files
+        return
+    with click.progressbar(files, label="migrating", file=sys.stderr) as bar:
+        yield from bar
+
+
+def _write(run: Migration) -> None:
+    from pathlib import Path
+
+    try:
+        from robocomp_yaml.source import workspace_files
+    except ImportError:
+        return run.write()
+
+    run.write()
+    for home in sorted(run.schemas):
+        if os.path.isdir(home):
+            workspace_files.install(Path(home))
+
+
+def _save(path: str, text: str) -> None:
+    try:
+        with click.open_file(path, "w", encoding="utf-8") as file:
+            file.write(text)
+    except OSError as error:
+        raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
+
+
+def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool) -> None:
+    """Diagnostics, each document if asked for, and the summary by format."""
+    from robocomp_yaml.diag.render import render
+
+    told = run.diagnostics
+    documents = sum(len(entry.outputs) for entry in run.entries)
+    if format_ != "text" or told:
+        colored = format_ == "text" and _options.colored(ctx)
+        click.echo(render(format_, told, documents, colored), nl=False, color=ctx.color)
+    if format_ != "text" or ctx.obj.verbosity < 0:
+        return
+    if ctx.obj.verbosity > 0:
+        for root in run.roots.values():
+            for output in root.outputs:
+                click.echo(f"{output.state:9} {root.root.shown(output.path)}")
+    if run.entries:
+        click.echo(_table(run))
+    if dry_run:
+        click.echo("nothing was written (--dry-run)")
+
+
+def _table(run: Migration) -> str:
+    """How many files of each format ended how."""
+    from robocomp_yaml.legacy.ledger import STATUSES
+
+    rows = [["", *STATUSES, "lines lost"]]
+    formats = sorted({entry.format for entry in run.entries})
+    for name in [*formats, *(["all"] if len(formats) > 1 else [])]:
+        entries = [entry for entry in run.entries if name in ("all", entry.format)]
+        counts = [sum(entry.status == status for entry in entries) for status in STATUSES]
+        rows.append([name, *map(str, counts), str(sum(entry.lines()["lost"] for entry in entries))])
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    lines = []
+    for row in rows:
+        cells = [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
+        lines.append("  ".join(cells).rstrip())
+    return "\n".join(lines)

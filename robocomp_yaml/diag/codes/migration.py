@@ -1,0 +1,167 @@
+"""RC5xxx: what `rcyaml migrate` says about a legacy file and about what it wrote."""
+
+from __future__ import annotations
+
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING
+
+_IDSL = "module RoboCompSpeech\n{\n    interface Speech\n    {\n        bool say(string text);\n    };\n};\n"
+_CDSL = (
+    'import "Speech.idsl";\n\nComponent SpeechComp\n{\n    Communications\n    {\n        implements Speech;\n    };\n'
+    "    language python;\n};\n"
+)
+_RIGHT = {"Speech.idsl": _IDSL}
+_BOTH = {"Speech.idsl": _IDSL, "speech.cdsl": _CDSL}
+_MIGRATE = "migrate ."
+
+
+def _idsl(old: str, new: str) -> dict[str, str | bytes | None]:
+    return {"Speech.idsl": _IDSL.replace(old, new)}
+
+
+def _cdsl(old: str, new: str) -> dict[str, str | bytes | None]:
+    return {"Speech.idsl": _IDSL, "speech.cdsl": _CDSL.replace(old, new)}
+
+
+UNKNOWN_FORMAT = Code(
+    "RC5001", ERROR, "this is none of the formats that can be migrated: {formats}",
+    "A legacy file is known by what it holds: an interface file by `module NAME {`, a component by `Component NAME {`. "
+    "The suffix helps only where the content is broken.",
+    {"notes": "Remember the milk.\n"}, {"notes": _IDSL}, "migrate notes",
+)  # fmt: skip
+EMPTY = Code(
+    "RC5002", ERROR, "there is {what} in this file, so there is nothing to migrate",
+    "A file that is empty, or that holds only comments, describes no interface and no component.",
+    {"Speech.idsl": "// to be written\n"}, _RIGHT, _MIGRATE,
+)  # fmt: skip
+SYNTAX = Code(
+    "RC5003", ERROR, "{problem}",
+    "The file does not follow its format's grammar here. All such places of a file are reported at once, one for each "
+    "statement. Faults that are frequent in real files and have one possible meaning are repaired instead (RC5005).",
+    _idsl("text);", "text)"), _RIGHT, _MIGRATE,
+)  # fmt: skip
+REFUSED = Code(
+    "RC5004", ERROR, "{reason}",
+    "Slice can say more than IDSL, and what IDSL cannot say would be lost or changed. Somebody who knows what the file "
+    "is meant to say has to change it first.",
+    _idsl("interface Speech", "interface Speech extends Sound"), _RIGHT, _MIGRATE,
+)  # fmt: skip
+REPAIRED = Code(
+    "RC5005", WARNING, "{what}",
+    "The file is not quite right here, as older tools let pass. What is meant is plain, so the document says it, and "
+    "the line counts as repaired in the ledger (`--report`).",
+    {"Speech.idsl": _IDSL + "#endif\n"}, _RIGHT, _MIGRATE,
+)  # fmt: skip
+LOST = Code(
+    "RC5006", WARNING, "{what}",
+    "This line has no counterpart in the document, and what it asked for does not happen any more. The ledger counts "
+    "it as lost, and `--strict` makes a loss an error.",
+    _idsl("    interface", '    ["cpp:const"] interface'), _RIGHT, _MIGRATE,
+)  # fmt: skip
+OVERLOAD = Code(
+    "RC5007", WARNING, "the second method '{name}' is now called '{new}'",
+    "Slice and IDSL have no overloading: each method of an interface needs a name of its own. The legacy name is kept "
+    "under `x-legacy-name`. Callers of this method have to use the new one.",
+    _idsl("text);", "text);\n        bool say(string text, int volume);"), _RIGHT, _MIGRATE,
+)  # fmt: skip
+IMPORT_CASE = Code(
+    "RC5008", WARNING, "the file is called '{found}', not '{name}'; the document imports '{found}'",
+    "Legacy tools found a file although upper and lower case differed. The document uses the name that the file has.",
+    _cdsl("Speech.idsl", "speech.idsl"), _BOTH, _MIGRATE,
+)  # fmt: skip
+IMPORT_UNKNOWN = Code(
+    "RC5009", WARNING, "there is no interface file '{name}' among the files migrated, nor beside them",
+    "The import is kept by its name. Migrate the file too, or put its document into a folder that the workspace's "
+    "`interfaces:` names; until then the component cannot be compiled.",
+    _cdsl("Speech.idsl", "Mouth.idsl"), _BOTH, _MIGRATE,
+)  # fmt: skip
+UNKNOWN_TYPE = Code(
+    "RC5010", WARNING, "{problem}",
+    "The legacy generator never looked what a name refers to, so such faults stayed unseen until the Slice compiler "
+    "refused its output. `rcyaml check` reports the same at the document's line.",
+    _idsl("string text", "Utterance text"), _RIGHT, _MIGRATE,
+)  # fmt: skip
+LATIN_1 = Code(
+    "RC5011", WARNING, "this is not UTF-8 (the byte {byte} cannot stand here), so it is read as Latin-1",
+    "Old editors wrote Latin-1. The document is UTF-8; look whether its accents are right.",
+    {"Speech.idsl": b"// Se\xf1al\n" + _IDSL.encode()}, _RIGHT, _MIGRATE,
+)  # fmt: skip
+OTHER_FORMAT = Code(
+    "RC5012", WARNING, "the name says {said}, but this is {found}",
+    "The content decides what a file is; a wrong suffix is most often the trace of a copy.",
+    {"speech.idsl": _CDSL.replace('import "Speech.idsl";\n', "").replace("implements Speech;", "")}, _RIGHT, _MIGRATE,
+)  # fmt: skip
+DUPLICATE = Code(
+    "RC5013", ERROR, "'{name}' stands here a second time",
+    "Of two things with one name, only one could be in the document, and nobody can say which one is meant.",
+    _idsl("string text", "string text, int text"), _RIGHT, _MIGRATE,
+)  # fmt: skip
+BAD_NAME = Code(
+    "RC5014", ERROR, "'{name}' cannot be a name",
+    "Names end up in Slice and in program code: they consist of the letters A to Z, digits and underscores, and do not "
+    "start with a digit.",
+    _idsl("string text", "string señal"), _RIGHT, _MIGRATE,
+)  # fmt: skip
+UNKNOWN_VALUE = Code(
+    "RC5015", ERROR, "there is no {what} '{value}'",
+    "A component's language is `python` or `cpp` (`cpp11`), its graphical interface `Qt` with a `QWidget`, a "
+    "`QMainWindow` or a `QDialog`.",
+    _cdsl("language python", "language N++"), _BOTH, _MIGRATE,
+)  # fmt: skip
+NO_LANGUAGE = Code(
+    "RC5016", ERROR, "component {name} does not say its language",
+    "Without `language`, nobody knows what to compile the component to. Add `language python;` or `language cpp;`.",
+    _cdsl("    language python;\n", ""), _BOTH, _MIGRATE,
+)  # fmt: skip
+NO_PLACE = Code(
+    "RC5017", WARNING, "'{what}' means nothing any more; it is kept as `{key}`",
+    "Clauses of the first generators chose a version of Qt, or threads, that a component now has or does not have by "
+    "itself. The document keeps what they said under a key that nothing reads.",
+    _cdsl("language python;", "language python;\n    useQt qt4;"), _BOTH, _MIGRATE,
+)  # fmt: skip
+MIDDLEWARE = Code(
+    "RC5018", WARNING, "'{name}' is to speak ROS, but components speak Ice; kept as `x-middleware: ros`",
+    "The legacy grammar let an interface be marked `(ros)`. A compiled component serves and calls it over Ice.",
+    _cdsl("implements Speech", "implements Speech (ros)"), _BOTH, _MIGRATE,
+)  # fmt: skip
+STATE_MACHINE = Code(
+    "RC5019", WARNING, "the state machine '{legacy}' is not migrated with the component; it has to be at '{path}'",
+    "A component's document names its state machine as an SCXML file beside it.",
+    _cdsl("language python;", 'language python;\n    statemachine "speech.smdsl";'), _BOTH, _MIGRATE,
+)  # fmt: skip
+MEETING = Code(
+    "RC5020", WARNING, "{other} becomes {path} already, so this one becomes {own}",
+    "Two files would become the same document. The one that comes first (by format, then by name) gets the short name.",
+    {"a/Speech.idsl": _IDSL, "b/Speech.idsl": _IDSL.replace("say", "tell")},
+    {"a/Speech.idsl": _IDSL, "b/Mouth.idsl": _IDSL.replace("Speech", "Mouth")},
+    "migrate -o out a b",
+)  # fmt: skip
+TAKEN = Code(
+    "RC5021", ERROR, "{path} is there already, and `migrate` did not write it",
+    "A file that was not written by `migrate` is never overwritten. Move it away, or migrate to another folder (`-o`).",
+    {**_RIGHT, "Speech.idsl.yaml": "module: RoboCompSpeech\n"}, _RIGHT, _MIGRATE,
+)  # fmt: skip
+EDITED = Code(
+    "RC5022", WARNING, "{path} was changed since it was written; it is kept as it is",
+    "The legacy file says something new, but so does the document, by your hand. `--diff` shows what `migrate` would "
+    "write, `--force` writes it.",
+    {
+        **_RIGHT, "Speech.idsl.yaml": "module: RoboCompSpeech\n",
+        ".rcyaml/migrated.json": '{"files": {"Speech.idsl.yaml": "0"}}\n',
+    }, _RIGHT, _MIGRATE,
+)  # fmt: skip
+NOT_WRITTEN = Code(
+    "RC5023", ERROR, "{path} cannot be written: {reason}",
+    "The document could not be put in its place. Nothing is half-written: each file is as it was, or as it shall be.",
+    {**_RIGHT, "Speech.idsl.yaml": None}, _RIGHT, _MIGRATE,
+)  # fmt: skip
+NOTHING_FOUND = Code(
+    "RC5024", ERROR, "there is no legacy file in this folder",
+    "The folder, and the folders below it, hold no file with a suffix that can be migrated.",
+    {"empty": None}, _RIGHT, _MIGRATE,
+)  # fmt: skip
+PREFERRED = Code(
+    "RC5025", NOTE, "skipped: it was made from {other}, which is migrated",
+    "A Slice file beside an IDSL file of the same name is what the legacy generator made of it.",
+    {**_RIGHT, "Speech.ice": _IDSL}, _RIGHT, _MIGRATE,
+)  # fmt: skip

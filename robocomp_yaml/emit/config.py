@@ -1,0 +1,108 @@
+"""The first `etc/config` of a component: what its user will want to change, each with a word about it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+
+from robocomp_yaml.emit import ports
+from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan
+from robocomp_yaml.emit.ports import COMMON_BEHAVIOR, Endpoint, Ports, interface_key
+from robocomp_yaml.emit.properties import entry_line
+from robocomp_yaml.link.program import LinkedComponent, Port
+
+DEFAULT_PERIOD = 100
+
+_ICE = (
+    ("Ice.Warn.Connections", "0", "1: warn when a connection is lost."),
+    ("Ice.Trace.Network", "0", "1 to 3: say when connections open and close, and more."),
+    ("Ice.Trace.Protocol", "0", "1: show every message."),
+    ("Ice.MessageSizeMax", "20004800", "The largest message, in KiB."),
+)
+
+
+def plan(component: LinkedComponent, others: Sequence[LinkedComponent]) -> FilePlan:
+    """`etc/config` of a component; `others` are the other components of its workspace."""
+    table = ports.assign([component, *others])
+    sections = (
+        _head(component), _offers(component, table), _needs(component, table), _topics(component), _worker(component),
+        _middleware(),
+    )
+    text = "\n".join("".join(f"{line}\n" for line in section) for section in map(list, sections) if section)
+    return FilePlan(CONFIG, text, ONCE)
+
+
+def _head(linked: LinkedComponent) -> Iterator[str]:
+    name = linked.component.name
+    yield f"# Configuration of {name}: one KEY=VALUE a line, as Ice reads it. rcyaml wrote it once; it is yours now."
+    yield f"# The command line overrides it: bin/{name} --period.compute=50 --Ice.Trace.Network=1"
+
+
+def _offers(linked: LinkedComponent, table: Ports) -> Iterator[str]:
+    yield "# What it offers: where it listens."
+    path = linked.component.path
+    docs = {port.name: port.interface.doc for port in linked.implements}
+    for name in ports.adapters(linked):
+        doc = docs.get(name, "State, period, properties and orderly stop of every component.")
+        yield from _comment(name, doc)
+        yield entry_line(f"{name}.Endpoints", f"tcp -p {table.endpoints[path, name].port}")
+
+
+def _needs(linked: LinkedComponent, table: Ports) -> Iterator[str]:
+    if linked.requires:
+        yield "# What it needs: where the others listen."
+    earlier: dict[tuple[str, str], int] = {}
+    for port in linked.requires:
+        key = interface_key(port)
+        identity = port.interface.name.lower()
+        # A second proxy to an interface is for a second component that implements it, where there is one.
+        count = earlier[key] = earlier.get(key, -1) + 1
+        found = [one for one in table.implementers.get(key, ()) if one[0] is not linked]
+        yield from _comment(port.name, port.interface.doc)
+        if found:
+            other, adapter = found[min(count, len(found) - 1)]
+            yield f"# {_implemented(linked, found, other)}"
+            endpoint = table.endpoints[other.component.path, adapter]
+        else:
+            yield "# No component of this workspace implements it: set host and port of the one that does."
+            endpoint = Endpoint(ports.default_port("", port.interface.name))
+        where = f"{endpoint.protocol} -h {endpoint.host or 'localhost'} -p {endpoint.port}"
+        yield entry_line(f"{port.name}Proxy", f"{identity}:{where}")
+
+
+def _implemented(linked: LinkedComponent, found: Sequence[tuple[LinkedComponent, str]], chosen: LinkedComponent) -> str:
+    here = os.path.dirname(linked.component.path) or "."
+    text = f"Implemented by {chosen.component.name} ({os.path.relpath(chosen.component.path, here)})"
+    also = [other.component.name for other, _ in found if other is not chosen]
+    return f"{text}, also by {', '.join(also)}." if also else f"{text}."
+
+
+def _topics(linked: LinkedComponent) -> Iterator[str]:
+    if not (linked.publishes or linked.subscribes):
+        return
+    yield "# Topics: IceStorm carries them, and its topic manager must be running."
+    yield entry_line("TopicManager.Proxy", "IceStorm/TopicManager:default -p 9999")
+    for port in linked.subscribes:
+        yield from _comment(port.name, port.interface.doc)
+        yield "# Port 0: any free one; only IceStorm needs to know it."
+        yield entry_line(f"{port.name}Topic.Endpoints", "tcp -p 0")
+
+
+def _worker(linked: LinkedComponent) -> Iterator[str]:
+    yield "# Milliseconds from one call of compute() to the next."
+    yield entry_line("period.compute", str(linked.component.period or DEFAULT_PERIOD))
+
+
+def _middleware() -> Iterator[str]:
+    yield "# Ice, the middleware."
+    for key, value, doc in _ICE:
+        yield f"# {doc}"
+        yield entry_line(key, value)
+
+
+def _comment(name: str, doc: str) -> Iterator[str]:
+    """The first paragraph of a doc text."""
+    paragraph = doc.strip().partition("\n\n")[0].splitlines()
+    if paragraph:
+        yield f"# {name}: {paragraph[0].strip()}"
+        yield from (f"# {line.strip()}" for line in paragraph[1:])

@@ -1,0 +1,147 @@
+"""Default ports: a hash of component and interface, and what moves on when two of them meet.
+
+The range 10000–29999 lies above IceStorm's usual 9999 and RoboComp's habits, and below the ports that Linux hands out
+by itself (32768 and up). A port that an existing `etc/config` of the workspace names is taken; of two defaults that
+meet, the later name (component, then interface) moves on to the next free port. So the ports depend on the workspace's
+names alone, and stay once they stand in an `etc/config`.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import zlib
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import emitting as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit import properties
+from robocomp_yaml.emit.plan import CONFIG
+from robocomp_yaml.emit.properties import Entry
+from robocomp_yaml.link.program import LinkedComponent, Port
+
+FIRST, COUNT = 10000, 20000
+COMMON_BEHAVIOR = "CommonBehavior"
+
+_RESERVED = frozenset((11311, 11345))
+"""The masters of ROS 1 and Gazebo, which often run beside."""
+
+_ENDPOINT = re.compile(r"\s*(tcp|udp|ssl|ws|wss|default)\b([^:]*)")
+_OPTION = re.compile(r"-(\w)\s+(\S+)")
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """Where an adapter listens: the first endpoint of its property. `host` is '' for all interfaces."""
+
+    port: int
+    protocol: str = "tcp"
+    host: str = ""
+
+
+@dataclass(slots=True)
+class Ports:
+    """The endpoint of each adapter (component's document, interface's name) of a workspace, and which components
+    implement an interface (module, name), in order of their paths."""
+
+    endpoints: dict[tuple[str, str], Endpoint] = field(default_factory=dict)
+    implementers: dict[tuple[str, str], list[tuple[LinkedComponent, str]]] = field(default_factory=dict)
+
+
+def default_port(component: str, interface: str) -> int:
+    return FIRST + zlib.crc32(f"{component}/{interface}".encode()) % COUNT
+
+
+def adapters(linked: LinkedComponent) -> list[str]:
+    """The names of the adapters that need a port of their own."""
+    return list(dict.fromkeys([*(use.name for use in linked.component.implements), COMMON_BEHAVIOR]))
+
+
+def assign(components: Iterable[LinkedComponent]) -> Ports:
+    """The ports of a workspace's components: those that stand in their `etc/config`, else defaults."""
+    ordered = sorted(components, key=lambda linked: (linked.component.name, linked.component.path))
+    result = Ports()
+    taken = set(_RESERVED)
+    for linked in ordered:
+        for name, entry in _written(linked):
+            endpoint = parse_endpoint(entry.value)
+            if endpoint:
+                result.endpoints[linked.component.path, name] = endpoint
+                taken.add(endpoint.port)
+    for linked in ordered:
+        component = linked.component
+        for name in sorted(adapters(linked)):
+            if (component.path, name) not in result.endpoints:
+                port = _next_free(default_port(component.name, name), taken)
+                result.endpoints[component.path, name] = Endpoint(port)
+                taken.add(port)
+    for linked in sorted(ordered, key=lambda linked: linked.component.path):
+        for port in linked.implements:
+            result.implementers.setdefault(interface_key(port), []).append((linked, port.name))
+    return result
+
+
+def interface_key(port: Port) -> tuple[str, str]:
+    return port.scope.module.name, port.interface.name
+
+
+def parse_endpoint(value: str) -> Endpoint | None:
+    """The first endpoint of a property with a fixed port."""
+    match = _ENDPOINT.match(properties.unquoted(value))
+    if not match:
+        return None
+    options = dict(_OPTION.findall(match[2]))
+    port = options.get("p", "")
+    if not port.isascii() or not port.isdigit() or not 0 < int(port) < 65536:
+        return None
+    host = options.get("h", "").strip('"')
+    return Endpoint(int(port), match[1], "" if host in ("*", "0.0.0.0", "::") else host)
+
+
+def clashes(components: Iterable[LinkedComponent]) -> list[Diagnostic]:
+    """Endpoints that stand in the components' `etc/config` and cannot be had at once on one machine."""
+    diagnostics = []
+    seen: dict[tuple[bool, int], list[tuple[str, str, Span]]] = {}
+    for linked in sorted(components, key=lambda linked: linked.component.path):
+        for name, entry in _written(linked):
+            endpoint = parse_endpoint(entry.value)
+            if endpoint is None:
+                continue
+            span = Span(config_path(linked), entry.line, entry.column, entry.line, entry.column + len(entry.key))
+            who = f"{linked.component.name}'s {name}"
+            others = seen.setdefault((endpoint.protocol == "udp", endpoint.port), [])
+            for host, other, place in others:
+                if not host or not endpoint.host or host == endpoint.host:
+                    diagnostics.append(codes.PORT_CLASH.at(
+                        span, port=endpoint.port, name=who, other=other, hint="give one of them another port",
+                        related=[Related("the same port", place)],
+                    ))
+                    break
+            others.append((endpoint.host, who, span))
+    return diagnostics
+
+
+def config_path(linked: LinkedComponent) -> str:
+    return os.path.join(os.path.dirname(linked.component.path), CONFIG)
+
+
+def _written(linked: LinkedComponent) -> Iterator[tuple[str, Entry]]:
+    """The endpoint properties of a component's `etc/config`, by adapter, in either dialect."""
+    try:
+        with open(config_path(linked), encoding="utf-8", errors="replace") as file:
+            read = properties.read(file.read())
+    except OSError:
+        return
+    for key, entry in read.last.items():
+        if key.startswith("Endpoints."):
+            yield key.removeprefix("Endpoints."), entry
+        elif key.endswith(".Endpoints"):
+            yield key.removesuffix(".Endpoints"), entry
+
+
+def _next_free(port: int, taken: set[int]) -> int:
+    while port in taken:
+        port = FIRST + (port + 1 - FIRST) % COUNT
+    return port

@@ -1,0 +1,183 @@
+"""Where each comment of a legacy file belongs: above, at the end of, or below a construct, or into its `doc:`."""
+
+from __future__ import annotations
+
+import bisect
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from lark import Token, Tree
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.legacy.document import Notes
+from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.rules import Rules
+from robocomp_yaml.legacy.yamltext import escaped
+
+_DOC = re.compile(r"///(?!/)|/\*\*(?![*/])")
+_BEHIND = re.compile(r"///<|/\*\*<")
+
+
+@dataclass(slots=True, eq=False)
+class _Place:
+    """A construct that comments can belong to; `parent` is the one around it."""
+
+    start: int
+    end: int
+    rule: str
+    parent: _Place | None
+    notes: Notes
+
+
+@dataclass(slots=True)
+class Placed:
+    """The notes of each construct, by the identity of its tree, and those around the whole file."""
+
+    by_tree: dict[int, Notes] = field(default_factory=dict)
+    around: Notes = field(default_factory=Notes)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def of(self, tree: Tree[Token]) -> Notes:
+        return self.by_tree.get(id(tree), Notes())
+
+
+def place(tree: Tree[Token], comments: Sequence[Token], source: Source, rules: Rules) -> Placed:
+    """Every comment ends in the notes of exactly one construct, or around the file."""
+    placed = Placed()
+    places: list[_Place] = []
+    _collect(tree, None, rules, places, placed)
+    starts = [at.start for at in places]
+    previous: _Comment | None = None
+    for token in comments:
+        comment = _Comment(token, source)
+        if comment.bad:
+            placed.diagnostics.append(
+                codes.REPAIRED.at(source.span(comment.start, comment.end), what=rules.repairs["lenient_control"])
+            )
+        _put(comment, previous, places, starts, placed, source, rules)
+        previous = comment
+    return placed
+
+
+def _collect(tree: Tree[Token], parent: _Place | None, rules: Rules, places: list[_Place], placed: Placed) -> None:
+    for child in tree.children:
+        if isinstance(child, Tree):
+            inner = parent
+            if child.data in rules.places and not child.meta.empty:
+                inner = _Place(child.meta.start_pos, child.meta.end_pos, str(child.data), parent, Notes())
+                places.append(inner)
+                placed.by_tree[id(child)] = inner.notes
+            _collect(child, inner, rules, places, placed)
+
+
+class _Comment:
+    """A comment's lines without their marks, and how it stands among the lines of the file."""
+
+    def __init__(self, token: Token, source: Source) -> None:
+        text = str(token)
+        self.start, self.end = token.start_pos or 0, token.end_pos or 0
+        self.block = text.startswith("/*")
+        self.doc = bool(_DOC.match(text))
+        self.behind = bool(_BEHIND.match(text))
+        raw = _block_lines(text) if self.block else [_one_line(text)]
+        told = [escaped(line) for line in raw]
+        self.lines, self.bad = [line for line, _ in told], any(bad for _, bad in told)
+        self.first, self.last = source.line(self.start), source.line(self.end)
+        self.alone = not source.before(self.start).strip()
+        self.more = self.block and bool(source.line_text(self.last)[len(source.before(self.end)) :].strip(" \t;,"))
+        self.gap_before = self.first > 1 and not source.line_text(self.first - 1).strip()
+        self.gap_after = self.last < source.lines and not source.line_text(self.last + 1).strip()
+
+    def as_head(self) -> list[str]:
+        return [line or " " for line in self.lines]
+
+
+def _one_line(text: str) -> str:
+    body = re.sub(r"^///?<?|^//+", "", text) if _DOC.match(text) else text.lstrip("/")
+    return (body[1:] if body[:1] == " " else body).rstrip()
+
+
+def _block_lines(text: str) -> list[str]:
+    body = re.sub(r"^/\*+<?", "", re.sub(r"\*+/$", "", text))
+    lines = [line.expandtabs(4).rstrip() for line in body.split("\n")]
+    lines[0] = lines[0].strip()
+    rest = [line for line in lines[1:] if line.strip()]
+    if rest and all(line.lstrip().startswith("*") for line in rest):
+        lines[1:] = [re.sub(r"^\s*\*+ ?", "", line) for line in lines[1:]]
+    margin = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
+    lines[1:] = [line[margin:] for line in lines[1:]]
+    while lines and not lines[0].strip():
+        del lines[0]
+    while lines and not lines[-1].strip():
+        del lines[-1]
+    return lines
+
+
+def _put(
+    comment: _Comment, previous: _Comment | None, places: list[_Place], starts: list[int], placed: Placed,
+    source: Source, rules: Rules,
+) -> None:  # fmt: skip
+    before, around, after = _neighbours(comment, places, starts)
+    behind = before is not None and source.line(before.end) == comment.first and not comment.alone
+    touching = before is not None and behind and not source.text[before.end : comment.start].strip()
+    inline = after is not None and comment.more and source.line(after.start) == comment.last and not touching
+    if before is not None and behind and not inline:
+        if source.line(before.start) != comment.first and source.text[before.end - 1] == "}":
+            before.notes.foot += comment.as_head()
+        else:
+            _at_end(comment, before, rules)
+    elif around is not None and before is None and not comment.alone and not inline:
+        _at_end(comment, around, rules)
+    elif after is not None:
+        first = before is None and around is None
+        _above(comment, previous, after, placed.around if first else after.notes, before is not None, rules)
+    else:
+        _below(comment, around.notes if around else placed.around)
+
+
+def _neighbours(
+    comment: _Comment, places: list[_Place], starts: list[int]
+) -> tuple[_Place | None, _Place | None, _Place | None]:
+    """The construct that ended last before a comment, the one around it, and the next one that is inside of that."""
+    index = bisect.bisect_left(starts, comment.start)
+    before: _Place | None = None
+    around = places[index - 1] if index else None
+    while around is not None and around.end <= comment.start:
+        before, around = around, around.parent
+    after = places[index] if index < len(places) else None
+    if after is not None and around is not None and after.start >= around.end:
+        after = None
+    return before, around, after
+
+
+def _above(
+    comment: _Comment, previous: _Comment | None, target: _Place, notes: Notes, not_first: bool, rules: Rules
+) -> None:
+    """`notes` take plain comments: those of the construct below, or at the top of the file, the file's."""
+    if comment.doc and not comment.behind and rules.places[target.rule] == "doc":
+        doc = target.notes.doc
+        apart = previous is None or comment.block or previous.block or previous.last + 1 != comment.first
+        doc += [*([""] if doc and apart else []), *comment.lines]
+        return
+    if comment.gap_before and (notes.head and notes.head[-1] or not notes.head and not_first):
+        notes.head.append("")
+    notes.head += comment.as_head()
+    if comment.gap_after:
+        notes.head.append("")
+
+
+def _at_end(comment: _Comment, target: _Place, rules: Rules) -> None:
+    if comment.doc and rules.places[target.rule] == "doc" and not target.notes.doc:
+        target.notes.doc += comment.lines
+        return
+    text = " ".join(line.strip() for line in comment.lines).strip()
+    if text:
+        target.notes.tail.append(text)
+
+
+def _below(comment: _Comment, notes: Notes) -> None:
+    if comment.gap_before and notes.foot and notes.foot[-1]:
+        notes.foot.append("")
+    notes.foot += comment.as_head()

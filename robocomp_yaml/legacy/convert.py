@@ -1,0 +1,76 @@
+"""One legacy file to a draft: read, recognized, parsed, reviewed, converted. Pure but for reading the file."""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import dataclass, field
+
+from lark import Token, Tree
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.legacy import comments, directives
+from robocomp_yaml.legacy.draft import Draft, Reader, plain
+from robocomp_yaml.legacy.formats import by_name, recognize
+from robocomp_yaml.legacy.grammar import Parsed, marked, parse, words
+from robocomp_yaml.legacy.reading import Source, read
+from robocomp_yaml.legacy.rules import Rules
+
+
+@dataclass(slots=True)
+class Converted:
+    """A legacy file with what became of it. No draft: it is refused."""
+
+    path: str
+    rules: Rules | None = None
+    source: Source | None = None
+    parsed: Parsed | None = None
+    draft: Draft | None = None
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    @property
+    def refused(self) -> bool:
+        return self.draft is None
+
+
+def convert(path: str) -> Converted:
+    source, diagnostics = read(path)
+    if source is None:
+        return Converted(path, by_name(path), diagnostics=diagnostics)
+    rules, told = recognize(source)
+    result = Converted(path, rules or by_name(path), source, diagnostics=diagnostics + told)
+    if rules is not None:
+        _convert(result, source, rules)
+    return result
+
+
+def _convert(result: Converted, source: Source, rules: Rules) -> None:
+    said = result.diagnostics
+    result.parsed = parsed = parse(source, rules)
+    said += parsed.diagnostics
+    if parsed.tree is None:
+        return
+    said += directives.review(parsed.trivia, source, rules)
+    said += _review(parsed.tree, source, rules)
+    placed = comments.place(parsed.tree, parsed.comments, source, rules)
+    said += placed.diagnostics
+    reader = Reader(source, rules, parsed, placed)
+    converter = importlib.import_module(f"robocomp_yaml.legacy.converters.{rules.converter}")
+    draft = converter.convert(reader)
+    said += reader.diagnostics
+    result.draft = None if has_errors(said) else draft
+
+
+def _review(tree: Tree[Token], source: Source, rules: Rules) -> list[Diagnostic]:
+    """What the grammar took although it is not right, and names that cannot be names."""
+    said: list[Diagnostic] = []
+    for node, start, end in marked(tree, "lenient_"):
+        what = rules.repairs[str(node.data)].format(text=words(node))
+        said.append(codes.REPAIRED.at(source.span(start, end), what=what))
+    for node, start, end in marked(tree, "refused_"):
+        said.append(codes.REFUSED.at(source.span(start, end), reason=rules.refusals[str(node.data)]))
+    for token in tree.scan_values(lambda value: isinstance(value, Token) and value.type == "NAME"):
+        if not rules.names.fullmatch(plain(token)):
+            at = source.span(token.start_pos, token.end_pos)
+            said.append(codes.BAD_NAME.at(at, name=plain(token)))
+    return said

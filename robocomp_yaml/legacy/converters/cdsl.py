@@ -1,0 +1,195 @@
+"""CDSL to a CDSL document."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from lark import Token, Tree
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import Related
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Value
+from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.grammar import token, trees, words
+
+LISTS = ("implements", "requires", "publishes", "subscribesto")
+
+
+def convert(reader: Reader) -> Draft | None:
+    """The document of a file's component."""
+    tree = reader.parsed.tree
+    assert tree is not None
+    return _Converter(reader).document(tree, trees(tree, "component")[0])
+
+
+class _Converter:
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+        self.entries: dict[str, Entry] = {}
+        self.seen: dict[str, Tree[Token]] = {}
+
+    def document(self, tree: Tree[Token], component: Tree[Token]) -> Draft:
+        reader, notes = self.reader, self.reader.notes(component)
+        name = reader.name(component)
+        self._put("component", name, Notes(notes.head, notes.tail))
+        doc = reader.doc(component, name)
+        if doc:
+            self._put("doc", doc, Notes())
+        listed, imports = reader.imports(trees(tree, "import"))
+        if listed.items:
+            self._put("imports", listed, Notes())
+        for clause in trees(component):
+            if clause.data == "communications":
+                self._once(clause)
+                for communication in trees(clause, *LISTS):
+                    self._interfaces(communication)
+            elif clause.data in CLAUSES:
+                self._once(clause)
+                CLAUSES[str(clause.data)](self, clause)
+        if "language" not in self.entries:
+            at = reader.span(token(component, "NAME") or component)
+            reader.diagnostics.append(codes.NO_LANGUAGE.at(at, name=name))
+        document = Map([self.entries[key] for key in reader.rules.order if key in self.entries], block=True)
+        around = reader.placed.around
+        rest = [words(node) for node in trees(tree, "lenient_rest")]
+        around.foot[:0] = [*notes.foot, *rest]
+        return Draft(document, imports, around)
+
+    def _once(self, clause: Tree[Token]) -> None:
+        """A clause stands at most once; of two, nobody knows which one holds."""
+        name = str(clause.data)
+        if name in self.seen:
+            first = Related("the first one is here", self.reader.span(self.seen[name]))
+            self.reader.diagnostics.append(
+                codes.DUPLICATE.at(self.reader.span(clause), name=self._keyword(clause), related=[first])
+            )
+        self.seen.setdefault(name, clause)
+
+    def _keyword(self, clause: Tree[Token]) -> str:
+        """A clause's first word, as the file spells it."""
+        return self.reader.source.text[clause.meta.start_pos : clause.meta.end_pos].split("{")[0].split()[0]
+
+    def _put(self, key: str, value: Value, notes: Notes) -> Entry:
+        self.entries[key] = Entry(key, value, notes)
+        return self.entries[key]
+
+    def _key(self, clause: Tree[Token]) -> str:
+        return self.reader.rules.keys[str(clause.data)]
+
+    def _value(self, name: str, at: Token) -> str:
+        """A word in its one spelling; an error for a word that is none of those known."""
+        known = self.reader.rules.values[name]
+        if str(at).lower() not in known:
+            close = suggest(str(at), known)
+            hint = f"did you mean '{close}'?" if close else f"write one of {', '.join(known)}"
+            span = self.reader.span(at)
+            self.reader.diagnostics.append(codes.UNKNOWN_VALUE.at(span, what=name, value=at, hint=hint))
+        return known.get(str(at).lower(), str(at))
+
+    def _interfaces(self, clause: Tree[Token]) -> None:
+        """A list with its order and its repetitions: a second entry of one interface gets a name of its own."""
+        key, notes = self._key(clause), self.reader.notes(clause)
+        known = self.entries.get(key)
+        if known is None:
+            known = self._put(key, List(), notes)
+        else:
+            known.notes.add(notes)
+        assert isinstance(known.value, List)
+        tree = self.reader.parsed.tree
+        assert tree is not None
+        same = [item for other in tree.find_data(str(clause.data)) for item in trees(other, "interface")]
+        declared = {self.reader.name(item) for item in same}
+        for item in trees(clause, "interface"):
+            known.value.put(self._port(item, known.value, declared), self.reader.notes(item))
+
+    def _port(self, item: Tree[Token], listed: List, declared: set[str]) -> Value:
+        interface = self.reader.name(item)
+        used = {entry.value.entries[0].key if isinstance(entry.value, Map) else entry.value for entry in listed.items}
+        name, number = interface, 0
+        while name in used or (number and name in declared):
+            number += 1
+            name = f"{interface}{number}"
+        middleware = token(item, "MIDDLEWARE")
+        if middleware is not None and middleware.lower() == "ros":
+            self.reader.diagnostics.append(codes.MIDDLEWARE.at(self.reader.span(item), name=interface))
+            long = Map()
+            long.put("interface", interface)
+            long.put("x-middleware", "ros")
+            return Map([Entry(name, long)])
+        return interface if name == interface else Map([Entry(name, interface)])
+
+    def language(self, clause: Tree[Token]) -> None:
+        word = token(clause, "WORD")
+        assert word is not None
+        self._put("language", self._value("language", word), self.reader.notes(clause))
+
+    def gui(self, clause: Tree[Token]) -> None:
+        names = [child for child in clause.children if isinstance(child, Token)]
+        body = Map()
+        body.put("toolkit", self._value("toolkit", names[0]))
+        body.put("base", self._value("base", names[1]) if names[1:] else self.reader.rules.defaults["base"])
+        self._put("gui", body, self.reader.notes(clause))
+
+    def options(self, clause: Tree[Token]) -> None:
+        listed = List()
+        for option in trees(clause, "option"):
+            listed.put(self.reader.name(option).lower(), self.reader.notes(option))
+        self._put("options", listed, self.reader.notes(clause))
+
+    def statemachine(self, clause: Tree[Token]) -> None:
+        literal = token(clause, "STRING")
+        assert literal is not None
+        legacy = literal[1:-1].strip()
+        path = legacy[: -len(".smdsl")] + ".scxml" if legacy.lower().endswith(".smdsl") else legacy
+        self._put("statemachine", path, self.reader.notes(clause))
+        self.reader.diagnostics.append(codes.STATE_MACHINE.at(self.reader.span(literal), legacy=legacy, path=path))
+        visual = token(clause, "VISUAL")
+        if visual is not None:
+            self._no_place(clause, "visual", "true")
+
+    def obsolete(self, clause: Tree[Token]) -> None:
+        self._no_place(clause, str(clause.data), self.reader.name(clause))
+
+    def _no_place(self, clause: Tree[Token], name: str, value: str) -> None:
+        key = self.reader.rules.keys[name]
+        notes = self.reader.notes(clause) if name != "visual" else Notes()
+        self._put(key, value, notes)
+        self.reader.diagnostics.append(codes.NO_PLACE.at(self.reader.span(clause), what=words(clause), key=key))
+
+    def sources(self, clause: Tree[Token]) -> None:
+        """Paths are files of the user's repository; bare words are folders of shared classes."""
+        self._uses(clause, lambda item, text: ("sources", text.lstrip("/")) if token(item, "STRING") else (
+            "classes", text
+        ))  # fmt: skip
+
+    def libraries(self, clause: Tree[Token]) -> None:
+        self._uses(clause, lambda item, text: ("libraries", Map([Entry("link", text)])))
+
+    def _uses(self, clause: Tree[Token], place: Callable[[Tree[Token], str], tuple[str, Value]]) -> None:
+        """The entries of a block under `uses:`, with the comments of the block."""
+        uses = self.entries.get("uses") or self._put("uses", Map(block=True), Notes())
+        assert isinstance(uses.value, Map)
+        by_key = {entry.key: entry for entry in uses.value.entries}
+        entry = None
+        for item in trees(clause, "item"):
+            key, value = place(item, str(item.children[0]).strip('"'))
+            entry = by_key.get(key) or by_key.setdefault(key, uses.value.put(key, List()))
+            assert isinstance(entry.value, List)
+            entry.value.put(value, self.reader.notes(item))
+        notes = self.reader.notes(clause)
+        if entry is not None:
+            uses.notes.head += notes.head
+            entry.notes.tail += notes.tail
+            entry.notes.foot += notes.foot
+        else:  # nothing but comments
+            self.reader.placed.around.foot += [*notes.head, *notes.tail, *notes.foot]
+        if not uses.value.entries:
+            del self.entries["uses"]
+
+
+CLAUSES: dict[str, Callable[[_Converter, Tree[Token]], None]] = {
+    "language": _Converter.language, "gui": _Converter.gui, "options": _Converter.options,
+    "statemachine": _Converter.statemachine, "useqt": _Converter.obsolete, "worker": _Converter.obsolete,
+    "robocompclasses": _Converter.sources, "robocompmodules": _Converter.libraries,
+}  # fmt: skip

@@ -1,0 +1,243 @@
+"""IDSL and Slice to an IDSL document."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from lark import Token, Tree
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.legacy import literals
+from robocomp_yaml.legacy.document import List, Map, Notes, Raw, Value
+from robocomp_yaml.legacy.draft import Draft, ModuleNames, Reader, Reference, plain
+from robocomp_yaml.legacy.grammar import token, trees
+
+FEW = 4
+"""A struct with more members than this stands in a block."""
+SHORT = 100
+
+SECTIONS = {
+    "constant": "constants", "struct": "types", "enum": "types", "sequence": "types", "dictionary": "types",
+    "exception": "exceptions", "interface": "interfaces",
+}  # fmt: skip
+
+
+def convert(reader: Reader) -> Draft | None:
+    """The document of a file's one module; None where it cannot be written, with the reason."""
+    tree = reader.parsed.tree
+    assert tree is not None
+    modules = trees(tree, "module")
+    if not modules:
+        reader.diagnostics.append(codes.EMPTY.at(Span(reader.source.path), what="no module"))
+        return None
+    for extra in modules[1:]:
+        reader.refused("refused_second_module", extra.children[0])
+    return _Converter(reader).document(tree, modules[0])
+
+
+class _Converter:
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+        self.names = ModuleNames("")
+        self.seen: dict[str, Span] = {}
+
+    def document(self, tree: Tree[Token], module: Tree[Token]) -> Draft:
+        reader, notes = self.reader, self.reader.notes(module)
+        self.names.name = reader.name(module)
+        document = Map(block=True)
+        document.put("module", self.names.name, Notes(notes.head, notes.tail))
+        self._doc(document, module, self.names.name)
+        listed, imports = reader.imports(trees(tree, "import", "include"))
+        if listed.items:
+            document.put("imports", listed)
+        sections = {name: Map(block=True) for name in ("constants", "types", "exceptions", "interfaces")}
+        for definition in trees(module, *SECTIONS):
+            section = sections[SECTIONS[str(definition.data)]]
+            self._define(definition, section)
+        for name, section in sections.items():
+            if section.entries:
+                document.put(name, section)
+        around = reader.placed.around
+        around.foot[:0] = notes.foot
+        return Draft(document, imports, around, self.names)
+
+    def _define(self, tree: Tree[Token], section: Map) -> None:
+        name = self.reader.name(tree)
+        if self._is_new(self.seen, name, tree):
+            self.names.defined.add(name)
+            body = BODIES[str(tree.data)](self, tree, name)
+            section.put(name, body, self.reader.notes(tree))
+
+    def _is_new(self, seen: dict[str, Span], name: str, tree: Tree[Token]) -> bool:
+        """Whether a name is free yet; if not, that is said."""
+        at = self.reader.span(token(tree, "NAME") or tree)
+        if name in seen:
+            self.reader.diagnostics.append(
+                codes.DUPLICATE.at(at, name=name, related=[Related("the first one is here", seen[name])])
+            )
+            return False
+        seen[name] = at
+        return True
+
+    def _doc(self, into: Map, tree: Tree[Token], *names: str) -> None:
+        doc = self.reader.doc(tree, *names)
+        if doc:
+            into.put("doc", doc)
+
+    def _type(self, tree: Tree[Token]) -> str:
+        """A type as a document names it, noted as a reference."""
+        qname = next((child for child in trees(tree) if child.data == "qname"), None)
+        return self._name(qname) if qname is not None else str(tree.children[0])
+
+    def _name(self, qname: Tree[Token]) -> str:
+        parts = [plain(child) for child in qname.children if isinstance(child, Token) and child.type == "NAME"]
+        if len(parts) > 2:
+            self.reader.refused("refused_scope", qname)
+        module = parts[0] if len(parts) > 1 else ""
+        self.names.references.append(Reference(module, parts[-1], self.reader.span(qname)))
+        return ".".join(parts)
+
+    def _literal(self, tree: Tree[Token]) -> Value:
+        first = tree.children[0]
+        return literals.name(first) if isinstance(first, Tree) else literals.value(first)
+
+    def constant(self, tree: Tree[Token], name: str) -> Map:
+        type_, value = trees(tree)
+        body = Map()
+        body.put("type", self._type(type_))
+        body.put("value", self._literal(value))
+        self._doc(body, tree, name)
+        return body
+
+    def struct(self, tree: Tree[Token], name: str) -> Map:
+        body = Map(limit=SHORT)
+        self._doc(body, tree, name, self.names.name)
+        body.put("struct", self._members(trees(tree, "member")))
+        return body
+
+    def exception(self, tree: Tree[Token], name: str) -> Map | None:
+        members = trees(tree, "member")
+        body = self.struct(tree, name)
+        if not members:
+            body.entries.pop()
+        return body if body.entries else None
+
+    def _members(self, trees_: list[Tree[Token]]) -> Map:
+        members, seen = Map(block=len(trees_) > FEW), dict[str, Span]()
+        for tree in trees_:
+            name = self.reader.name(tree)
+            if self._is_new(seen, name, tree):
+                members.put(name, self._member(tree, name), self.reader.notes(tree))
+        return members
+
+    def _member(self, tree: Tree[Token], name: str) -> Value:
+        """The short form, a type, unless there is more to say."""
+        parts = {str(part.data): part for part in trees(tree)}
+        body = Map()
+        body.put("type", self._type(parts["type"]))
+        if "literal" in parts:
+            body.put("default", self._literal(parts["literal"]))
+        self._doc(body, tree, name)
+        return body if len(body.entries) > 1 else body.entries[0].value
+
+    def enum(self, tree: Tree[Token], name: str) -> Map:
+        body, enumerators = Map(), trees(tree, "enumerator")
+        self._doc(body, tree, name)
+        docs = [self.reader.doc(item) for item in enumerators]
+        plain_list = not any(docs) and not any(trees(item) for item in enumerators)
+        listed: Map | List = List() if plain_list else Map()
+        seen: dict[str, Span] = {}
+        for item, doc in zip(enumerators, docs, strict=True):
+            key, notes = self.reader.name(item), self.reader.notes(item)
+            if not self._is_new(seen, key, item):
+                continue
+            if isinstance(listed, List):
+                listed.put(key, notes)
+                continue
+            value = self._literal(trees(item)[0]) if trees(item) else None
+            if doc:
+                long = Map()
+                if value is not None:
+                    long.put("value", value)
+                long.put("doc", doc)
+                value = long
+            listed.put(key, value, notes)
+        body.put("enum", listed)
+        return body
+
+    def sequence(self, tree: Tree[Token], name: str) -> Map:
+        body = Map()
+        self._doc(body, tree, name)
+        body.put("sequence", self._type(trees(tree)[0]))
+        return body
+
+    def dictionary(self, tree: Tree[Token], name: str) -> Map:
+        body, inner = Map(), Map()
+        self._doc(body, tree, name)
+        for key, part in zip(("key", "value"), trees(tree), strict=True):
+            inner.put(key, self._type(part))
+        body.put("map", inner)
+        return body
+
+    def interface(self, tree: Tree[Token], name: str) -> Map:
+        body, methods = Map(block=True), Map(block=True)
+        self._doc(body, tree, name, self.names.name)
+        declared = trees(tree, "method")
+        taken = {self.reader.name(method).lower() for method in declared}
+        used: set[str] = set()
+        for method in declared:
+            legacy = key = self.reader.name(method)
+            if legacy in used:
+                key = free_name(legacy, taken)
+                at = self.reader.span(token(method, "NAME") or method)
+                self.reader.diagnostics.append(codes.OVERLOAD.at(at, name=legacy, new=key))
+            used.add(key)
+            methods.put(key, self._method(method, legacy, key), self.reader.notes(method))
+        if methods.entries:
+            body.put("methods", methods)
+        return body
+
+    def _method(self, tree: Tree[Token], legacy: str, key: str) -> Map | None:
+        body, parameters = Map(), trees(tree, "parameter")
+        self._doc(body, tree, legacy)
+        if key != legacy:
+            body.put("x-legacy-name", legacy)
+        outs = [token(parameter, "OUT") is not None for parameter in parameters]
+        if outs != sorted(outs):
+            self.reader.repaired("lenient_order", token(tree, "NAME") or tree, legacy)
+        for direction, wanted in (("in", False), ("out", True)):
+            chosen = [parameter for parameter, out in zip(parameters, outs, strict=True) if out is wanted]
+            if chosen:
+                members = self._members(chosen)
+                members.block = False
+                body.put(direction, members)
+        returned = trees(tree, "type")
+        if returned:
+            body.put("returns", self._type(returned[0]))
+        thrown = [self._name(qname) for throws in trees(tree, "throws") for qname in trees(throws)]
+        if thrown:
+            listed = List()
+            for exception in thrown:
+                listed.put(exception)
+            body.put("throws", listed)
+        if token(tree, "IDEMPOTENT") is not None:
+            body.put("idempotent", Raw("true"))
+        return body if body.entries else None
+
+
+def free_name(name: str, taken: set[str]) -> str:
+    """`name_2`, or the next that is free; it is taken then."""
+    number = 2
+    while f"{name}_{number}".lower() in taken:
+        number += 1
+    taken.add(f"{name}_{number}".lower())
+    return f"{name}_{number}"
+
+
+BODIES: dict[str, Callable[[_Converter, Tree[Token], str], Value]] = {
+    "constant": _Converter.constant, "struct": _Converter.struct, "enum": _Converter.enum,
+    "sequence": _Converter.sequence, "dictionary": _Converter.dictionary, "exception": _Converter.exception,
+    "interface": _Converter.interface,
+}  # fmt: skip

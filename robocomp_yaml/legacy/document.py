@@ -1,0 +1,166 @@
+"""YAML documents to be written: a tree of entries with their comments, and its text.
+
+Short mappings and lists stand on one line, in flow style; what is longer, or holds comments, stands in block style.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.legacy.yamltext import is_printable, scalar
+
+WIDTH = 120
+
+
+@dataclass(slots=True)
+class Notes:
+    """Comments of an entry, without '#': lines above it ('' is an empty line), at its end, and below all it holds.
+    `doc` are the lines of its doc comments."""
+
+    head: list[str] = field(default_factory=list)
+    tail: list[str] = field(default_factory=list)
+    foot: list[str] = field(default_factory=list)
+    doc: list[str] = field(default_factory=list)
+
+    def __bool__(self) -> bool:
+        return bool(self.head or self.tail or self.foot)
+
+    def add(self, other: Notes) -> None:
+        """Takes over another entry's comments, which now stand above this one's."""
+        self.head += [*other.head, *other.tail, *other.foot]
+
+
+@dataclass(frozen=True, slots=True)
+class Raw:
+    """A scalar as it is spelled: a number, a boolean."""
+
+    lexeme: str
+
+
+@dataclass(slots=True)
+class Map:
+    """`block`: never on one line. `limit`: the longest line that it may stand on, with its key."""
+
+    entries: list[Entry] = field(default_factory=list)
+    block: bool = False
+    limit: int = WIDTH
+
+    def put(self, key: str, value: Value, notes: Notes | None = None) -> Entry:
+        entry = Entry(key, value, notes or Notes())
+        self.entries.append(entry)
+        return entry
+
+
+@dataclass(slots=True)
+class List:
+    items: list[Entry] = field(default_factory=list)
+
+    def put(self, value: Value, notes: Notes | None = None) -> Entry:
+        entry = Entry("", value, notes or Notes())
+        self.items.append(entry)
+        return entry
+
+
+Value = str | Raw | Map | List | None
+
+
+@dataclass(slots=True)
+class Entry:
+    key: str
+    value: Value
+    notes: Notes = field(default_factory=Notes)
+
+
+def text(document: Map, around: Notes) -> str:
+    """The document's text; `around` are the comments above and below all."""
+    lines = [*_comments(around.head, ""), *_map(document, ""), *_comments(around.foot, "")]
+    while lines and not lines[-1]:
+        lines.pop()
+    return "\n".join(lines) + "\n"
+
+
+def _map(node: Map, indent: str) -> Iterator[str]:
+    for entry in node.entries:
+        yield from _comments(entry.notes.head, indent)
+        yield from _entry(entry, indent, f"{indent}{scalar(entry.key)}:")
+
+
+def _list(node: List, indent: str) -> Iterator[str]:
+    for item in node.items:
+        yield from _comments(item.notes.head, indent)
+        yield from _entry(item, indent, f"{indent}-")
+
+
+def _entry(entry: Entry, indent: str, start: str) -> Iterator[str]:
+    tail = "  # " + " # ".join(entry.notes.tail) if entry.notes.tail else ""
+    line = _line(entry.value, start)
+    inner = indent + "  "
+    if line is not None:
+        yield line + tail
+    elif isinstance(entry.value, str):
+        header, body = _block_text(entry.value, inner)
+        yield f"{start} {header}{tail}"
+        yield from body
+    elif isinstance(entry.value, Map):
+        yield start + tail
+        yield from _map(entry.value, inner)
+    elif isinstance(entry.value, List):
+        yield start + tail
+        yield from _list(entry.value, inner)
+    yield from _comments(entry.notes.foot, inner)
+
+
+def _line(value: Value, start: str) -> str | None:
+    """An entry on one line, where it can stand on one."""
+    if value is None:
+        return start
+    if isinstance(value, Map | List):
+        if isinstance(value, Map) and value.block and value.entries:
+            return None
+        line = _flow(value)
+        limit = value.limit if isinstance(value, Map) else WIDTH
+        empty = line in ("{}", "[]")
+        return f"{start} {line}" if line is not None and (empty or len(start) + 1 + len(line) <= limit) else None
+    if isinstance(value, Raw):
+        return f"{start} {value.lexeme}"
+    line = f"{start} {scalar(value)}"
+    as_block = "\n" in value or (len(line) > WIDTH and " " in value)
+    return None if as_block and is_printable(value) and not value[:1].isspace() else line
+
+
+def _flow(value: Value) -> str | None:
+    """A value within a line; None where it cannot be."""
+    if value is None:
+        return "null"
+    if isinstance(value, Raw):
+        return value.lexeme
+    if isinstance(value, str):
+        return None if "\n" in value else scalar(value, flow=True)
+    entries = value.entries if isinstance(value, Map) else value.items
+    if any(entry.notes for entry in entries) or (entries and isinstance(value, Map) and value.block):
+        return None
+    parts: list[str] = []
+    for entry in entries:
+        inner = _flow(entry.value)
+        if inner is None:
+            return None
+        parts.append(f"{scalar(entry.key, flow=True)}: {inner}" if isinstance(value, Map) else inner)
+    return "{" + ", ".join(parts) + "}" if isinstance(value, Map) else "[" + ", ".join(parts) + "]"
+
+
+def _block_text(value: str, indent: str) -> tuple[str, list[str]]:
+    """A text as a block: kept line by line (`|`), or one long line folded (`>`)."""
+    if "\n" in value or "  " in value or "\t" in value:
+        return "|", [(indent + line).rstrip() for line in value.split("\n")]
+    width = max(WIDTH - len(indent), 40)
+    return ">", textwrap.wrap(
+        value, width + len(indent), initial_indent=indent, subsequent_indent=indent,
+        break_long_words=False, break_on_hyphens=False,
+    )
+
+
+def _comments(lines: list[str], indent: str) -> Iterator[str]:
+    for line in lines:
+        yield f"{indent}# {line}".rstrip() if line else ""

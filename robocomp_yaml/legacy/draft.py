@@ -1,0 +1,131 @@
+"""What a converter makes of one legacy file: a document, but for what its imports will be called."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+from lark import Token, Tree
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.legacy.comments import Placed
+from robocomp_yaml.legacy.document import Entry, List, Map, Notes
+from robocomp_yaml.legacy.grammar import Parsed, token
+from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.rules import Rules
+
+
+@dataclass(frozen=True, slots=True)
+class ImportDraft:
+    """An import as the file spells it; `entry` is where its name goes."""
+
+    path: str
+    span: Span
+    entry: Entry
+
+    @property
+    def stem(self) -> str:
+        return base_name(self.path)
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """A type that a module names: `module` is '' for one of its own."""
+
+    module: str
+    name: str
+    span: Span
+
+
+@dataclass(slots=True)
+class ModuleNames:
+    """What a module defines and refers to: enough to tell a reference that leads nowhere."""
+
+    name: str
+    defined: set[str] = field(default_factory=set)
+    references: list[Reference] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class Draft:
+    document: Map
+    imports: list[ImportDraft]
+    around: Notes
+    module: ModuleNames | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Reader:
+    """What converters share: the file, its rules, where its comments belong, and what there is to say about it."""
+
+    source: Source
+    rules: Rules
+    parsed: Parsed
+    placed: Placed
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def span(self, node: Tree[Token] | Token) -> Span:
+        if isinstance(node, Token):
+            return self.source.span(node.start_pos or 0, node.end_pos or 0)
+        return self.source.span(node.meta.start_pos, node.meta.end_pos)
+
+    def notes(self, tree: Tree[Token]) -> Notes:
+        return self.placed.of(tree)
+
+    def name(self, tree: Tree[Token]) -> str:
+        """The name of a construct."""
+        found = token(tree, "NAME")
+        return plain(found) if found is not None else ""
+
+    def repaired(self, repair: str, node: Tree[Token] | Token, text: str = "") -> None:
+        what = self.rules.repairs[repair].format(text=text)
+        self.diagnostics.append(codes.REPAIRED.at(self.span(node), what=what))
+
+    def refused(self, refusal: str, node: Tree[Token] | Token) -> None:
+        self.diagnostics.append(codes.REFUSED.at(self.span(node), reason=self.rules.refusals[refusal]))
+
+    def doc(self, tree: Tree[Token], *names: str) -> str:
+        """The doc comments of a construct as Markdown; markup that only names it goes."""
+        lines = self.notes(tree).doc
+        own = "|".join(re.escape(name) for name in names if name)
+        drop = re.compile(self.rules.doc_drop.replace("{name}", f"(?:{own})"))
+        kept = [line.replace("\t", " ") for line in lines if not drop.match(line.strip())]
+        return dedented(self.rules.doc_strip.sub("", "\n".join(kept)))
+
+    def imports(self, nodes: list[Tree[Token]]) -> tuple[List, list[ImportDraft]]:
+        """The list under `imports:`, each file once."""
+        listed, drafts = List(), list[ImportDraft]()
+        for node in nodes:
+            literal = next(child for child in node.children if isinstance(child, Token))
+            path = re.sub(r'^[^"<]*["<]|[">]$', "", str(literal)).strip()
+            if not base_name(path):
+                self.diagnostics.append(codes.SYNTAX.at(self.span(literal), problem="an import of nothing", hint=""))
+            elif any(known.stem == base_name(path) for known in drafts):
+                self.repaired("lenient_duplicate_import", literal, base_name(path))
+                drafts[-1].entry.notes.tail += [*self.notes(node).head, *self.notes(node).tail]
+            else:
+                entry = listed.put(base_name(path), self.notes(node))
+                drafts.append(ImportDraft(path, self.span(literal), entry))
+        return listed, drafts
+
+
+def plain(name: Token) -> str:
+    """An identifier without the '\\' that lets Slice use a keyword as one."""
+    return str(name).lstrip("\\")
+
+
+def base_name(path: str) -> str:
+    """`X` for `/a/b/X.idsl`, `X.ice` and `X`."""
+    return re.sub(r"\.(?:idsl|ice)$", "", re.split(r"[/\\]", path)[-1], flags=re.IGNORECASE)
+
+
+def dedented(text: str) -> str:
+    """Without blank lines around it, and without the indentation that all lines but the first share."""
+    lines = [line.rstrip() for line in text.split("\n")]
+    while lines and not lines[0].strip():
+        del lines[0]
+    rest = [line for line in lines[1:] if line]
+    margin = min((len(line) - len(line.lstrip()) for line in rest), default=0)
+    return "\n".join([lines[0].lstrip(), *(line[margin:] for line in lines[1:])]).rstrip() if lines else ""

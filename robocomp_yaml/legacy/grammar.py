@@ -1,0 +1,112 @@
+"""A legacy text parsed by its grammar: the tree with what the parser passes over, or every syntax error."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cache
+
+from lark import Lark, Token, Tree
+from lark.exceptions import UnexpectedInput
+
+from robocomp_yaml import resources
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.legacy import syntax_error
+from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.rules import Rules
+
+MAX_ERRORS = 20
+"""As many syntax errors of one file are reported: then it is something else altogether."""
+
+COMMENTS = ("LINE_COMMENT", "BLOCK_COMMENT")
+_IGNORED = re.compile(r"^%ignore (?!BLANK)(\w+)", re.MULTILINE)
+
+
+@dataclass(slots=True)
+class Parsed:
+    """`trivia` are comments and other tokens that no rule of the grammar takes, in order. No tree: there are errors."""
+
+    tree: Tree[Token] | None
+    trivia: list[Token] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    @property
+    def comments(self) -> list[Token]:
+        return [token for token in self.trivia if token.type in COMMENTS]
+
+
+@dataclass(slots=True)
+class _Parser:
+    lark: Lark
+    trivia: list[Token]
+
+
+@cache
+def _parser(grammar: str) -> _Parser:
+    text = resources.text(f"migrate/{grammar}")
+    trivia: list[Token] = []
+
+    def keep(token: Token) -> Token:
+        trivia.append(token)
+        return token
+
+    lark = Lark(
+        text, parser="lalr", lexer="contextual", propagate_positions=True, maybe_placeholders=False,
+        lexer_callbacks=dict.fromkeys(_IGNORED.findall(text), keep),
+    )
+    return _Parser(lark, trivia)
+
+
+def parse(source: Source, rules: Rules) -> Parsed:
+    """After an error, the statement it stands in is blanked out and all is parsed again, for the next one."""
+    parser = _parser(rules.grammar)
+    text: str | None = source.text
+    said: list[Diagnostic] = []
+    while text is not None and len(said) < MAX_ERRORS:
+        parser.trivia.clear()
+        try:
+            tree = parser.lark.parse(text)
+        except UnexpectedInput as error:
+            fault = syntax_error.explain(error, text, source, rules, parser.lark)
+            said.append(fault.diagnostic)
+            text = fault.rest
+        else:
+            return Parsed(None if said else tree, list(parser.trivia), said)
+    return Parsed(None, [], said)
+
+
+def marked(tree: Tree[Token], prefix: str) -> Iterator[tuple[Tree[Token], int, int]]:
+    """The outermost subtrees whose rule's name starts with `prefix`, each with its place.
+
+    An empty one (something is missing there) stands at the end of what is before it.
+    """
+    return _marked(tree, prefix, 0)
+
+
+def _marked(tree: Tree[Token], prefix: str, end: int) -> Iterator[tuple[Tree[Token], int, int]]:
+    for child in tree.children:
+        if not isinstance(child, Tree):
+            end = child.end_pos or end
+            continue
+        if str(child.data).startswith(prefix):
+            yield (child, end - 1, end) if child.meta.empty else (child, child.meta.start_pos, child.meta.end_pos)
+        else:
+            yield from _marked(child, prefix, child.meta.start_pos if not child.meta.empty else end)
+        end = end if child.meta.empty else child.meta.end_pos
+
+
+def words(tree: Tree[Token]) -> str:
+    """The tokens of a subtree, as a message quotes them."""
+    return " ".join(str(token) for token in tree.scan_values(lambda value: isinstance(value, Token)))
+
+
+def token(tree: Tree[Token], kind: str) -> Token | None:
+    """The first token of a kind directly below a tree."""
+    return next((child for child in tree.children if isinstance(child, Token) and child.type == kind), None)
+
+
+def trees(tree: Tree[Token], *kinds: str) -> list[Tree[Token]]:
+    """The subtrees of these kinds directly below a tree; all of them, if none is named."""
+    below = [child for child in tree.children if isinstance(child, Tree)]
+    return [child for child in below if not kinds or child.data in kinds]

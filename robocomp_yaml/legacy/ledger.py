@@ -1,0 +1,100 @@
+"""The ledger: what became of every line of every file, and the totals."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic
+from robocomp_yaml.diag.render.json import as_data
+from robocomp_yaml.legacy.convert import Converted
+from robocomp_yaml.legacy.grammar import Parsed
+from robocomp_yaml.legacy.reading import Source
+
+CONVERTED, WARNED, REFUSED, SKIPPED = "converted", "warned", "refused", "skipped"
+STATUSES = (CONVERTED, WARNED, REFUSED, SKIPPED)
+CLASSES = ("blank", "converted", "comment", "repaired", "lost", "refused")
+
+_REPAIRS = {codes.REPAIRED.id: "repaired", codes.OVERLOAD.id: "repaired", codes.LOST.id: "lost"}
+
+
+@dataclass(slots=True)
+class Entry:
+    """What became of one file. `skipped`: its document was left as it is, on purpose."""
+
+    file: Converted
+    outputs: list[str] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    skipped: bool = False
+
+    @property
+    def status(self) -> str:
+        severities = {diagnostic.severity for diagnostic in self.diagnostics}
+        if self.file.refused and not self.skipped or ERROR in severities:
+            return REFUSED
+        if self.skipped:
+            return SKIPPED
+        return WARNED if WARNING in severities else CONVERTED
+
+    @property
+    def format(self) -> str:
+        return self.file.rules.title if self.file.rules is not None else "unknown"
+
+    def lines(self) -> Counter[str]:
+        """How many lines are in each class; the classes add up to the file's lines."""
+        source = self.file.source
+        if source is None:
+            return Counter()
+        refused = self.status == REFUSED or self.file.parsed is None or self.file.parsed.tree is None
+        return Counter(classify(source, self.file.parsed, self.diagnostics, refused))
+
+
+def classify(source: Source, parsed: Parsed | None, diagnostics: Iterable[Diagnostic], refused: bool) -> list[str]:
+    """The class of each line."""
+    texts = source.text.split("\n")[: source.lines]
+    if refused or parsed is None:
+        return ["refused" if text.strip() else "blank" for text in texts]
+    bare = list(source.text)
+    commented: set[int] = set()
+    for token in parsed.comments:
+        start, end = token.start_pos or 0, token.end_pos or 0
+        bare[start:end] = [char if char == "\n" else " " for char in bare[start:end]]
+        commented.update(range(source.line(start), source.line(end) + 1))
+    classes = []
+    for number, text in enumerate("".join(bare).split("\n")[: source.lines], 1):
+        classes.append("converted" if text.strip() else "comment" if number in commented else "blank")
+    last_of = {source.line(t.start_pos or 0): source.line(t.end_pos or 0) for t in parsed.trivia}
+    for diagnostic in diagnostics:
+        to, first = _REPAIRS.get(diagnostic.code), diagnostic.span.line
+        for line in range(first, last_of.get(first, first) + 1) if to is not None else ():
+            if to is not None and classes[line - 1] in ("converted", "repaired"):
+                classes[line - 1] = to
+    return classes
+
+
+def as_json(entries: Sequence[Entry]) -> str:
+    """The report of `--report`."""
+    totals: dict[str, object] = {"files": len(entries)}
+    totals |= {status: sum(entry.status == status for entry in entries) for status in STATUSES}
+    lines: Counter[str] = Counter()
+    files = []
+    for entry in entries:
+        own = entry.lines()
+        lines += own
+        files.append({
+            "source": entry.file.path,
+            "format": entry.file.rules.name if entry.file.rules is not None else None,
+            "status": entry.status,
+            "outputs": entry.outputs,
+            "lines": _counts(own),
+            "diagnostics": [as_data(diagnostic) for diagnostic in entry.diagnostics],
+        })
+    totals["lines"] = _counts(lines)
+    return json.dumps({"files": files, "totals": totals}, indent=2, ensure_ascii=False) + "\n"
+
+
+def _counts(lines: Counter[str]) -> dict[str, int]:
+    return {"total": lines.total(), **{name: lines[name] for name in CLASSES}}

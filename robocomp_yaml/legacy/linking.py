@@ -1,0 +1,131 @@
+"""What the files of one run mean to each other: the names of imports, and references that lead nowhere."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.legacy.convert import Converted
+from robocomp_yaml.legacy.draft import ImportDraft, ModuleNames, Reference, base_name
+from robocomp_yaml.link.workspace import Search, Workspace
+
+INTERFACES = "idsl"
+
+
+@dataclass(slots=True)
+class Neighbours:
+    """The interface files of a run by their stem, and where else a document may be found."""
+
+    search: Search
+    by_stem: dict[str, list[Converted]] = field(default_factory=dict)
+    _listed: dict[str, dict[str, str]] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, files: Iterable[Converted], search: Search) -> Neighbours:
+        neighbours = cls(search)
+        for file in files:
+            if file.rules is not None and file.rules.kind == INTERFACES:
+                neighbours.by_stem.setdefault(base_name(file.path), []).append(file)
+        return neighbours
+
+    def imported(self, importer: Converted, stem: str) -> Converted | None:
+        """The file of the run that an import means: the one beside it, else the first."""
+        found = self.by_stem.get(stem, [])
+        here = os.path.dirname(importer.path)
+        return next((file for file in found if os.path.dirname(file.path) == here), found[0] if found else None)
+
+    def beside(self, importer: Converted) -> dict[str, str]:
+        """The stems of the interface files in an importer's folder, by their lower case."""
+        folder = os.path.dirname(importer.path) or "."
+        if folder not in self._listed:
+            names = sorted(os.listdir(folder))
+            known = (base_name(name) for name in names if name.lower().endswith((".idsl", ".ice")))
+            self._listed[folder] = {stem.lower(): stem for stem in known}
+        return self._listed[folder]
+
+    def who_defines(self, name: str) -> str:
+        """Where a name that is missing can be found, as a hint."""
+        for stem, files in sorted(self.by_stem.items()):
+            for file in files:
+                module = file.draft.module if file.draft is not None else None
+                if module is not None and name in module.defined:
+                    return f"{stem} has it: import {stem}, and write {module.name}::{name}"
+        return ""
+
+
+def name_imports(
+    file: Converted, document: str, workspace: Workspace, neighbours: Neighbours
+) -> Iterable[Diagnostic]:
+    """Puts each import's name into the document; warns of those found in another spelling, or not at all."""
+    if file.draft is None:
+        return
+    for wanted in file.draft.imports:
+        name = _name(wanted, file, document, workspace, neighbours)
+        if name is None:
+            yield codes.IMPORT_UNKNOWN.at(wanted.span, name=wanted.stem)
+        elif name.lower() == wanted.stem.lower() and name != wanted.stem:
+            yield codes.IMPORT_CASE.at(wanted.span, name=wanted.stem, found=name)
+        wanted.entry.value = name or wanted.stem
+
+
+def _name(
+    wanted: ImportDraft, file: Converted, document: str, workspace: Workspace, neighbours: Neighbours
+) -> str | None:
+    stem, beside = wanted.stem, neighbours.beside(file)
+    found, other_case = neighbours.search.find(stem, document, workspace)
+    if stem in neighbours.by_stem or beside.get(stem.lower()) == stem or (found and not other_case):
+        return stem
+    path = wanted.path.replace("\\", "/")
+    if "/" in path and not path.startswith("/"):
+        there = os.path.join(os.path.dirname(file.path), path)
+        if os.path.isfile(there) or os.path.isfile(f"{there}.idsl"):
+            return os.path.normpath(path).removesuffix(".idsl").removesuffix(".ice")
+    spelled = {known.lower(): known for known in sorted(neighbours.by_stem)}
+    if found:
+        return os.path.basename(found).removesuffix(".idsl.yaml")
+    return spelled.get(stem.lower()) or beside.get(stem.lower())
+
+
+def unknown_references(file: Converted, neighbours: Neighbours) -> Iterable[Diagnostic]:
+    """References of a module that nothing defines. What an import from elsewhere defines is not known here."""
+    if file.draft is None or file.draft.module is None:
+        return
+    modules: dict[str, ModuleNames] = {}
+    complete = True
+    for wanted in file.draft.imports:
+        target = neighbours.imported(file, str(wanted.entry.value))
+        if target is None or target.draft is None or target.draft.module is None:
+            complete = False
+        else:
+            modules[target.draft.module.name] = modules[wanted.stem] = target.draft.module
+    own = file.draft.module
+    for reference in own.references:
+        problem = _problem(reference, own, modules, complete, neighbours)
+        if problem:
+            yield codes.UNKNOWN_TYPE.at(reference.span, problem=problem[0], hint=problem[1])
+
+
+def _problem(
+    reference: Reference, own: ModuleNames, modules: Mapping[str, ModuleNames], complete: bool,
+    neighbours: Neighbours,
+) -> tuple[str, str] | None:  # fmt: skip
+    """What is wrong with a reference, and how to mend it."""
+    name, module = reference.name, reference.module
+    if module in ("", own.name):
+        if name in own.defined:
+            return None
+        problem = f"module {own.name} defines no '{name}'"
+    elif module in modules:
+        if name in modules[module].defined:
+            return None
+        problem = f"module {module} defines no '{name}'"
+    elif complete:
+        problem = f"module {module} is not imported, so '{module}::{name}' is unknown"
+    else:
+        return None
+    return problem, neighbours.who_defines(name)
+
+

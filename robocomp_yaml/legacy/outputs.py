@@ -1,0 +1,130 @@
+"""What a run writes: decided against what stands on the disk, then carried out, all files of a root at once.
+
+`.rcyaml/migrated.json` remembers the digest of each file that was written, so that a later run can tell its own files
+from those that a user wrote or edited.
+"""
+
+from __future__ import annotations
+
+import difflib
+import json
+from dataclasses import dataclass, field
+
+from robocomp_yaml.emit.atomic import Batch, Step, WriteFailed, carry_out, recover
+from robocomp_yaml.emit.places import STATE, Root
+from robocomp_yaml.source.digest import digest
+
+MEMORY = f"{STATE}/migrated.json"
+CREATED, CHANGED, UNCHANGED, EDITED, TAKEN, FAILED = "created", "changed", "unchanged", "edited", "taken", "failed"
+
+
+@dataclass(slots=True)
+class Output:
+    """One file that shall stand at `path` below the root. `state` says what is, or was, to be done about it."""
+
+    path: str
+    text: str
+    state: str = ""
+    before: str = ""
+    problem: str = ""
+
+    @property
+    def differs(self) -> bool:
+        return self.state in (CREATED, CHANGED, EDITED)
+
+    def diff(self, shown: str) -> str:
+        """From what stands there to what shall, as a unified diff."""
+        old, new = self.before.splitlines(keepends=True), self.text.splitlines(keepends=True)
+        name = "/dev/null" if self.state == CREATED else shown
+        return "".join(difflib.unified_diff(old, new, name, shown))
+
+
+@dataclass(slots=True)
+class OutputRoot:
+    """All that one run writes below one folder."""
+
+    root: Root
+    outputs: list[Output] = field(default_factory=list)
+    memory: dict[str, str] = field(default_factory=dict)
+    remembered: bytes | None = None
+    problem: str = ""
+
+    @classmethod
+    def at(cls, path: str) -> OutputRoot:
+        """The root as it is, put in order if a run was interrupted there."""
+        made = cls(Root(path))
+        try:
+            recover(made.root.real)
+        except (OSError, WriteFailed) as error:
+            made.problem = str(error)
+        found = made.root.look(MEMORY)
+        made.remembered = found.data
+        try:
+            known = json.loads(found.data or b"{}").get("files", {})
+            made.memory = {str(path): str(value) for path, value in known.items()}
+        except (ValueError, AttributeError):  # not ours any more: what stands there is then not known to be ours
+            made.memory = {}
+        return made
+
+    def is_ours(self, path: str) -> bool:
+        """Whether a file is as an earlier run wrote it."""
+        found = self.root.look(path)
+        return found.data is not None and self.memory.get(path) == digest(found.data)
+
+    def add(self, path: str, text: str, *, force: bool = False) -> Output:
+        output = Output(path, text)
+        self.outputs.append(output)
+        found, new = self.root.look(path), text.encode()
+        if found.problem or self.problem:
+            output.state, output.problem = FAILED, found.problem or self.problem
+        elif not found.exists:
+            output.state = CREATED
+        else:
+            data = found.data or b""
+            output.before = data.decode("utf-8", "replace")
+            known = self.memory.get(path)
+            if data == new:
+                output.state = UNCHANGED
+            elif known is None:
+                output.state = TAKEN
+            elif known == digest(data) or force:
+                output.state = CHANGED
+            else:
+                output.state = EDITED
+        return output
+
+    def has_news(self, output: Output) -> bool:
+        """Whether an edited file would get something else than the last run wrote."""
+        return self.memory.get(output.path) != digest(output.text.encode())
+
+    def write(self) -> None:
+        """Writes what is created and changed; a file that cannot be written is marked, and the others go on."""
+        while True:
+            todo = [output for output in self.outputs if output.state in (CREATED, CHANGED)]
+            steps = [Step(o.path, self._before(o), o.text.encode()) for o in todo]
+            memory = self._memory()
+            if memory != self.remembered:
+                steps.append(Step(MEMORY, self.remembered, memory))
+            if not steps:
+                return
+            try:
+                carry_out([Batch(self.root.real, tuple(steps))])
+                return
+            except WriteFailed as failed:
+                folder = failed.path.rpartition("/")[0]
+                hit = [o for o in todo if o.path == failed.path or (folder and o.path.startswith(f"{folder}/"))]
+                for output in hit or todo:
+                    output.state, output.problem = FAILED, failed.reason
+                if not hit:
+                    self.problem = failed.reason
+                    return
+
+    def _before(self, output: Output) -> bytes | None:
+        return None if output.state == CREATED else self.root.look(output.path).data
+
+    def _memory(self) -> bytes:
+        known = dict(self.memory)
+        for output in self.outputs:
+            if output.state in (CREATED, CHANGED, UNCHANGED):
+                known[output.path] = digest(output.text.encode())
+        return (json.dumps({"files": dict(sorted(known.items()))}, indent=2, ensure_ascii=False) + "\n").encode()

@@ -1,0 +1,128 @@
+"""Which legacy files a run is about, and what each one's document will be called."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.legacy.formats import by_name
+from robocomp_yaml.legacy.rules import Rules
+from robocomp_yaml.link.workspace import root_above
+
+_SKIPPED = frozenset(("node_modules", "__pycache__"))
+
+
+@dataclass(frozen=True, slots=True)
+class LegacyFile:
+    """A file to migrate. Its document goes to `folder` below `root`, an output root."""
+
+    path: str
+    root: str
+    folder: str
+    preferred: str = ""
+    """The file beside it from which it was made; then it is skipped."""
+
+    def document(self, name: str) -> str:
+        return os.path.normpath(os.path.join(self.root, self.folder, name))
+
+
+@dataclass(slots=True)
+class Found:
+    files: list[LegacyFile] = field(default_factory=list)
+    folders: list[str] = field(default_factory=list)
+    """The output roots of the folders given: each becomes a workspace."""
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+
+def find(paths: Sequence[str], output: str | None) -> Found:
+    """The files named, and below the folders named all with a suffix of a legacy format; each once."""
+    found = Found()
+    seen: set[str] = set()
+    for path in paths:
+        is_folder = os.path.isdir(path)
+        below = list(_below(path)) if is_folder else [os.path.normpath(path)]
+        root = output or (os.path.normpath(path) if is_folder else _root_of(path))
+        if is_folder:
+            if root not in found.folders:
+                found.folders.append(root)
+            if not below:
+                suffixes = "the suffixes are known: " + ", ".join(sorted(_suffixes()))
+                found.diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=suffixes))
+        for file in below:
+            real = os.path.realpath(file)
+            if real not in seen:
+                seen.add(real)
+                start = (path if is_folder else os.path.dirname(path)) if output else root
+                folder = os.path.relpath(os.path.dirname(file) or ".", start or ".")
+                found.files.append(LegacyFile(file, root, folder))
+    found.files = list(_preferences(found.files))
+    return found
+
+
+def _root_of(path: str) -> str:
+    folder = os.path.dirname(path)
+    return root_above(folder) or folder or "."
+
+
+def _suffixes() -> set[str]:
+    from robocomp_yaml.legacy.rules import formats
+
+    return {suffix for rules in formats() for suffix in rules.suffixes}
+
+
+def _below(folder: str) -> Iterator[str]:
+    """Links to folders are followed, but no folder is entered twice."""
+    entered: set[tuple[int, int]] = set()
+    for where, folders, names in os.walk(folder, followlinks=True):
+        status = os.stat(where)
+        if (status.st_dev, status.st_ino) in entered:
+            folders.clear()
+            continue
+        entered.add((status.st_dev, status.st_ino))
+        folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
+        for name in sorted(names):
+            if not name.startswith(".") and by_name(name) is not None:
+                yield os.path.normpath(os.path.join(where, name))
+
+
+def _preferences(files: Iterable[LegacyFile]) -> Iterator[LegacyFile]:
+    """A file that has one of the same stem and kind beside it, of a format with a lower rank, was made from that."""
+    listed = list(files)
+    best: dict[tuple[str, str], tuple[int, str]] = {}
+    for file in listed:
+        rules = by_name(file.path)
+        if rules is not None:
+            key = (os.path.splitext(file.path)[0], rules.kind)
+            best[key] = min(best.get(key, (rules.rank, file.path)), (rules.rank, file.path))
+    for file in listed:
+        rules = by_name(file.path)
+        rank, other = best[(os.path.splitext(file.path)[0], rules.kind)] if rules else (0, file.path)
+        better = rules is not None and rank < rules.rank
+        yield LegacyFile(file.path, file.root, file.folder, other) if better else file
+
+
+def names(
+    files: Sequence[tuple[LegacyFile, Rules]],
+) -> tuple[dict[str, str], list[Diagnostic]]:
+    """The document of each file, by the file's path. Where two would meet, the later one keeps its suffix."""
+    taken: dict[str, str] = {}
+    chosen: dict[str, str] = {}
+    said: list[Diagnostic] = []
+    for file, rules in sorted(files, key=lambda item: (item[1].rank, item[0].path)):
+        base = os.path.basename(file.path)
+        stem, suffix = os.path.splitext(base)
+        short = file.document(f"{stem if suffix.lower() in rules.suffixes else base}.{rules.kind}.yaml")
+        own = short if short not in taken else file.document(f"{base}.{rules.kind}.yaml")
+        number = 2
+        while own in taken:
+            own = file.document(f"{base}.{number}.{rules.kind}.yaml")
+            number += 1
+        if own != short:
+            said.append(codes.MEETING.at(Span(file.path), other=taken[short], path=short, own=own))
+        taken[own] = file.path
+        chosen[file.path] = own
+    return chosen, said

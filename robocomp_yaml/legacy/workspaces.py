@@ -1,0 +1,73 @@
+"""The workspace that a document belongs to: its schemas' place, and the `rcyaml.yaml` of a folder that is migrated."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import cdsl, idsl
+from robocomp_yaml.legacy.document import List, Map, Notes, text
+from robocomp_yaml.legacy.outputs import OutputRoot
+from robocomp_yaml.link import workspace as link_workspace
+from robocomp_yaml.link.workspace import Workspace, root_above
+from robocomp_yaml.source.discover import WORKSPACE_FILE
+
+SCHEMAS = ".rcyaml/schemas"
+
+
+@dataclass(slots=True)
+class Workspaces:
+    """`new` are folders that will be workspaces after this run."""
+
+    new: list[str] = field(default_factory=list)
+    _known: dict[str, Workspace] = field(default_factory=dict)
+
+    def of(self, document: str) -> Workspace:
+        """The workspace of a document that is, or will be, there."""
+        folder = os.path.dirname(document) or "."
+        if folder not in self._known:
+            inside = [new for new in self.new if _is_below(folder, new)]
+            above = root_above(folder)
+            if inside and (above is None or not _is_below(above, max(inside, key=len))):
+                self._known[folder] = Workspace(max(inside, key=len), declared=True)
+            elif above is not None:
+                self._known[folder] = link_workspace.read(above)[0]
+            else:
+                self._known[folder] = Workspace(folder)
+        return self._known[folder]
+
+
+def wants_file(root: OutputRoot) -> bool:
+    """Whether a migrated folder gets an `rcyaml.yaml`: it is in no workspace, or ours is there already."""
+    above = root_above(root.root.path)
+    if above is None:
+        return True
+    return os.path.realpath(above) == root.root.real and root.is_ours(WORKSPACE_FILE)
+
+
+def file_text(root: str, interfaces: Iterable[str]) -> str:
+    """The `rcyaml.yaml` of a migrated folder: where its interfaces are; imports that lead nowhere become warnings."""
+    document, lint = Map(block=True), Map(block=True)
+    folders = sorted({os.path.relpath(os.path.dirname(path) or ".", root) for path in interfaces})
+    if folders:
+        listed = List()
+        for folder in folders:
+            listed.put(folder)
+        document.put("interfaces", listed)
+    for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT):
+        lint.put(row.id, "warning")
+    document.put("lint", lint, Notes(head=["Files that were not there to be migrated are imported still."]))
+    return modeline(os.path.join(root, WORKSPACE_FILE), root, "workspace") + text(document, Notes())
+
+
+def modeline(document: str, root: str, kind: str) -> str:
+    """The line by which an editor finds the schema."""
+    schema = os.path.join(root, SCHEMAS, f"{kind}.schema.json")
+    path = os.path.relpath(schema, os.path.dirname(document) or ".").replace(os.sep, "/")
+    return f"# yaml-language-server: $schema={path}\n"
+
+
+def _is_below(path: str, folder: str) -> bool:
+    inner, outer = os.path.realpath(path), os.path.realpath(folder)
+    return inner == outer or inner.startswith(outer.rstrip("/") + "/")

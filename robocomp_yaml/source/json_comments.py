@@ -1,0 +1,76 @@
+"""JSON with comments and trailing commas, as editors keep their settings: members are added without touching the rest.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+
+_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/|,(?=\s*[}\]])', re.DOTALL)
+_BLANK = re.compile(r"[^\n]")
+_SPACE = re.compile(r"\s*")
+
+
+class Unreadable(ValueError):
+    """The text is not JSON, or holds something else where our members belong."""
+
+
+def with_members(text: str, key: str, members: Mapping[str, object]) -> str:
+    """The text with `members` in the object under `key`; a member that is there already stays as it is."""
+    plain = _strict(text)
+    try:
+        whole = json.loads(plain)
+    except (ValueError, RecursionError):
+        raise Unreadable("it is not JSON") from None
+    if not isinstance(whole, dict) or not isinstance(whole.get(key, {}), dict):
+        raise Unreadable("it holds something else where the settings belong")
+    missing = {name: value for name, value in members.items() if name not in whole.get(key, {})}
+    if not missing:
+        return text
+    start = _SPACE.match(plain).end()  # type: ignore[union-attr]
+    if key not in whole:
+        return _insert(text, plain, start, {key: missing}, 1)
+    inner = next(value for name, value in reversed(list(_members(plain, start))) if name == key)
+    return _insert(text, plain, inner, missing, 2)
+
+
+def _strict(text: str) -> str:
+    """The text as strict JSON, every character at its old place: comments and trailing commas become blanks."""
+
+    def blank(token: re.Match[str]) -> str:
+        return token[0] if token[0].startswith('"') else _BLANK.sub(" ", token[0])
+
+    if text.startswith("\ufeff"):
+        text = " " + text[1:]
+    return _TOKEN.sub(blank, _TOKEN.sub(blank, text))
+
+
+def _members(plain: str, start: int) -> Iterator[tuple[str, int]]:
+    """The keys of the object that starts at `start`, each with the place of its value."""
+    decoder = json.JSONDecoder()
+    place = _skip(plain, start + 1)
+    while plain[place] != "}":
+        name, place = decoder.raw_decode(plain, place)
+        place = _skip(plain, _skip(plain, place) + 1)
+        yield name, place
+        _, place = decoder.raw_decode(plain, place)
+        place = _skip(plain, place)
+        if plain[place] == ",":
+            place = _skip(plain, place + 1)
+
+
+def _skip(plain: str, place: int) -> int:
+    return _SPACE.match(plain, place).end()  # type: ignore[union-attr]
+
+
+def _insert(text: str, plain: str, brace: int, members: Mapping[str, object], depth: int) -> str:
+    """Members as the first ones of the object whose `{` stands at `brace`."""
+    indent = "  " * depth
+    rows = json.dumps(members, indent=2, ensure_ascii=False)[2:-2].splitlines()
+    block = "\n".join(f"{indent}{row[2:]}" for row in rows)
+    first = _skip(plain, brace + 1)
+    if plain[first] != "}":
+        return f"{text[:brace + 1]}\n{block},{text[brace + 1:]}"
+    between = text[brace + 1:first]
+    return f"{text[:brace + 1]}\n{block}{between if between.strip() else chr(10) + indent[2:]}{text[first:]}"

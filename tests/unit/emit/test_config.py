@@ -1,0 +1,113 @@
+"""The first `etc/config` of a component, and the default ports in it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from talk import component, workspace
+
+from robocomp_yaml.emit import config, ports, properties
+from robocomp_yaml.emit.plan import ONCE
+from robocomp_yaml.link.program import LinkedComponent
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def values(linked: dict[str, LinkedComponent], folder: str) -> dict[str, str]:
+    others = [other for name, other in linked.items() if name != folder]
+    return properties.read(config.plan(linked[folder], others).text).values
+
+
+def test_what_a_config_holds() -> None:
+    linked = workspace({
+        "speech": component("SpeechComp", implements="[Speech]", requires="[Mouth]", subscribes="[Heard]",
+                            period="50 ms"),
+        "mouth": component("MouthComp", implements="[Mouth]"),
+    })
+    mouth = values(linked, "mouth")["Mouth.Endpoints"].removeprefix("tcp -p ")
+    plan = config.plan(linked["speech"], [linked["mouth"]])
+    assert (plan.path, plan.policy, plan.executable) == ("etc/config", ONCE, False)
+    speech, behavior = (ports.default_port("SpeechComp", name) for name in ("Speech", "CommonBehavior"))
+    assert plan.text == f"""\
+# Configuration of SpeechComp: one KEY=VALUE a line, as Ice reads it. rcyaml wrote it once; it is yours now.
+# The command line overrides it: bin/SpeechComp --period.compute=50 --Ice.Trace.Network=1
+
+# What it offers: where it listens.
+# Speech: Says things,
+# aloud.
+Speech.Endpoints=tcp -p {speech}
+# CommonBehavior: State, period, properties and orderly stop of every component.
+CommonBehavior.Endpoints=tcp -p {behavior}
+
+# What it needs: where the others listen.
+# Implemented by MouthComp (../mouth/mouth.cdsl.yaml).
+MouthProxy=mouth:tcp -h localhost -p {mouth}
+
+# Topics: IceStorm carries them, and its topic manager must be running.
+TopicManager.Proxy=IceStorm/TopicManager:default -p 9999
+# Heard: What was heard.
+# Port 0: any free one; only IceStorm needs to know it.
+HeardTopic.Endpoints=tcp -p 0
+
+# Milliseconds from one call of compute() to the next.
+period.compute=50
+
+# Ice, the middleware.
+# 1: warn when a connection is lost.
+Ice.Warn.Connections=0
+# 1 to 3: say when connections open and close, and more.
+Ice.Trace.Network=0
+# 1: show every message.
+Ice.Trace.Protocol=0
+# The largest message, in KiB.
+Ice.MessageSizeMax=20004800
+"""
+
+
+def test_a_component_that_talks_to_nobody() -> None:
+    linked = workspace({"alone": component("Alone")})
+    held = values(linked, "alone")
+    assert [key for key in held if not key.startswith("Ice.")] == ["CommonBehavior.Endpoints", "period.compute"]
+    assert held["period.compute"] == "100"
+
+
+def test_a_proxy_follows_the_port_that_stands_in_the_others_config() -> None:
+    documents = {"a": component("A", requires="[Mouth]"), "b": component("B", implements="[Mouth]")}
+    linked = workspace(documents, b='Endpoints.Mouth = "tcp -h 10.0.0.7 -p 12345"\n')
+    assert values(linked, "a")["MouthProxy"] == "mouth:tcp -h 10.0.0.7 -p 12345"
+    linked = workspace(documents, b="Mouth.Endpoints=ws -p 12346:tcp -p 1\n")
+    assert values(linked, "a")["MouthProxy"] == "mouth:ws -h localhost -p 12346"
+    linked = workspace(documents, b="Mouth.Endpoints=tcp -p 0\n")
+    assert values(linked, "a")["MouthProxy"] == f"mouth:tcp -h localhost -p {ports.default_port('B', 'Mouth')}"
+
+
+def test_an_interface_that_nobody_implements() -> None:
+    linked = workspace({"a": component("A", requires="[Mouth]", implements="[Speech]")})
+    plan = config.plan(linked["a"], [])
+    assert "No component of this workspace implements it" in plan.text
+    assert f"MouthProxy=mouth:tcp -h localhost -p {ports.default_port('', 'Mouth')}\n" in plan.text
+
+
+def test_two_proxies_go_to_two_components() -> None:
+    linked = workspace({
+        "a": component("A", requires="[Mouth, {Mouth1: Mouth}, {Mouth2: Mouth}]"),
+        "b": component("B", implements="[Mouth]"), "c": component("C", implements="[Mouth]"),
+    })
+    held = values(linked, "a")
+    b, c = (values(linked, name)["Mouth.Endpoints"].removeprefix("tcp -p ") for name in "bc")
+    assert [held[f"Mouth{n}Proxy"].rpartition(" ")[2] for n in ("", "1", "2")] == [b, c, c]
+    assert "Implemented by B (../b/b.cdsl.yaml), also by C." in config.plan(linked["a"], [linked["c"], linked["b"]]).text
+
+
+def test_the_configs_of_a_workspace_fit_together_in_any_order() -> None:
+    linked = workspace({
+        "a": component("A", requires="[Mouth]"), "b": component("B", implements="[Mouth, Speech]"),
+        "c": component("C", requires="[Speech]"),
+    })
+    names = sorted(linked)
+    for order in (names, names[::-1]):
+        texts = {n: config.plan(linked[n], [linked[o] for o in order if o != n]).text for n in order}
+        assert texts == {n: config.plan(linked[n], [linked[o] for o in names if o != n]).text for n in names}

@@ -1,0 +1,93 @@
+"""Default ports: stable, apart from each other, and what the user wrote compared."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from talk import component, workspace
+
+from robocomp_yaml.emit import ports
+from robocomp_yaml.emit.ports import Endpoint
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def test_the_hash_is_the_same_for_ever() -> None:
+    assert ports.default_port("SpeechComp", "Speech") == 14740
+    assert ports.default_port("SpeechComp", "CommonBehavior") == 29956
+
+
+def test_the_range_keeps_clear_of_icestorm_and_the_ephemeral_ports() -> None:
+    found = [ports.default_port(f"Comp{number}", "CommonBehavior") for number in range(5000)]
+    assert 10000 <= min(found) and max(found) < 32768
+    assert len(set(found)) > 4000
+
+
+def test_the_later_name_moves_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ports, "default_port", lambda component, interface: 11310)
+    linked = workspace({"z": component("A", implements="[Mouth, Speech]"), "a": component("B", implements="[Mouth]")})
+    for order in (list(linked.values()), list(linked.values())[::-1]):
+        assigned = ports.assign(order).endpoints
+        assert {key: endpoint.port for key, endpoint in assigned.items()} == {
+            ("z/z.cdsl.yaml", "CommonBehavior"): 11310, ("z/z.cdsl.yaml", "Mouth"): 11312,
+            ("z/z.cdsl.yaml", "Speech"): 11313, ("a/a.cdsl.yaml", "CommonBehavior"): 11314,
+            ("a/a.cdsl.yaml", "Mouth"): 11315,
+        }, "11311 is ROS 1's"
+
+
+def test_the_range_is_a_ring(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ports, "default_port", lambda component, interface: 29999)
+    linked = workspace({"a": component("A", implements="[Mouth]")})
+    assert [e.port for e in ports.assign(linked.values()).endpoints.values()] == [29999, 10000]
+
+
+def test_a_port_in_a_config_is_taken() -> None:
+    port = ports.default_port("A", "Mouth")
+    linked = workspace(
+        {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Speech]")},
+        b=f"Speech.Endpoints=tcp -p {port}\n",
+    )
+    assigned = ports.assign(linked.values()).endpoints
+    assert assigned["b/b.cdsl.yaml", "Speech"].port == port
+    assert assigned["a/a.cdsl.yaml", "Mouth"].port == port + 1
+
+
+@pytest.mark.parametrize(("value", "expected"), [
+    ("tcp -p 10", Endpoint(10)), ('"tcp -p 10"', Endpoint(10)), ("ws -h 1.2.3.4 -p 10", Endpoint(10, "ws", "1.2.3.4")),
+    ("udp -p 10:tcp -p 11", Endpoint(10, "udp")), ("tcp -h * -p 10", Endpoint(10)), ("tcp -p 0", None), ("tcp", None),
+    ("tcp -p x", None), ("tcp -p 70000", None), ("", None), ("tcp -p ²", None), ("tcpx -p 1", None),
+])
+def test_endpoints(value: str, expected: Endpoint | None) -> None:
+    assert ports.parse_endpoint(value) == expected
+
+
+def test_clashes_are_told_at_their_line() -> None:
+    linked = workspace(
+        {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Mouth]")},
+        a="Mouth.Endpoints=tcp -p 12000\nX.Endpoints=udp -p 12000\n",
+        b="# mine\n\n  Mouth.Endpoints=tcp -p 12000\nCommonBehavior.Endpoints=tcp -p 12001\n",
+    )
+    (said,) = ports.clashes(linked.values())
+    assert (said.code, said.severity) == ("RC6008", "warning")
+    assert (said.span.file, said.span.line, said.span.column, said.span.end_column) == ("b/etc/config", 3, 3, 18)
+    assert said.message == "port 12000 of B's Mouth is that of A's Mouth, too"
+    assert (said.related[0].span.file, said.related[0].span.line) == ("a/etc/config", 1)
+
+
+def test_hosts_that_differ_do_not_clash() -> None:
+    documents = {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Mouth]")}
+    linked = workspace(documents, a="Mouth.Endpoints=tcp -h x -p 1\n", b="Mouth.Endpoints=tcp -h y -p 1\n")
+    assert not ports.clashes(linked.values())
+    linked = workspace(documents, a="Mouth.Endpoints=tcp -h x -p 1\n", b="Mouth.Endpoints=tcp -p 1\n")
+    assert len(ports.clashes(linked.values())) == 1
+
+
+def test_a_config_that_cannot_be_read_is_none(tmp_path: Path) -> None:
+    linked = workspace({"a": component("A")})
+    (tmp_path / "a/etc/config").mkdir(parents=True)
+    assert not ports.clashes(linked.values())
+    assert ports.assign(linked.values()).endpoints
