@@ -47,10 +47,13 @@ def search_folders(given: Iterable[str]) -> tuple[str, ...]:
     return (*given, *(folder for folder in os.environ.get("RCYAML_PATH", "").split(os.pathsep) if folder))
 
 
-def analyse(paths: Iterable[str], extra: Iterable[str] = ()) -> Analysis:
-    """All about the documents at these paths; `extra` are folders to look for imports in."""
+def analyse(
+    paths: Iterable[str], extra: Iterable[str] = (), on_read: Callable[[str], None] = lambda path: None
+) -> Analysis:
+    """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
+    document that is read."""
     found = discover(list(paths))
-    documents = Documents()
+    documents = Documents(on_read)
     linker = Linker(documents, Search(search_folders(extra)))
     program = linker.link(found.documents)
     said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]

@@ -19,5 +19,7 @@ def command(ctx: click.Context, paths: tuple[str, ...], include: tuple[str, ...]
     """
     from robocomp_yaml.pipeline import analyse
 
-    analysis = analyse(paths or (".",), include)
+    paths = paths or (".",)
+    with _options.progress("reading", paths) as on_read:
+        analysis = analyse(paths, include, on_read)
     _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)

@@ -38,6 +38,7 @@ class Document:
 class Documents:
     """The documents of a run by real path, with all that is wrong with each by itself."""
 
+    on_read: Callable[[str], None] = lambda path: None
     read: dict[str, Document] = field(default_factory=dict)
     contents: dict[str, bytes] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
@@ -49,6 +50,7 @@ class Documents:
         if document is None:
             document = self.read[real] = Document(path, real, kind_of(path) or "idsl")
             self.diagnostics += self._load(document)
+            self.on_read(path)
         return document
 
     def _load(self, document: Document) -> Iterator[Diagnostic]:

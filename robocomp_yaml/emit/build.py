@@ -1,0 +1,150 @@
+"""From a program to the plan of all files: which output roots there are, and what goes below each.
+
+An interface's Slice goes to the workspace's slice folder (`-o DIR`: to DIR), with that of all it imports. A component
+goes to its own folder (`-o DIR`: to the same place below DIR), with the Slice that it needs in `slice/`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from robocomp_yaml import resources
+from robocomp_yaml.diag.codes import cdsl, compiling
+from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit import config
+from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
+from robocomp_yaml.emit.targets import languages, slice as slice_target
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
+from robocomp_yaml.link.workspace import Workspace
+
+TARGETS = ("slice", "python", "cpp", "config")
+
+
+@dataclass(slots=True)
+class Options:
+    """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
+    `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `neighbours` the other
+    components of a component's workspace (asked for only when a first `etc/config` is to be written)."""
+
+    output: str | None
+    below: Sequence[str]
+    targets: frozenset[str]
+    workspace_of: Callable[[str], Workspace]
+    neighbours: Callable[[LinkedComponent], list[LinkedComponent]]
+
+    def wants(self, target: str) -> bool:
+        return not self.targets or target in self.targets
+
+
+@dataclass(slots=True)
+class Build:
+    """The plans, and what kept documents from being compiled."""
+
+    plans: list[RootPlan] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+
+def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options) -> Build:
+    """Plans for every asked document without errors, in its own text or in what it imports."""
+    result = Build()
+    faulty = {d.span.file for d in diagnostics if d.severity == ERROR}
+    texts: dict[int, FilePlan] = {}
+
+    def slices(modules: Iterable[LinkedModule], folder: str = "") -> Iterator[FilePlan]:
+        for linked in modules:
+            if id(linked) not in texts:
+                texts[id(linked)] = FilePlan(slice_target.file_name(linked), slice_target.text(linked))
+            plain = texts[id(linked)]
+            yield FilePlan(folder + plain.path, plain.text) if folder else plain
+
+    for real in sorted(program.asked & program.modules.keys(), key=lambda real: program.modules[real].module.path):
+        linked = program.modules[real]
+        if options.wants("slice") and _usable(linked.module.name, linked.module.path, [linked], faulty, result):
+            root = options.output or _slice_folder(options.workspace_of(linked.module.path))
+            owner = os.path.relpath(linked.module.path, root)
+            result.plans.append(RootPlan(root, owner, list(slices(linked.closure()))))
+    for real in sorted(program.asked & program.components.keys(), key=lambda r: program.components[r].component.path):
+        component = program.components[real]
+        if _usable_component(component, faulty, result):
+            result.plans.append(_component_plan(component, options, slices))
+            result.diagnostics += _not_yet(component)
+    return result
+
+
+def _component_plan(
+    linked: LinkedComponent,
+    options: Options,
+    slices: Callable[[Iterable[LinkedModule], str], Iterator[FilePlan]],
+) -> RootPlan:
+    component = linked.component
+    root = _component_root(component.path, options)
+    plan = RootPlan(root, os.path.relpath(component.path, root), partial=bool(options.targets))
+    if options.wants("slice"):
+        modules = linked.modules()
+        plan.files += slices(modules, "slice/")
+        if all(scope.module.name != "RoboCompCommonBehavior" for scope in modules):
+            plan.files.append(FilePlan("slice/CommonBehavior.ice", resources.text("templates/slice/CommonBehavior.ice")))
+    if options.wants(component.language.name):
+        plan.files += languages()[component.language.name].plan(linked)
+    if options.wants("config"):
+        written = os.path.lexists(os.path.join(root, CONFIG))
+        plan.files.append(config.plan(linked, [] if written else options.neighbours(linked)))
+    return plan
+
+
+def _component_root(path: str, options: Options) -> str:
+    folder = os.path.dirname(path) or "."
+    if options.output is None:
+        return folder
+    for asked in options.below:
+        relative = os.path.relpath(folder, asked)
+        if not relative.startswith(os.pardir):
+            return os.path.normpath(os.path.join(options.output, relative))
+    return options.output
+
+
+def _slice_folder(workspace: Workspace) -> str:
+    return workspace.slice_folder or os.path.join(workspace.root, "slice")
+
+
+def _usable(name: str, path: str, modules: Iterable[LinkedModule], faulty: set[str], result: Build) -> bool:
+    """Whether a document has no error, nor anything that it imports; when only that is so, says it."""
+    if path in faulty:
+        return False
+    for top in modules:
+        for linked in top.closure():
+            if linked.module.path in faulty or linked.unresolved:
+                told = _unresolved(name, path, linked.module.path)
+                # Where the cause is an error already, this only says what follows from it.
+                result.diagnostics.append(told.as_severity(NOTE) if linked.module.path in faulty else told)
+                return False
+    return True
+
+
+def _usable_component(linked: LinkedComponent, faulty: set[str], result: Build) -> bool:
+    component = linked.component
+    if linked.broken and component.path not in faulty:
+        result.diagnostics.append(_unresolved(component.name, component.path, component.path))
+        return False
+    return _usable(component.name, component.path, linked.imports, faulty, result)
+
+
+def _unresolved(name: str, path: str, cause: str) -> Diagnostic:
+    related = [Related("this document has errors, or imports what is not there", Span(cause))] if cause != path else []
+    return compiling.UNRESOLVED.at(
+        Span(path), name=name, related=related, hint="`rcyaml check` says what is missing; mend that first"
+    )
+
+
+def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
+    component = linked.component
+    asked = {
+        "parameters": component.parameters, "statemachine": component.statemachine, "gui": component.gui,
+        "options": component.options, "compatibility": component.compatibility, "uses": component.has_uses,
+    }  # fmt: skip
+    for key, value in asked.items():
+        if value:
+            yield cdsl.NOT_COMPILED_YET.at(component.span, key=key)
