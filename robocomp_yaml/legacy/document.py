@@ -32,9 +32,9 @@ class Notes:
         self.head += [*other.head, *other.tail, *other.foot]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Raw:
-    """A scalar as it is spelled: a number, a boolean."""
+    """A scalar as it is spelled: a number, a boolean, a name that needs no quotes."""
 
     lexeme: str
 

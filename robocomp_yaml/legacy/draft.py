@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.comments import Placed
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes
+from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
 from robocomp_yaml.legacy.grammar import Parsed, token
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
@@ -32,10 +32,11 @@ class ImportDraft:
 
 @dataclass(frozen=True, slots=True)
 class Reference:
-    """A type that a module names: `module` is '' for one of its own."""
+    """A type that a module names: `module` is '' for one of its own. `written` is how the document names it."""
 
     module: str
     name: str
+    written: Raw
     span: Span
 
 

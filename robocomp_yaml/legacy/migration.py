@@ -13,7 +13,7 @@ from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.ledger import Entry
-from robocomp_yaml.legacy.linking import INTERFACES, Neighbours, name_imports, unknown_references
+from robocomp_yaml.legacy.linking import INTERFACES, Neighbours, name_imports, resolve_references
 from robocomp_yaml.legacy.outputs import CHANGED, EDITED, FAILED, TAKEN, Output, OutputRoot
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.link.workspace import Search
@@ -122,7 +122,7 @@ def _link(
         document = chosen[file.path]
         entry.diagnostics += name_imports(entry.file, document, known.of(document), neighbours)
     for _, entry in good:
-        entry.diagnostics += unknown_references(entry.file, neighbours)
+        entry.diagnostics += resolve_references(entry.file, neighbours)
 
 
 def _plan(

@@ -86,18 +86,19 @@ class _Converter:
         if doc:
             into.put("doc", doc)
 
-    def _type(self, tree: Tree[Token]) -> str:
+    def _type(self, tree: Tree[Token]) -> Raw:
         """A type as a document names it, noted as a reference."""
         qname = next((child for child in trees(tree) if child.data == "qname"), None)
-        return self._name(qname) if qname is not None else str(tree.children[0])
+        return self._name(qname) if qname is not None else Raw(str(tree.children[0]))
 
-    def _name(self, qname: Tree[Token]) -> str:
+    def _name(self, qname: Tree[Token]) -> Raw:
         parts = [plain(child) for child in qname.children if isinstance(child, Token) and child.type == "NAME"]
         if len(parts) > 2:
             self.reader.refused("refused_scope", qname)
         module = parts[0] if len(parts) > 1 else ""
-        self.names.references.append(Reference(module, parts[-1], self.reader.span(qname)))
-        return ".".join(parts)
+        written = Raw(".".join(parts))
+        self.names.references.append(Reference(module, parts[-1], written, self.reader.span(qname)))
+        return written
 
     def _literal(self, tree: Tree[Token]) -> Value:
         first = tree.children[0]
