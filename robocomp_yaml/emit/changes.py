@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.atomic import Step
+from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE
 
 CREATE, UPDATE, ADOPT, EDITED = "create", "update", "adopt", "edited"
 REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", "refused"
@@ -70,6 +71,21 @@ class Changes:
     def dirty(self) -> bool:
         """Whether a file that a user sees would change."""
         return any(change.action in (*WRITING, REFUSED) for change in self)
+
+    @property
+    def settled(self) -> dict[str, bytes]:
+        """What rcyaml's own files hold when all is done, manifests too; paths as the user can open them."""
+        return {os.path.join(root.root, path): text for root in self.roots for path, text in root.settled.items()}
+
+    @property
+    def once(self) -> list[str]:
+        """The user's own files, of which only the presence counts."""
+        return [os.path.join(root.root, path) for root in self.roots for path in root.once]
+
+    @property
+    def journals(self) -> list[str]:
+        """Where an interrupted commit would have left its journal."""
+        return [os.path.join(root.root, name) for root in self.roots for name in (JOURNAL, JOURNAL_DONE)]
 
 
 def _lines(data: bytes | None) -> list[str]:
