@@ -13,6 +13,7 @@ import Ice
 
 from generated.runtime.errors import StartError
 from generated.runtime.keywords import load_escaped
+from generated.runtime.settings import shown
 
 FOLDER = Path(__file__).resolve().parents[2] / "slice"
 
@@ -34,7 +35,7 @@ def load(files: Sequence[str], modules: Sequence[str]) -> list[ModuleType]:
 
 def _load(file: Path) -> None:
     if not file.is_file():
-        raise StartError(f"{file} is missing: compile the component again")
+        raise StartError(f"{shown(file)} is missing: compile the component again")
     options = ["--all", "--underscore", f"-I{FOLDER}"]
     if os.path.isdir(shipped := Ice.getSliceDir() or ""):
         options.append(f"-I{shipped}")
@@ -43,7 +44,7 @@ def _load(file: Path) -> None:
     except SyntaxError:
         load_escaped(file, options)
     except RuntimeError:
-        raise StartError(f"Ice does not take {file} (see above): compile the component again") from None
+        raise StartError(f"Ice does not take {shown(file)} (see above): compile the component again") from None
 
 
 def _is_python(module: ModuleType | None) -> bool:

@@ -59,6 +59,8 @@ def reason(error: Ice.Exception) -> str:
         return f"host {error.host} is unknown"
     if isinstance(error, Ice.ObjectNotExistException):
         return "the process answers, but has no such object"
+    if isinstance(error, Ice.NoEndpointException):
+        return "it has no endpoint, and there is no locator to ask"
     if isinstance(error, Ice.SyscallException):
         return os.strerror(error.error)
     return type(error).__name__
