@@ -35,6 +35,10 @@ class Analysis:
     contents: dict[str, bytes] = field(default_factory=dict)
     absent: set[str] = field(default_factory=set)
 
+    def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+        """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
+        return in_order([*self.diagnostics, *_with_lint(diagnostics, self.linker)])
+
 
 def checks() -> list[Check]:
     """Every check, in the order of their modules' names."""

@@ -80,7 +80,8 @@ def is_current(stamp: Stamp, find: Callable[[str], Iterable[str]]) -> bool:
             not any(os.path.lexists(path) for path in stamp.absent)
             and all(os.path.lexists(path) for path in stamp.present)
             and all(list(find(folder)) == found for folder, found in stamp.folders.items())
-            and all(real.path(path) == where and _digest(path) == hash_ for path, (where, hash_) in stamp.inputs.items())
+            and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
+            and all(_digest(path) == hash_ for path, (_, hash_) in stamp.inputs.items())
             and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
             and stamp.tool == tool()
         )
@@ -125,7 +126,8 @@ def tool() -> str:
     for top in folders[:1] if os.path.isdir(os.path.join(package, "_data")) else folders:
         for where, below, names in os.walk(top):
             below[:] = sorted(name for name in below if name != "__pycache__")
-            hashes += (f"{os.path.relpath(where, package)}/{name} {_digest(f'{where}/{name}')}" for name in sorted(names))
+            place = os.path.relpath(where, package)
+            hashes += (f"{place}/{name} {_digest(os.path.join(where, name))}" for name in sorted(names))
     return digest("\n".join(hashes).encode())
 
 

@@ -99,7 +99,8 @@ def test_two_proxies_go_to_two_components() -> None:
     held = values(linked, "a")
     b, c = (values(linked, name)["Mouth.Endpoints"].removeprefix("tcp -p ") for name in "bc")
     assert [held[f"Mouth{n}Proxy"].rpartition(" ")[2] for n in ("", "1", "2")] == [b, c, c]
-    assert "Implemented by B (../b/b.cdsl.yaml), also by C." in config.plan(linked["a"], [linked["c"], linked["b"]]).text
+    text = config.plan(linked["a"], [linked["c"], linked["b"]]).text
+    assert "Implemented by B (../b/b.cdsl.yaml), also by C." in text
 
 
 def test_the_configs_of_a_workspace_fit_together_in_any_order() -> None:
