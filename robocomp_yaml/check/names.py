@@ -31,7 +31,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _module(module: Module) -> Iterator[Diagnostic]:
     yield from _legal(Name("module", module.name, module.span))
     owner = f"module {module.name}"
-    defined = [Name(kind_of(d), d.name, d.span) for d in module.definitions]
+    defined = [Name(kind_of(d), d.name, d.span) for d in sorted(module.definitions, key=lambda d: d.span)]
     yield from _distinct(owner, "definitions", defined)
     yield from _not_named_as("module", module.name, defined)
     for name in defined:
