@@ -12,12 +12,16 @@ from dataclasses import dataclass
 from ruamel.yaml.cyaml import CParser
 from ruamel.yaml.error import MarkedYAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode
+from ruamel.yaml.tag import Tag
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
 MAX_DEPTH = 100
+
+UNTAGGED = Tag(suffix="")
+"""The tag (`ctag`) of composed nodes for which the text has none."""
 
 _BRACKET = re.compile(r"[\[{\]}]")
 _DEEP_BLOCK = re.compile(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
@@ -54,10 +58,10 @@ class Refused(Exception):
 
 
 class _Composer(CParser):  # type: ignore[misc]
-    """libyaml's composer; implicit tags stay empty, so that an explicit one can be told apart."""
+    """libyaml's composer; where no tag stands, it is UNTAGGED."""
 
-    def resolve(self, kind: type, value: str, implicit: object) -> str:
-        return ""
+    def resolve(self, kind: type, value: str, implicit: object) -> Tag:
+        return UNTAGGED
 
     def descend_resolver(self, current: object, index: object) -> None:
         pass
@@ -94,7 +98,7 @@ def _compose_as_1_2(text: str) -> Node | None:
             continue
         seen.add(id(node))
         if not _has_explicit_tag(text, node.start_mark.index):
-            node.tag = ""
+            node.ctag = UNTAGGED
         if isinstance(node, MappingNode):
             todo += [part for pair in node.value for part in pair]
         elif not isinstance(node, ScalarNode):
