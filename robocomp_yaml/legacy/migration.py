@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
@@ -17,6 +19,7 @@ from robocomp_yaml.legacy.linking import INTERFACES, Neighbours, name_imports, r
 from robocomp_yaml.legacy.outputs import CHANGED, EDITED, FAILED, TAKEN, Output, OutputRoot
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
 Progress = Callable[[Sequence[LegacyFile]], Iterator[LegacyFile]]
@@ -55,6 +58,10 @@ class Migration:
             for output in root.outputs:
                 if output.path == WORKSPACE_FILE and output.state == FAILED and not root.problem:
                     self.general.append(_not_written(root.root.shown(output.path), root, output))
+        for home in sorted(self.schemas):
+            if os.path.isdir(home):
+                with contextlib.suppress(OSError):  # a workspace that cannot be written to has migrated all the same
+                    workspace_files.install(Path(home))
 
     def add(self, entry: Entry, root: OutputRoot, output: Output) -> None:
         """An entry's document, with what its state means to the user."""

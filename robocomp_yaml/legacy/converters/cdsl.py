@@ -82,7 +82,7 @@ class _Converter:
         known = self.reader.rules.values[name]
         if str(at).lower() not in known:
             close = suggest(str(at), known)
-            hint = f"did you mean '{close}'?" if close else f"write one of {', '.join(known)}"
+            hint = f"did you mean '{close}'?" if close else "write " + " or ".join(dict.fromkeys(known.values()))
             span = self.reader.span(at)
             self.reader.diagnostics.append(codes.UNKNOWN_VALUE.at(span, what=name, value=at, hint=hint))
         return known.get(str(at).lower(), str(at))
