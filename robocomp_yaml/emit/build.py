@@ -86,7 +86,8 @@ def _component_plan(
         modules = linked.modules()
         plan.files += slices(modules, "slice/")
         if all(scope.module.name != "RoboCompCommonBehavior" for scope in modules):
-            plan.files.append(FilePlan("slice/CommonBehavior.ice", resources.text("templates/slice/CommonBehavior.ice")))
+            common = resources.text("templates/slice/CommonBehavior.ice")
+            plan.files.append(FilePlan("slice/CommonBehavior.ice", common))
     if options.wants(component.language.name):
         plan.files += languages()[component.language.name].plan(linked)
     if options.wants("config"):
