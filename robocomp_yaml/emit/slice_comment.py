@@ -13,6 +13,7 @@ from collections.abc import Iterable
 WIDTH = 110
 LONGEST_WORD = 8_000  # characters; the preprocessor's buffer has 65,536 bytes
 
+_HANG = re.compile(r" *(?:[-*+] +|[0-9]+[.)] +)?")  # below what the lines of a paragraph or list item start
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]")
 
 
@@ -46,7 +47,7 @@ def _with_unit(doc: str, unit: str) -> str:
 def _body(doc: str, width: int) -> list[str]:
     lines: list[str] = []
     for line in _harmless(doc).strip("\n").split("\n"):
-        lines += _wrapped(line.rstrip(), width, line[: len(line) - len(line.lstrip())])
+        lines += _wrapped(line.rstrip(), width, " " * len(_HANG.match(line)[0]))  # type: ignore[index]
     return lines if any(lines) else []
 
 
