@@ -14,7 +14,7 @@ from robocomp_yaml.emit.targets.python_names import (
     ice_name,
     module_variable,
     parameters,
-    python_name,
+    proxy_method,
 )
 from robocomp_yaml.emit.targets.python_text import docstring, one_line, signature
 from robocomp_yaml.emit.targets.python_types import hint, qualified, zero
@@ -96,7 +96,7 @@ class Ports:
         lower = port.name.lower()
         attribute = self._names.take(f"{lower}_proxy", f"{lower}_pubproxy")
         events = ", ".join(
-            f"{python_name(m.name)}({', '.join(member.name for member in m.inputs)})" for m in _published_methods(port)
+            f"{proxy_method(m.name)}({', '.join(member.name for member in m.inputs)})" for m in _published_methods(port)
         )
         note = f"Publishes {port.name}: {events}.\n\n{port.use.doc or port.interface.doc}"
         summary = f"publishes {port.name}: {events}"

@@ -6,6 +6,8 @@ from __future__ import annotations
 import logging
 import os
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import Ice
 
@@ -47,6 +49,15 @@ def wait_for(
             next_line = now + REMIND
         if stopping.wait(PAUSE):
             raise Stopped
+
+
+@contextmanager
+def asking(what: str) -> Iterator[None]:
+    """Ice's exceptions in there mean that the component cannot start."""
+    try:
+        yield
+    except Ice.LocalException as error:
+        raise StartError(f"cannot ask {what}: {reason(error)}") from None
 
 
 def reason(error: Ice.Exception) -> str:
