@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -19,8 +19,10 @@ from robocomp_yaml.emit import changes as actions
 from robocomp_yaml.emit.build import Options, build as build_plans
 from robocomp_yaml.emit.changes import Change, Changes
 from robocomp_yaml.emit.plan import RootPlan
+from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import documents_below, kind_of
 
@@ -50,9 +52,7 @@ class Built:
 def build(analysis: Analysis, output: str | None, targets: Iterable[str]) -> Built:
     """What `analysis` comes to on the disk."""
     workspace_of = analysis.linker.workspace_of
-    options = Options(
-        output, analysis.found.folders, frozenset(targets), workspace_of, lambda linked: _neighbours(linked, analysis)
-    )
+    options = Options(output, analysis.found.folders, frozenset(targets), workspace_of, _ports(analysis))
     built = build_plans(analysis.program, analysis.diagnostics, options)
     others = list(analysis.found.roots)
     if output is not None and analysis.found.folders and os.path.isdir(output):
@@ -61,18 +61,29 @@ def build(analysis: Analysis, output: str | None, targets: Iterable[str]) -> Bui
     return Built(built.plans, built.diagnostics, others)
 
 
-def _neighbours(linked: LinkedComponent, analysis: Analysis) -> list[LinkedComponent]:
-    """The other components of a component's workspace, sorted by path; of a folder that is no workspace, those of
-    this run."""
-    workspace = analysis.linker.workspace_of(linked.component.path)
-    paths = [other.component.path for other in analysis.program.components.values()]
-    if workspace.declared:
-        paths = [path for path in documents_below(workspace.root) if kind_of(path) == "cdsl"]
+def _ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
+    """The ports of a component's workspace, assigned once for each workspace; where a component is in none, those of
+    this run's components."""
+    known: dict[str, Ports] = {}
+
+    def of(linked: LinkedComponent) -> Ports:
+        workspace = analysis.linker.workspace_of(linked.component.path)
+        key = workspace.root if workspace.declared else ""
+        if key not in known:
+            known[key] = assign([*_neighbours(workspace, analysis), *analysis.program.components.values()])
+        return known[key]
+
+    return of
+
+
+def _neighbours(workspace: Workspace, analysis: Analysis) -> Iterable[LinkedComponent]:
+    """All components of a workspace, whether this run is about them or not."""
+    if not workspace.declared:
+        return ()
+    paths = [path for path in documents_below(workspace.root) if kind_of(path) == "cdsl"]
     around = Linker(analysis.linker.documents, analysis.linker.search)
     around.link(paths)  # what is wrong with neighbours is for their own `check`
-    here = os.path.realpath(linked.component.path)
-    others = [other for real, other in around.program.components.items() if real != here]
-    return sorted(others, key=lambda other: other.component.path)
+    return around.program.components.values()
 
 
 def refresh_schemas(analysis: Analysis) -> list[Diagnostic]:

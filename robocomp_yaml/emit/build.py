@@ -16,6 +16,7 @@ from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
+from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.emit.targets import languages, slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
@@ -26,14 +27,14 @@ TARGETS = ("slice", "python", "cpp", "config")
 @dataclass(slots=True)
 class Options:
     """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
-    `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `neighbours` the other
-    components of a component's workspace (asked for only when a first `etc/config` is to be written)."""
+    `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
+    component's workspace (asked for only when a first `etc/config` is to be written)."""
 
     output: str | None
     below: Sequence[str]
     targets: frozenset[str]
     workspace_of: Callable[[str], Workspace]
-    neighbours: Callable[[LinkedComponent], list[LinkedComponent]]
+    ports: Callable[[LinkedComponent], Ports]
 
     def wants(self, target: str) -> bool:
         return not self.targets or target in self.targets
@@ -92,7 +93,7 @@ def _component_plan(
         plan.files += languages()[component.language.name].plan(linked)
     if options.wants("config"):
         written = os.path.lexists(os.path.join(root, CONFIG))
-        plan.files.append(config.plan(linked, [] if written else options.neighbours(linked)))
+        plan.files.append(config.plan(linked, assign([linked]) if written else options.ports(linked)))
     return plan
 
 
