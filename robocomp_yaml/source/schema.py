@@ -89,7 +89,8 @@ def _explain(
             if kind.name == "pattern" and facts["pattern"] == NAME and isinstance(node, Scalar):
                 yield codes.WRONG_NAME.at(node.span, name=node.lexeme, hint=_name_hint(node.lexeme))
                 return
-            yield codes.WRONG_SHAPE.at(_span(node, key), problem=message or _in_words(kind.name, facts, node, place))
+            problem = message or _in_words(kind.name, facts, node, place)
+            yield codes.WRONG_SHAPE.at(_span(node, key), problem=problem, hint=_nearest(facts.get("options"), node))
 
 
 def _unknown_key(
@@ -176,6 +177,16 @@ def _what(node: Node) -> str:
     kind = {bool: "a boolean", int: "a number", float: "a number"}.get(type(node.data), "text")
     shown = node.lexeme if len(node.lexeme) <= 30 else node.lexeme[:27] + "…"
     return f"{kind}, '{shown}'" if kind == "text" else f"{kind}, {shown}"
+
+
+def _nearest(options: object, node: Node) -> str:
+    """The option that a word was meant to be, where one is near."""
+    if not isinstance(options, list) or not isinstance(node, Scalar):
+        return ""
+    from robocomp_yaml.diag.suggest import suggest
+
+    meant = suggest(node.lexeme, [str(option) for option in options])
+    return f"did you mean '{meant}'?" if meant else ""
 
 
 def _name_hint(name: str) -> str:

@@ -41,7 +41,7 @@ _WORDS = (
     ("expected ',' or ']'", "a ']' or a ',' is missing before this", ""),
     ("did not find expected node content", "a value is missing here", ""),
     ("expected the node content", "a value is missing here", ""),
-    ("unexpected end of stream", "the document ends inside of a quoted text", "close the quotes"),
+    ("unexpected end of stream", "this quoted text is never closed", "close the quotes"),
     ("document separator", "a quoted text is not closed before '---'", "close the quotes"),
     ("undefined alias", "no anchor (&name) of this name stands before this alias", "quote a text that starts with '*'"),
     ("unknown escape", "this escape means nothing in double quotes", "double the backslash, or use single quotes"),
@@ -150,10 +150,12 @@ def _deep_place(path: str, text: str) -> Span:
 
 
 def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
-    mark = error.problem_mark or error.context_mark
+    problem = " ".join(str(part) for part in (error.context, error.problem) if part)
+    # Where a key or a quoted text begins says more than where the parser gave up on it.
+    begins = "expected ':'" in problem or "quoted scalar" in problem and "escape" not in problem
+    mark = (begins and error.context_mark) or error.problem_mark or error.context_mark
     line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
     span = Span(path, line, column, line, column + 1)
-    problem = " ".join(str(part) for part in (error.context, error.problem) if part)
     if "but found another document" in problem:
         return codes.SEVERAL_DOCUMENTS.at(span, hint="put it into a file of its own")
     lines = text.splitlines()
