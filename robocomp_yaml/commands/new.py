@@ -121,8 +121,8 @@ def component_document(
         for twice in {n for n in names if list(names).count(n) > 1}:
             raise click.UsageError(f"--{key} {twice} stands twice")
     imports = imports_for(root, path, [name for names in uses.values() for name in names], include)
-    rows = list(_rows(language, imports, uses))
-    return NewDocument(path, render("new/component.cdsl.yaml.j2", ComponentView(modeline("cdsl", path, root), name, rows)))
+    view = ComponentView(modeline("cdsl", path, root), name, list(_rows(language, imports, uses)))
+    return NewDocument(path, render("new/component.cdsl.yaml.j2", view))
 
 
 def write(ctx: click.Context, document: NewDocument) -> None:
