@@ -32,7 +32,8 @@ class Migration:
     entries: list[Entry] = field(default_factory=list)
     roots: dict[str, OutputRoot] = field(default_factory=dict)
     general: list[Diagnostic] = field(default_factory=list)
-    schemas: set[str] = field(default_factory=set)
+    homes: dict[str, list[Output]] = field(default_factory=dict)
+    """The documents of each workspace, whose first line names a schema there."""
     _documents: list[tuple[Entry, OutputRoot, Output]] = field(default_factory=list)
 
     @property
@@ -58,8 +59,8 @@ class Migration:
             for output in root.outputs:
                 if output.path == WORKSPACE_FILE and output.state == FAILED and not root.problem:
                     self.general.append(_not_written(root.root.shown(output.path), root, output))
-        for home in sorted(self.schemas):
-            if os.path.isdir(home):
+        for home, outputs in sorted(self.homes.items()):
+            if any(output.state not in (FAILED, TAKEN) for output in outputs):
                 with contextlib.suppress(OSError):  # a workspace that cannot be written to has migrated all the same
                     workspace_files.install(Path(home))
 
@@ -148,7 +149,7 @@ def _plan(
             os.path.relpath(document, file.root), workspaces.modeline(document, home, rules.kind) + gap + body,
             force=force,
         )
-        run.schemas.add(home)
+        run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
         if rules.kind == INTERFACES and home in interfaces:
             interfaces[home].append(document)

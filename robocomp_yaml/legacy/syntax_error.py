@@ -66,7 +66,7 @@ class Explainer:
         if isinstance(error, UnexpectedToken):
             return self._unexpected(error, at, str(error.token))
         char = self.text[at]
-        if char in '"/' and self.text[at : at + 2] != "//":
+        if char == '"' or self.text.startswith("/*", at):
             what = "text in quotes" if char == '"' else "comment"
             return self._say(at, at + 1, f"this {what} is never closed")
         return self._say(at, at + 1, f"'{char}' cannot stand here")
