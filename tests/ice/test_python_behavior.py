@@ -79,7 +79,7 @@ def test_what_it_is_told(component: Built, start: Start, behavior: Ask, port: in
         assert asked.getPeriod() == 20
         running.wait_for(f"WARNING Worker: setPeriod({wrong}) refused")
     asked.setParameterList(asked.getParameterList())
-    running.wait_for("setParameterList refused: no parameter is editable (Arm.Speed, ArmProxy, CommonBehavior.Endpoints)")
+    running.wait_for("setParameterList refused: no parameter is editable (Arm.Speed, ArmProxy, Common")
     config = component.root / "etc" / "config"
     config.write_text(config.read_text() + "period.compute = 30\n")
     asked.reloadConfig()
@@ -134,7 +134,9 @@ def test_a_new_period_holds_at_once(component: Built, start: Start, behavior: As
     until(lambda: len(turns(running)) > 3, "turns")
 
 
-def test_it_answers_while_a_method_runs(build: Build, start: Start, behavior: Ask, port: int, ice: Any, free_port: Ports) -> None:
+def test_it_answers_while_a_method_runs(
+    build: Build, start: Start, behavior: Ask, port: int, ice: Any, free_port: Ports
+) -> None:
     built = build({**INTERFACES, "w/w.cdsl.yaml": cdsl("Busy", implements=["Arm"])})["Busy"]
     arm = free_port()
     built.configure({"CommonBehavior.Endpoints": f"tcp -p {port}", "Arm.Endpoints": f"tcp -p {arm}"})

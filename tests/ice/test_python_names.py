@@ -140,22 +140,21 @@ def python(name: str) -> str:
         "module=as enum=True struct=nonlocal exception=await interface=with topic=async first=False second=print",
         "module=str enum=list struct=GenericWorker exception=Context interface=Worker topic=Method first=load second=x",
         "module=signal enum=time struct=log exception=Exceptions interface=logging topic=os first=name second=value",
-        "module=generated enum=Set struct=Point exception=Bad interface=Component topic=Required first=a second=valueOf",
+        "module=generated enum=Set struct=P exception=Bad interface=Component topic=Required first=a second=valueOf",
     ],
     ids=["keywords", "forgotten keywords", "names in the generated files", "modules of Python", "our own package"],
 )
 def test_types_modules_and_interfaces(build: Build, start: Start, free_port: Ports, names: str) -> None:
     words = dict(pair.split("=") for pair in names.split())
-    (lists := {"implements": words["interface"], "requires": words["interface"]})
-    cdsl = "".join(f"{key}: [{name}]\n" for key, name in lists.items())
+    name = words["interface"]
     built = build(
         {
             **ALLOWED,
             "Odd.idsl.yaml": TYPES.format(**words),
-            "o/o.cdsl.yaml": f"component: Odd\nlanguage: python\nimports: [Odd]\n{cdsl}",
+            "o/o.cdsl.yaml": "component: Odd\nlanguage: python\nimports: [Odd]\n"
+            f"implements: [{name}]\nrequires: [{name}]\n",
         }
     )["Odd"]
-    name = words["interface"]
     endpoint = f"tcp -h 127.0.0.1 -p {free_port()}"
     built.configure({f"{name}.Endpoints": endpoint, f"{name}Proxy": f"{name.lower()}:{endpoint}"})
     assert start([*built.command, "--startup-check"]).exit_code() == 0
@@ -163,9 +162,7 @@ def test_types_modules_and_interfaces(build: Build, start: Start, free_port: Por
     (source / "specificworker.py").rename(source / "skeleton.py")
     spelled = {key: python(word) for key, word in words.items()}
     spelled["module"] = "_str" if words["module"] == "str" else spelled["module"]
-    worker = ECHO.format(
-        **spelled, interface_=name, first_=words["first"], accessor=f"{name.lower()}_proxy"
-    )
+    worker = ECHO.format(**spelled, interface_=name, first_=words["first"], accessor=f"{name.lower()}_proxy")
     (source / "specificworker.py").write_text(worker)
     running = start(built.command).wait_for("default as 'True' with\n")
     assert f"answer {words['second']} True {words['first']} True b'raw'\n" in running.output
