@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.comments import Placed
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
+from robocomp_yaml.legacy.document import Entry, List, Map, Name, Notes
 from robocomp_yaml.legacy.grammar import Parsed, token
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
@@ -36,7 +36,7 @@ class Reference:
 
     module: str
     name: str
-    written: Raw
+    written: Name
     span: Span
 
 

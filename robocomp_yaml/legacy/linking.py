@@ -112,7 +112,7 @@ def resolve_references(file: Converted, neighbours: Neighbours) -> Iterable[Diag
         there = next((stem for stem, module in same if reference.name in module.defined), None)
         if there is not None:
             if own.name == (reference.module or own.name):
-                reference.written.lexeme = f"{there}.{reference.name}"
+                reference.written.text = f"{there}.{reference.name}"
             continue
         if not any(stem == reference.module and reference.name in module.defined for stem, module in imported):
             problem = _problem(reference, own, dict(imported), complete)

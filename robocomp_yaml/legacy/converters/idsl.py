@@ -10,7 +10,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import literals
-from robocomp_yaml.legacy.document import Doc, List, Map, Notes, Raw, Value
+from robocomp_yaml.legacy.document import Doc, List, Map, Name, Notes, Raw, Value
 from robocomp_yaml.legacy.draft import Draft, ModuleNames, Reader, Reference, plain
 from robocomp_yaml.legacy.grammar import token, trees
 
@@ -86,17 +86,17 @@ class _Converter:
         if doc:
             into.put("doc", Doc(doc))
 
-    def _type(self, tree: Tree[Token]) -> Raw:
+    def _type(self, tree: Tree[Token]) -> Name:
         """A type as a document names it, noted as a reference."""
         qname = next((child for child in trees(tree) if child.data == "qname"), None)
-        return self._name(qname) if qname is not None else Raw(str(tree.children[0]))
+        return self._name(qname) if qname is not None else Name(str(tree.children[0]))
 
-    def _name(self, qname: Tree[Token]) -> Raw:
+    def _name(self, qname: Tree[Token]) -> Name:
         parts = [plain(child) for child in qname.children if isinstance(child, Token) and child.type == "NAME"]
         if len(parts) > 2:
             self.reader.refused("refused_scope", qname)
         module = parts[0] if len(parts) > 1 else ""
-        written = Raw(".".join(parts))
+        written = Name(".".join(parts))
         self.names.references.append(Reference(module, parts[-1], written, self.reader.span(qname)))
         return written
 
