@@ -85,12 +85,15 @@ def _explain(
         case "required":
             yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(place, root))
         case _:
-            message = _own_message(whole, path)
+            # A key that may not be there is refused at its own place, and explained at that of the mapping around it.
+            forbidden = kind.name == "falseSchema"
+            message = _own_message(whole, path[:-1] if forbidden else path)
             if kind.name == "pattern" and facts["pattern"] == NAME and isinstance(node, Scalar):
                 yield codes.WRONG_NAME.at(node.span, name=node.lexeme, hint=_name_hint(node.lexeme))
                 return
             problem = message or _in_words(kind.name, facts, node, place)
-            yield codes.WRONG_SHAPE.at(_span(node, key), problem=problem, hint=_nearest(facts.get("options"), node))
+            span = key.span if forbidden and key else _span(node, key)
+            yield codes.WRONG_SHAPE.at(span, problem=problem, hint=_nearest(facts.get("options"), node))
 
 
 def _unknown_key(
