@@ -45,9 +45,9 @@ _REFERENCE: Schema = {
     },
     "additionalProperties": False,
 }
-_REFERENCE_SNIPPET = {
+_REFERENCE_CHOICE = {"type": "object", "defaultSnippets": [{
     "label": "from the environment", "description": "taken when the component starts", "body": {"env": "${1:NAME}"}
-}
+}]}
 
 
 def values_schema(parameters: Parameters, mode: str) -> Schema:
@@ -146,12 +146,12 @@ class _Maker:
             then = {"enum": limits["enum"]}
             if self.with_words:
                 then["errorMessage"] = wanted
-                made["anyOf"] = [{"enum": limits["enum"]}, {"type": "object", "defaultSnippets": [_REFERENCE_SNIPPET]}, {}]
+                made["anyOf"] = [{"enum": limits["enum"]}, _REFERENCE_CHOICE, {}]
             shapes.append({"if": {"type": ["string", "number"]}, "then": then})
         else:
             made |= limits
             if self.with_words:
-                made["anyOf"] = [{"type": kind}, {"type": "object", "defaultSnippets": [_REFERENCE_SNIPPET]}, {}]
+                made["anyOf"] = [{"type": kind}, _REFERENCE_CHOICE, {}]
         made["allOf"] = shapes
         if self.with_words:
             made["errorMessage"] = wanted

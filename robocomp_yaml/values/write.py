@@ -229,7 +229,8 @@ class Writer:
             if member.name in item and member.name not in said:
                 default = member.default
                 if default is None or with_defaults(member.type, default.data) != item[member.name]:
-                    self.fault(step(where, member.name) or where, (*path, member.name), "its rows have no column for it")
+                    here = step(where, member.name) or where
+                    self.fault(here, (*path, member.name), "its rows have no column for it")
                     return None
         texts: dict[str, str] = {}
         for name, type_ in rows.columns(record, spelling.columns):
