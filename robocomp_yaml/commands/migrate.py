@@ -72,7 +72,7 @@ def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
 
 def _save(path: str, text: str) -> None:
     try:
-        with click.open_file(path, "w", encoding="utf-8") as file:
+        with click.open_file(path, "w", encoding="utf-8", errors="backslashreplace") as file:
             file.write(text)
     except OSError as error:
         raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error

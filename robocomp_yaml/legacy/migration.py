@@ -15,7 +15,7 @@ from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.ledger import Entry
-from robocomp_yaml.legacy.linking import INTERFACES, Neighbours, name_imports, resolve_references
+from robocomp_yaml.legacy.linking import Neighbours, name_imports, not_searched, resolve_references
 from robocomp_yaml.legacy.outputs import CHANGED, EDITED, FAILED, TAKEN, Output, OutputRoot
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.link.workspace import Search
@@ -103,7 +103,7 @@ def migrate(
     good = [(file, entry) for file, entry in by_file if not entry.skipped and not entry.file.refused]
 
     known = workspaces.Workspaces()
-    for folder in found.folders:
+    for folder in found.workspaces():
         root = run.roots.setdefault(folder, OutputRoot.at(folder))
         if workspaces.wants_file(root) and good:
             known.new.append(folder)
@@ -129,15 +129,23 @@ def _link(
     for file, entry in good:
         document = chosen[file.path]
         entry.diagnostics += name_imports(entry.file, document, known.of(document), neighbours)
-    for _, entry in good:
+    told: set[tuple[str, str]] = set()
+    for file, entry in good:
         entry.diagnostics += resolve_references(entry.file, neighbours)
+        workspace = known.of(chosen[file.path])
+        if workspace.root in known.new:
+            continue
+        for folder, diagnostic in not_searched(entry.file, workspace, chosen, neighbours):
+            if (workspace.root, folder) not in told:  # once for a folder
+                told.add((workspace.root, folder))
+                entry.diagnostics.append(diagnostic)
 
 
 def _plan(
     run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
     force: bool,
 ) -> None:  # fmt: skip
-    interfaces: dict[str, list[str]] = {folder: [] for folder in known.new}
+    written: dict[str, list[tuple[str, str]]] = {folder: [] for folder in known.new}
     for file, entry in good:
         document, rules, draft = chosen[file.path], entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
@@ -151,10 +159,10 @@ def _plan(
         )
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
-        if rules.kind == INTERFACES and home in interfaces:
-            interfaces[home].append(document)
+        if home in written:
+            written[home].append((rules.kind, document))
     for folder in known.new:
-        run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, interfaces[folder]), force=force)
+        run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)
 
 
 def forced(run: Migration) -> Iterator[tuple[str, Output]]:
