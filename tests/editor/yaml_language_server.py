@@ -40,10 +40,9 @@ class LanguageServer:
 
     def start(self, folder: Path, schemas: Mapping[str, object]) -> None:
         """Begin a session on a folder, with the `yaml.schemas` of its settings and no catalogue from the network."""
-        self._settings = {
-            "yaml": {"validate": True, "hover": True, "completion": True, "schemas": schemas, "schemaStore": {"enable": False}},
-            "[yaml]": {"editor.tabSize": 2},
-        }
+        wanted = {"validate": True, "hover": True, "completion": True}
+        yaml = {**wanted, "schemas": schemas, "schemaStore": {"enable": False}}
+        self._settings = {"yaml": yaml, "[yaml]": {"editor.tabSize": 2}}
         root = {"uri": folder.as_uri(), "name": folder.name}
         self.request(
             "initialize",
