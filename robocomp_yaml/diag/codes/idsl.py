@@ -217,6 +217,17 @@ MISFIT = Code(
     right=_types("  Motor: {struct: {speed: {type: byte, default: 255}}}\n"),
 )
 
+NUMBER = Code(
+    "RC1025",
+    WARNING,
+    "Ice does not carry {value} as it is: {reason}",
+    why="Into the Python and C++ that it generates, Ice 3.7 writes six digits of a constant or default that has a "
+    "fraction, and behind a float without a point it puts `.0F`: 1e-7 becomes 1e-07.0F, which is no C++. On the wire, "
+    "numbers are whole.",
+    wrong=_types("  Circle: {struct: {turn: {type: double, default: 6.283185307179586}}}\n"),
+    right=_types("  Circle: {struct: {turn: {type: double, default: 6.28319}}}\n"),
+)
+
 FILE_NAME = Code(
     "RC1024",
     ERROR,

@@ -154,6 +154,31 @@ def test_a_sequence_as_a_key_is_a_warning(diagnostics: Callable[..., list[dict]]
     assert [(d["code"], d["severity"]) for d in said] == [("RC1017", "warning")]
 
 
+@pytest.mark.parametrize(
+    ("type_", "value", "hint"),
+    [
+        ("double", "3.141592653589793", "let the programs"),
+        ("float", "3.14159265", "let the programs"),
+        ("float", "1e-7", "use double"),
+        ("float", "1e20", "use double"),
+    ],
+)
+def test_a_number_that_ice_changes_is_a_warning(
+    type_: str, value: str, hint: str, diagnostics: Callable[..., list[dict]]
+) -> None:
+    said = diagnostics({"Map.idsl.yaml": f"module: M\nconstants: {{c: {{type: {type_}, value: {value}}}}}\n"})
+    assert [(d["code"], d["severity"], d["line"]) for d in said] == [("RC1025", "warning", 2)]
+    assert hint in said[0]["hint"]
+
+
+@pytest.mark.parametrize(
+    ("type_", "value"),
+    [("double", "1e-7"), ("float", "1.5e-7"), ("float", ".1"), ("double", "1234567.0"), ("float", "1e6")],
+)
+def test_a_number_that_arrives(type_: str, value: str, diagnostics: Callable[..., list[dict]]) -> None:
+    assert diagnostics({"Map.idsl.yaml": f"module: M\nconstants: {{c: {{type: {type_}, value: {value}}}}}\n"}) == []
+
+
 def test_two_knots_of_types_are_told_apart(diagnostics: Callable[..., list[dict]]) -> None:
     text = TYPES + (
         "  A: {struct: {b: B, a: A}}\n  B: {struct: {a: A, d: D}}\n  C: {sequence: D}\n  D: {struct: {c: C}}\n"

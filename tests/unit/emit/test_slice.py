@@ -37,7 +37,8 @@ constants:
   limit: {type: int, value: 100, unit: percent}
   greeting: {type: string, value: "\"Hi\",\n\tand \\ went??! é", doc: What it says first.}
   ratio: {type: double, value: .9}
-  huge: {type: float, value: 99999999999999999999}
+  huge: {type: double, value: 99999999999999999999}
+  limit_m: {type: float, value: 1e6, unit: m}
   isOn: {type: bool, value: True}
   mother: {type: Language, value: english}
   side: {type: Types.Side, value: right}
