@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 from workbench import Workbench
 
+from robocomp_yaml.source import schema, tree
+
 DOCUMENTS = Path(__file__).resolve().parent / "documents"
 C = "component: A\nlanguage: cpp\n"
 NAME = "letters, digits and underscores, not starting with a digit"
@@ -27,7 +29,7 @@ TIME = "a time is milliseconds, such as 100, or has a unit, such as 100 ms or 10
 
 IDSL: list[tuple[str, list[str]]] = [
     ("- a", ["1:1 an interface document is a mapping: module: RoboCompSpeech, and what it defines"]),
-    ("doc: x", ['1:1 Missing property "module".']),
+    ("doc: x", ["1:1 the key 'module' is missing"]),
     ("module: A\ninterface: {}", ["2:1 Property interface is not allowed."]),
     ("module: a.b", [f"1:9 module: is a name: {NAME}"]),
     ("module: 3", [f"1:9 module: is a name: {NAME}"]),
@@ -38,7 +40,7 @@ IDSL: list[tuple[str, list[str]]] = [
     ("module: A\nconstants: [a]",
      ["2:12 constants: is a mapping of names to constants, such as maxVolume: {type: int, value: 100}"]),
     ("module: A\nconstants: {c: 3}", ["2:16 a constant is its type and its value, such as {type: int, value: 100}"]),
-    ("module: A\nconstants: {c: {type: int}}", ['2:13 Missing property "value".']),
+    ("module: A\nconstants: {c: {type: int}}", ["2:13 the key 'value' is missing"]),
     ("module: A\nconstants: {c: {type: int, value: [1]}}",
      ["2:35 a constant's value is one value: true, 100, a text, or the name of an enumerator"]),
     ("module: A\nconstants: {c: {type: in t, value: 1}}", [f"2:23 {TYPE}"]),
@@ -55,7 +57,7 @@ IDSL: list[tuple[str, list[str]]] = [
     ("module: A\ntypes: {P: {struct: {x: }}}", [f"2:25 {MEMBER}"]),
     ("module: A\ntypes: {P: {struct: {x: 3}}}", [f"2:25 {MEMBER}"]),
     ("module: A\ntypes: {P: {struct: {x: vector<int>}}}", [f"2:25 {MEMBER}"]),
-    ("module: A\ntypes: {P: {struct: {x: {default: 3}}}}", ['2:22 Missing property "type".']),
+    ("module: A\ntypes: {P: {struct: {x: {default: 3}}}}", ["2:22 the key 'type' is missing"]),
     ("module: A\ntypes: {P: {struct: {x: {type: int, defualt: 3}}}}", ["2:37 Property defualt is not allowed."]),
     ("module: A\ntypes: {P: {struct: {x: {type: int, default: [3]}}}}",
      ["2:46 a default is one value: true, 0.5, a text, or the name of an enumerator"]),
@@ -69,7 +71,8 @@ IDSL: list[tuple[str, list[str]]] = [
     ("module: A\ntypes: {P: {sequence: [int]}}", [f"2:23 {TYPE}"]),
     ("module: A\ntypes: {P: {map: int}}",
      ["2:18 map: is the types of the keys and of the values, such as {key: string, value: Pose}"]),
-    ("module: A\ntypes: {P: {map: {key: int}}}", ['2:13 Missing property "value".']),
+    ("module: A\ntypes: {P: {map: {value: int}}}", ["2:13 the key 'key' is missing"]),
+    ("module: A\ntypes: {P: {map: {key: int}}}", ["2:13 the key 'value' is missing"]),
     ("module: A\ntypes: {P: {map: {key: 3, value: int}}}", [f"2:24 {TYPE}"]),
     ("module: A\nexceptions: {E: what}",
      ["2:17 an exception is a mapping, such as {doc: …, struct: {what: string}}, or nothing"]),
@@ -86,7 +89,7 @@ IDSL: list[tuple[str, list[str]]] = [
     ("module: A\ninterfaces: {I: {methods: {f: {in: [x]}}}}",
      ["2:36 in: is a mapping of names to types, such as {text: string, overwrite: bool}"]),
     ("module: A\ninterfaces: {I: {methods: {f: {in: {x: 3}}}}}", [f"2:40 {PARAMETER}"]),
-    ("module: A\ninterfaces: {I: {methods: {f: {in: {x: {unit: m}}}}}}", ['2:37 Missing property "type".']),
+    ("module: A\ninterfaces: {I: {methods: {f: {in: {x: {unit: m}}}}}}", ["2:37 the key 'type' is missing"]),
     ("module: A\ninterfaces: {I: {methods: {f: {out: int}}}}",
      ["2:37 out: is a mapping of names to types, such as {volume: int, queue: Utterances}"]),
     ("module: A\ninterfaces: {I: {methods: {f: {returns: [int]}}}}",
@@ -113,13 +116,13 @@ IDSL: list[tuple[str, list[str]]] = [
 CDSL: list[tuple[str, list[str]]] = [
     ("[]",
      ["1:1 a component document is a mapping: component: SpeechComp, language: python, and what it offers and needs"]),
-    ("language: cpp", ['1:1 Missing property "component".']),
-    ("component: A", ['1:1 Missing property "language".']),
+    ("language: cpp", ["1:1 the key 'component' is missing"]),
+    ("component: A", ["1:1 the key 'language' is missing"]),
     (C + "implement: [A]", ["3:1 Property implement is not allowed."]),
     ("component: a b\nlanguage: cpp", [f"1:12 component: is a name: {NAME}"]),
     ("component: A\nlanguage: rust", ["2:11 language: is python, cpp, or {name: cpp, standard: 20}"]),
     ("component: A\nlanguage: [cpp]", ["2:11 language: is python, cpp, or {name: cpp, standard: 20}"]),
-    ("component: A\nlanguage: {standard: 20}", ['2:1 Missing property "name".']),
+    ("component: A\nlanguage: {standard: 20}", ["2:1 the key 'name' is missing"]),
     ("component: A\nlanguage: {name: rust}", ["2:18 a language is python or cpp"]),
     ("component: A\nlanguage: {name: cpp, standard: 11}", ["2:33 standard: is the C++ standard: 17, 20 or 23"]),
     (C + "implements: A", ["3:13 implements: is a list of interfaces, such as [Speech]"]),
@@ -149,13 +152,13 @@ CDSL: list[tuple[str, list[str]]] = [
     (C + "gui: qt", ["3:6 gui: is a mapping, such as {toolkit: qt, base: QWidget}"]),
     (C + "gui: {toolkit: gtk}", ["3:16 toolkit: is qt"]),
     (C + "gui: {toolkit: qt, base: QLabel}", ["3:26 base: is QWidget, QMainWindow or QDialog"]),
-    (C + "gui: {base: QWidget}", ['3:1 Missing property "toolkit".']),
+    (C + "gui: {base: QWidget}", ["3:1 the key 'toolkit' is missing"]),
     (C + "options: dsr", ["3:10 options: is a list of names, such as [dsr]"]),
     (C + "options: [3]", ["3:11 an option is a name, such as dsr"]),
     (C + "compatibility: ros", ["3:16 compatibility: is robocomp"]),
     (C + "statemachine: [a]",
      ["3:15 statemachine: is an SCXML file, such as speech.scxml, or {initial: …, states: …, transitions: …}"]),
-    (C + "statemachine: {states: {a: }}", ['3:1 Missing property "initial".']),
+    (C + "statemachine: {states: {a: }}", ["3:1 the key 'initial' is missing"]),
     (C + "statemachine: {initial: a b}", [f"3:25 a state is a name: {NAME}"]),
     (C + "statemachine: {initial: a, states: [a]}",
      ["3:36 states: is a mapping of names to states, such as {compute: {}}"]),
@@ -167,7 +170,7 @@ CDSL: list[tuple[str, list[str]]] = [
      ["3:45 a transition is a state, or a mapping such as {to: finalize, event: stop}"]),
     (C + "statemachine: {initial: a, transitions: {a: [b, 3]}}",
      ["3:49 a transition is a state, or a mapping such as {to: finalize, event: stop}"]),
-    (C + "statemachine: {initial: a, transitions: {a: {event: e}}}", ['3:42 Missing property "to".']),
+    (C + "statemachine: {initial: a, transitions: {a: {event: e}}}", ["3:42 the key 'to' is missing"]),
     (C + "statemachine: {initial: a, transitions: {a: {to: b, event: 3}}}", ["3:60 event: is a name"]),
     (C + "statemachine: {initial: a, transitions: {a: {to: b, if: [c]}}}",
      ["3:57 if: is a name, or a condition in quotes"]),
@@ -237,6 +240,15 @@ def test_what_rcyaml_writes_is_clean(editor: Workbench, tmp_path: Path) -> None:
     documents = sorted(tmp_path.rglob("*.yaml"))
     assert len(documents) == 3
     assert editor.marked((path, path.read_text(encoding="utf-8")) for path in documents) == [[], [], []]
+
+
+@pytest.mark.parametrize(("kind", "text", "expected"), ROWS, ids=lambda value: repr(value)[:80])
+def test_rcyaml_check_says_the_same(kind: str, text: str, expected: list[str]) -> None:
+    """One fault, one message; in the same words, but where rcyaml has better ones (it knows what was meant)."""
+    root, _ = tree.parse("document.yaml", text + "\n")
+    assert root is not None
+    [said] = schema.validate(kind, root)
+    assert said.code != "RC0204" or [said.message] == [message.partition(" ")[2] for message in expected]
 
 
 def test_every_message_of_the_schemas_is_here() -> None:

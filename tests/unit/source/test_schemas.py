@@ -129,8 +129,10 @@ def plain(text: str) -> str:
 
 @pytest.mark.parametrize(("path", "kind", "sub"), [r for r in ALL if "errorMessage" in r[2]], ids=lambda v: "")
 def test_a_message_is_only_where_it_is_right_for_every_fault(path: str, kind: str, sub: dict[str, Any]) -> None:
-    """It would hide "missing" and "not allowed", which name the key."""
-    assert not {"required", "additionalProperties", "allOf", "anyOf"} & set(sub) or "if" in sub, path
+    """It would hide which key is missing, or not allowed."""
+    if "required" in sub:
+        assert set(sub) == {"required", "errorMessage"} and len(sub["required"]) == 1, path
+    assert not {"additionalProperties", "allOf", "anyOf"} & set(sub) or "if" in sub, path
     if "properties" in sub:
         assert forbids(sub), path
 
