@@ -167,8 +167,8 @@ PREFERRED = Code(
 )  # fmt: skip
 NOT_SEARCHED = Code(
     "RC5026", WARNING, "'{name}' is migrated to {folder}, where the workspace does not look for imports",
-    "A document finds its imports beside itself, and in the folders that `interfaces:` of the workspace's `rcyaml.yaml` "
-    "names. `migrate` writes that file for a folder that is in no workspace yet, but never changes yours.",
+    "A document finds its imports beside itself, and in the folders that `interfaces:` of the workspace's "
+    "`rcyaml.yaml` names. `migrate` writes that file for a folder that is in no workspace, but never changes yours.",
     {"rcyaml.yaml": "doc: mine\n", "interfaces/Speech.idsl": _IDSL, "speech/speech.cdsl": _CDSL},
     {"rcyaml.yaml": "interfaces: [interfaces]\n", "interfaces/Speech.idsl": _IDSL, "speech/speech.cdsl": _CDSL},
     _MIGRATE,
