@@ -78,6 +78,16 @@ PYTHON_WORD = Code(
     right=_methods("      find: {in: {lambda: string}}\n"),
 )
 
+CPP_NAME = Code(
+    "RC1026",
+    WARNING,
+    "the C++ that Ice makes of the {kind} '{name}' does not compile",
+    why="In C++, a member cannot have the name of the struct or exception that holds it, and a method that of a type "
+    "that its interface uses, spelled exactly so. Slice, and Python, take them.",
+    wrong=_types("  Text: {struct: {Text: string}}\n"),
+    right=_types("  Text: {struct: {text: string}}\n"),
+)
+
 UNKNOWN_TYPE = Code(
     "RC1010",
     ERROR,
