@@ -1,7 +1,7 @@
 """The Python target: a component that runs with Python 3.9 and Ice 3.7 alone.
 
 Most of it is the same for every component and is copied as it stands (`templates/python/runtime/`); what differs are
-three small generated files, the user's skeleton and a launcher.
+a few small generated files, the user's skeleton and a launcher.
 """
 
 from __future__ import annotations
