@@ -119,10 +119,10 @@ def test_policies(link: Link) -> None:
 
 def test_every_source_is_built(link: Link) -> None:
     """component.cmake names each generated source, and none that is not there."""
-    for documents in (MOUTH, {"x.cdsl.yaml": "component: Idle\nlanguage: cpp\n"}):
-        got = files(link(documents))
-        named = set(re.findall(r"[\w/]+\.cpp", got["generated/component.cmake"].replace('/src/*.cpp"', '"')))
-        assert {f"generated/{name.removeprefix('/generated/')}" for name in named} == {
+    for lists in ("implements: [A]", "publishes: [A]"):
+        got = files(link(one_interface("X", "interfaces:\n  A: {methods: {f: {}}}\n", lists)))
+        named = re.findall(r"^    ([\w/]+\.cpp)$", got["generated/component.cmake"], re.MULTILINE)
+        assert {f"generated/{name}" for name in [*named, "main.cpp"]} == {
             path for path in got if path.startswith("generated/") and path.endswith(".cpp")
         }
 
