@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -73,7 +74,7 @@ def _fail(ctx: click.Context, diagnostics: list[Diagnostic], documents: int) -> 
     """What is wrong, on standard error, where standard output is for values."""
     from robocomp_yaml.diag.render import render
 
-    color = _options.colored(ctx, click.get_text_stream("stderr"))
+    color = _options.colored(ctx, sys.stderr)
     click.echo(render("text", diagnostics, documents, color), nl=False, err=True, color=ctx.color)
     ctx.exit(1)
 

@@ -8,8 +8,6 @@ from robocomp_yaml.model.parameters import EnumType, Member, Parameters, RecordT
 from robocomp_yaml.values.json_schema import example, in_words
 from robocomp_yaml.values.spell_yaml import flow, scalar
 
-WIDTH = 110
-
 
 def new_document(
     parameters: Parameters, component: str, modeline: str, connections: list[tuple[str, list[tuple[str, str]]]]
@@ -25,12 +23,9 @@ def _lines(
     yield modeline
     yield f"component: {scalar(component)}"
     yield ""
-    if any(member.required for member in parameters.root.members):
-        yield "# What stands without a # has no default: set it. A line with # shows the default: take the # away to change it."
-    else:
-        yield "# Everything has a default, which the lines with # show: take the # away to change one."
-    yield "parameters:" if any(m.required for m in parameters.root.members) else "parameters: {}"
-    yield from _record(parameters.root, "  ", any(m.required for m in parameters.root.members))
+    yield "# What stands without a # needs a value: set it. A line with # shows a default: take the # away to change it."
+    yield "parameters:"
+    yield from _record(parameters.root, "  ")
     for name, entries in connections:
         if entries:
             yield ""
@@ -38,16 +33,14 @@ def _lines(
             yield from (f"  {scalar(key)}: {scalar(value)}" for key, value in entries)
 
 
-def _record(record: RecordType, indent: str, live: bool) -> Iterator[str]:
-    """`live`: whether the mapping itself stands there, so that an entry may."""
+def _record(record: RecordType, indent: str) -> Iterator[str]:
     for member in record.members:
         yield from _about(member, indent)
         if member.is_group and isinstance(member.type, RecordType):
-            stands = live and member.required
-            yield f"{indent}{'' if stands else '# '}{scalar(member.name)}:"
-            yield from _record(member.type, f"{indent}  ", stands)
+            yield f"{indent}{scalar(member.name)}:"
+            yield from _record(member.type, f"{indent}  ")
         else:
-            yield f"{indent}{'' if live and member.required else '# '}{scalar(member.name)}: {flow(example(member))}"
+            yield f"{indent}{'' if member.required else '# '}{scalar(member.name)}: {flow(example(member))}"
 
 
 def _about(member: Member, indent: str) -> Iterator[str]:

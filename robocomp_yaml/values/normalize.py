@@ -112,7 +112,7 @@ def _by_cerberus(linked: LinkedParameters, key: str, record: RecordType, data: D
     given = {name: with_references(record.members[0].type, data[name])} if name in data else {}
     if not validator.validate(given):
         return None
-    return (without_references(validator.document[name]),)
+    return (as_data(record.members[0].type, validator.document[name]),)
 
 
 def cerberus_verdict(root: RecordType, data: object) -> tuple[bool, Any]:
@@ -123,7 +123,7 @@ def cerberus_verdict(root: RecordType, data: object) -> tuple[bool, Any]:
         return False, None
     validator = ParameterValidator(rules_of(root))
     verdict = validator.validate(with_references(root, copy.deepcopy(data)))
-    return bool(verdict), without_references(validator.document)
+    return bool(verdict), as_data(root, validator.document)
 
 
 def with_references(type_: Type, data: Any) -> Any:
@@ -149,11 +149,18 @@ def _is_variable(name: object) -> bool:
     return isinstance(name, str) and name.isascii() and name.isidentifier()
 
 
-def without_references(data: Any) -> Any:
+def as_data(type_: Type, data: Any) -> Any:
+    """What Cerberus made as plain data: references as `{"env": NAME}`, members in the order of their type."""
     from robocomp_yaml.values.rules import Reference
 
     if isinstance(data, Reference):
         return {"env": data.name}
-    if isinstance(data, dict):
-        return {key: without_references(value) for key, value in data.items()}
-    return [without_references(item) for item in data] if isinstance(data, list) else data
+    match type_:
+        case ListType(element=element) if isinstance(data, list):
+            return [as_data(element, item) for item in data]
+        case MapType(element=element) if isinstance(data, dict):
+            return {key: as_data(element, value) for key, value in data.items()}
+        case RecordType() if isinstance(data, dict):
+            return {m.name: as_data(m.type, data[m.name]) for m in type_.members if m.name in data}
+        case _:
+            return data
