@@ -7,38 +7,17 @@ goes to its own folder (`-o DIR`: to the same place below DIR), with the Slice t
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import FilePlan, RootPlan
 from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
-
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.ports import Ports
-
-TARGETS = ("slice", "python", "cpp", "config")
-
-
-@dataclass(slots=True)
-class Options:
-    """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
-    `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
-    component's workspace (asked for only when a first `etc/config` is to be written)."""
-
-    output: str | None
-    below: Sequence[str]
-    targets: frozenset[str]
-    workspace_of: Callable[[str], Workspace]
-    ports: Callable[[LinkedComponent], Ports]
-
-    def wants(self, target: str) -> bool:
-        return not self.targets or target in self.targets
 
 
 @dataclass(slots=True)
