@@ -53,10 +53,11 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             needed = [linked, *_imports(linked, lambda other, root=root: other in asked and slice_root(other) == root)]
             result.plans.append(RootPlan(root, owner, list(slices(needed))))
             result.compiled += 1
-    for real in sorted(program.asked & program.components.keys(), key=lambda r: program.components[r].component.path):
+    for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if _usable_component(component, state, result):
-            from robocomp_yaml.emit.component import component_plan, values_of  # with the targets, which Slice alone needs not
+            # with the targets, which Slice alone needs not
+            from robocomp_yaml.emit.component import component_plan, values_of
 
             plan = component_plan(component, options, slices, program)
             if any(document.path in state.faulty for document in values_of(component, program)):

@@ -169,6 +169,14 @@ class Program:
     asked: set[str] = field(default_factory=set)
     documents: int = 0
 
+    def asked_components(self) -> set[str]:
+        """The components that the user named, be it by their parameters or values."""
+        documents = {real: linked.component for real, linked in self.parameters.items()}
+        documents |= {real: linked.parameters.component for real, linked in self.values.items() if linked.parameters}
+        wanted = {id(documents[real]) for real in self.asked & documents.keys()}
+        named = {real for real, linked in self.components.items() if id(linked) in wanted}
+        return (self.asked & self.components.keys()) | named
+
     def parameter_documents(self) -> Iterator[LinkedParameters]:
         """Every document of parameters, once for each component that has it."""
         seen: set[int] = set()
