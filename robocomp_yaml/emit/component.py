@@ -21,7 +21,7 @@ def component_plan(
     slices: Callable[[Iterable[LinkedModule], str], Iterator[FilePlan]],
     program: Program,
 ) -> RootPlan:
-    """The plan of one component: Slice, the target of its language, `etc/config` from its values or a first one, docs."""
+    """The plan of one component: Slice, its language, `etc/config` from its values or a first one, docs."""
     component = linked.component
     root = _component_root(component.path, options)
     plan = RootPlan(root, os.path.relpath(component.path, root), partial=bool(options.targets))
