@@ -14,7 +14,7 @@ from robocomp_yaml.values.json_schema import EFFECTIVE, values_schema
 from robocomp_yaml.values.judge import judge
 from robocomp_yaml.values.normalize import cerberus_verdict
 from robocomp_yaml.values.spell_yaml import flow
-from tests.parameters import tree
+from parameters import tree
 
 Judge = Callable[[Parameters, Any], bool]
 

@@ -42,7 +42,7 @@ class NotInLanguage(ValueError):
 
 
 def _at() -> int:
-    return field(compare=False, kw_only=True, default=0)  # type: ignore[no-any-return]
+    return field(compare=False, kw_only=True, default=0)
 
 
 @dataclass(frozen=True, slots=True)

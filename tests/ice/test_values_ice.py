@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,7 +13,7 @@ from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties
 from robocomp_yaml.values.read import properties_to_values
-from tests.parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
+from parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")
 RELAXED = settings(
