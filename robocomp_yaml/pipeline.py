@@ -18,7 +18,7 @@ from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
-from robocomp_yaml.source.discover import Found, discover
+from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
 
 Check = Callable[[Program], Iterator[Diagnostic]]
 
@@ -35,6 +35,10 @@ class Analysis:
     contents: dict[str, bytes] = field(default_factory=dict)
     absent: set[str] = field(default_factory=set)
 
+    def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+        """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
+        return in_order([*self.diagnostics, *_with_lint(diagnostics, self.linker)])
+
 
 def checks() -> list[Check]:
     """Every check, in the order of their modules' names."""
@@ -47,18 +51,22 @@ def search_folders(given: Iterable[str]) -> tuple[str, ...]:
     return (*given, *(folder for folder in os.environ.get("RCYAML_PATH", "").split(os.pathsep) if folder))
 
 
-def analyse(paths: Iterable[str], extra: Iterable[str] = ()) -> Analysis:
-    """All about the documents at these paths; `extra` are folders to look for imports in."""
+def analyse(
+    paths: Iterable[str], extra: Iterable[str] = (), on_read: Callable[[str], None] = lambda path: None
+) -> Analysis:
+    """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
+    document that is read."""
     found = discover(list(paths))
-    documents = Documents()
+    documents = Documents(on_read)
     linker = Linker(documents, Search(search_folders(extra)))
     program = linker.link(found.documents)
     said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]
     for run in checks():
         said += run(program)
-    return Analysis(
-        program, linker, found, in_order(_with_lint(said, linker)), documents.contents, linker.search.absent
-    )
+    contents = documents.contents
+    for workspace in linker.workspaces.values():
+        contents[os.path.normpath(os.path.join(workspace.root, WORKSPACE_FILE))] = workspace.content
+    return Analysis(program, linker, found, in_order(_with_lint(said, linker)), contents, linker.search.absent)
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

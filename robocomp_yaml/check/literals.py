@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 import struct
 from collections.abc import Iterator
@@ -10,7 +9,7 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import LinkedModule, Program
-from robocomp_yaml.link.suggest import suggest
+from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.model.interface import Enum, ExceptionType, Literal, Struct, TypeRef
 
 RANGES = {"byte": (0, 255), "short": (-(2**15), 2**15 - 1), "int": (-(2**31), 2**31 - 1), "long": (-(2**63), 2**63 - 1)}
@@ -86,12 +85,10 @@ def _wider(number: int) -> str:
 def _of_real(type_name: str, number: float, lexeme: str) -> tuple[str, str]:
     try:
         real = float(number)
-        stored = struct.unpack("f", struct.pack("f", real))[0] if type_name == "float" else real
+        stored = struct.unpack("<f", struct.pack("<f", real))[0] if type_name == "float" else real
     except OverflowError:
         other = "use double, or " if type_name == "float" else ""
         return f"it is too large for a {type_name}", f"{other}write a smaller value"
-    if not math.isfinite(real):
-        return "Slice has no infinities, and nothing that is not a number", "write a finite number"
     if stored == 0 and re.search("[1-9]", re.split("[eE]", lexeme)[0]):
         return f"it is too small for a {type_name}", "write 0, or a larger value"
     return "", ""

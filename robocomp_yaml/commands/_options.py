@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import click
@@ -11,7 +13,7 @@ import click
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.render import FORMATS, render
 
-Function = Callable[..., Any]
+MANY = 300  # documents: fewer are read before a bar could be seen
 
 paths = click.argument("paths", nargs=-1, type=click.Path(exists=True))
 include = click.option(
@@ -28,6 +30,28 @@ def colored(ctx: click.Context, stream: Any = None) -> bool:
     if ctx.color is not None:
         return ctx.color
     return bool((stream or sys.stdout).isatty())
+
+
+def find_below(folder: str) -> list[str]:
+    """The documents below a folder, and the folders below it that something was compiled to."""
+    from robocomp_yaml.source.discover import documents_below
+
+    roots: list[str] = []
+    return [*documents_below(folder, roots), *roots]
+
+
+@contextmanager
+def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None]]:
+    """A bar on standard error that counts documents, where someone watches and there are many."""
+    if not sys.stderr.isatty():
+        yield lambda path: None
+        return
+    total = sum(len(find_below(path)) for path in paths if os.path.isdir(path))
+    if total < MANY:
+        yield lambda path: None
+        return
+    with click.progressbar(length=total, label=label, file=sys.stderr, update_min_steps=50) as bar:
+        yield lambda path: bar.update(1, path)
 
 
 def report(ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], documents: int) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
@@ -50,7 +49,7 @@ def command(
     for path, change in list(shown):
         click.echo(change.diff(path), nl=False, err=format_ != "text")
     if not dry_run:
-        _write(run)
+        run.write()
     lost = sum(entry.lines()["lost"] for entry in run.entries)
     if report is not None:
         _save(report, as_json(run.entries))
@@ -69,20 +68,6 @@ def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
         return
     with click.progressbar(files, label="migrating", file=sys.stderr) as bar:
         yield from bar
-
-
-def _write(run: Migration) -> None:
-    from pathlib import Path
-
-    try:
-        from robocomp_yaml.source import workspace_files
-    except ImportError:
-        return run.write()
-
-    run.write()
-    for home in sorted(run.schemas):
-        if os.path.isdir(home):
-            workspace_files.install(Path(home))
 
 
 def _save(path: str, text: str) -> None:

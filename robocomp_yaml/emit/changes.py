@@ -5,10 +5,11 @@ from __future__ import annotations
 import difflib
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.atomic import Step
+from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE
 
 CREATE, UPDATE, ADOPT, EDITED = "create", "update", "adopt", "edited"
 REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", "refused"
@@ -16,7 +17,8 @@ REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", 
 
 EDITED: someone changed a generated file; their version is kept under `orig`, ours is written (or, where it is no longer
 generated, nothing is). ADOPT: it was there before rcyaml, and is kept under `orig` likewise. KEPT: it is the user's,
-and stays. LEFT: it is the user's, and no document asks for it any more. REFUSED: a diagnostic says why not.
+and stays. LEFT: it is the user's, and no document asks for it any more. REFUSED: it stays as it is, as a
+diagnostic says.
 """
 
 WRITING = (CREATE, UPDATE, ADOPT, EDITED, REMOVE)
@@ -56,6 +58,12 @@ class RootChanges:
     once: list[str] = field(default_factory=list)
     refused: bool = False
 
+    def refuse(self) -> None:
+        """Nothing of this root is written."""
+        self.refused = True
+        self.steps.clear()
+        self.changes = [replace(c, action=REFUSED, orig="") if c.action in WRITING else c for c in self.changes]
+
 
 @dataclass(slots=True)
 class Changes:
@@ -70,6 +78,21 @@ class Changes:
     def dirty(self) -> bool:
         """Whether a file that a user sees would change."""
         return any(change.action in (*WRITING, REFUSED) for change in self)
+
+    @property
+    def settled(self) -> dict[str, bytes]:
+        """What rcyaml's own files hold when all is done, manifests too; paths as the user can open them."""
+        return {os.path.join(root.root, path): text for root in self.roots for path, text in root.settled.items()}
+
+    @property
+    def once(self) -> list[str]:
+        """The user's own files, of which only the presence counts."""
+        return [os.path.join(root.root, path) for root in self.roots for path in root.once]
+
+    @property
+    def journals(self) -> list[str]:
+        """Where an interrupted commit would have left its journal."""
+        return [os.path.join(root.root, name) for root in self.roots for name in (JOURNAL, JOURNAL_DONE)]
 
 
 def _lines(data: bytes | None) -> list[str]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
 from robocomp_yaml.legacy import comments, directives
 from robocomp_yaml.legacy.draft import Draft, Reader, plain
 from robocomp_yaml.legacy.formats import by_name, recognize
@@ -50,7 +50,6 @@ def _convert(result: Converted, source: Source, rules: Rules) -> None:
     said += parsed.diagnostics
     if parsed.tree is None:
         return
-    said += directives.review(parsed.trivia, source, rules)
     said += _review(parsed.tree, source, rules)
     placed = comments.place(parsed.tree, parsed.comments, source, rules)
     said += placed.diagnostics
@@ -58,7 +57,10 @@ def _convert(result: Converted, source: Source, rules: Rules) -> None:
     converter = importlib.import_module(f"robocomp_yaml.legacy.converters.{rules.converter}")
     draft = converter.convert(reader)
     said += reader.diagnostics
-    result.draft = None if has_errors(said) else draft
+    marks = directives.review(parsed.trivia, source, rules)
+    refused = has_errors([*said, *marks])
+    said += [mark for mark in marks if not refused or mark.severity == ERROR]  # a refused file loses nothing
+    result.draft = None if refused else draft
 
 
 def _review(tree: Tree[Token], source: Source, rules: Rules) -> list[Diagnostic]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from lark import Token
 
@@ -18,11 +18,7 @@ _WORD = re.compile(r"#\s*(\w*)\s*(.*)", re.DOTALL)
 
 def review(trivia: Sequence[Token], source: Source, rules: Rules) -> list[Diagnostic]:
     """What of it is lost. A guard (`#ifndef X`, `#define X`, …, `#endif`, or `#pragma once`) is not: we write it."""
-    said = [
-        codes.LOST.at(_span(token, source), what=rules.losses["METADATA"].format(text=_flat(token)))
-        for token in trivia
-        if token.type == "METADATA"
-    ]
+    said = list(_metadata(trivia, source, rules))
     open_: list[tuple[Token, bool]] = []
     directives = [token for token in trivia if token.type == "DIRECTIVE"]
     for number, token in enumerate(directives):
@@ -45,6 +41,21 @@ def review(trivia: Sequence[Token], source: Source, rules: Rules) -> list[Diagno
             said.append(_lost(token, source, rules))
     said += [_lost(token, source, rules) for token, guard in open_ if not guard]
     return said
+
+
+def _metadata(trivia: Sequence[Token], source: Source, rules: Rules) -> Iterator[Diagnostic]:
+    """One loss for metadata that stands together."""
+    groups: list[list[Token]] = []
+    for token in trivia:
+        if token.type == "METADATA":
+            start, before = token.start_pos or 0, groups[-1][-1].end_pos if groups else None
+            if before is not None and not source.text[before:start].strip():
+                groups[-1].append(token)
+            else:
+                groups.append([token])
+    for group in groups:
+        more = f" (and {len(group) - 1} more)" if len(group) > 1 else ""
+        yield codes.LOST.at(_span(group[0], source), what=rules.losses["METADATA"].format(text=_flat(group[0]) + more))
 
 
 def _parts(token: Token) -> tuple[str, str]:

@@ -66,11 +66,12 @@ def classify(source: Source, parsed: Parsed | None, diagnostics: Iterable[Diagno
     classes = []
     for number, text in enumerate("".join(bare).split("\n")[: source.lines], 1):
         classes.append("converted" if text.strip() else "comment" if number in commented else "blank")
-    last_of = {source.line(t.start_pos or 0): source.line(t.end_pos or 0) for t in parsed.trivia}
-    for diagnostic in diagnostics:
-        to, first = _REPAIRS.get(diagnostic.code), diagnostic.span.line
-        for line in range(first, last_of.get(first, first) + 1) if to is not None else ():
-            if to is not None and classes[line - 1] in ("converted", "repaired"):
+    changed = [(source.line(t.start_pos or 0), source.line(t.end_pos or 0), "lost") for t in parsed.trivia
+               if t.type == "METADATA"]  # fmt: skip
+    changed += [(d.span.line, d.span.line, _REPAIRS[d.code]) for d in diagnostics if d.code in _REPAIRS]
+    for first, last, to in changed:
+        for line in range(first, last + 1):
+            if classes[line - 1] in ("converted", "repaired"):
                 classes[line - 1] = to
     return classes
 

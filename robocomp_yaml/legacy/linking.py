@@ -89,43 +89,41 @@ def _name(
     return spelled.get(stem.lower()) or beside.get(stem.lower())
 
 
-def unknown_references(file: Converted, neighbours: Neighbours) -> Iterable[Diagnostic]:
-    """References of a module that nothing defines. What an import from elsewhere defines is not known here."""
+def resolve_references(file: Converted, neighbours: Neighbours) -> Iterable[Diagnostic]:
+    """Warns of references of a module that nothing defines. What an import from elsewhere defines is not known here.
+
+    In Slice, several files may hold parts of one module, and need not qualify each other's names; documents do.
+    """
     if file.draft is None or file.draft.module is None:
         return
-    modules: dict[str, ModuleNames] = {}
+    imported: list[tuple[str, ModuleNames]] = []
     complete = True
     for wanted in file.draft.imports:
         target = neighbours.imported(file, str(wanted.entry.value))
         if target is None or target.draft is None or target.draft.module is None:
             complete = False
         else:
-            modules[target.draft.module.name] = modules[wanted.stem] = target.draft.module
+            imported.append((wanted.stem, target.draft.module))
     own = file.draft.module
     for reference in own.references:
-        problem = _problem(reference, own, modules, complete, neighbours)
-        if problem:
-            yield codes.UNKNOWN_TYPE.at(reference.span, problem=problem[0], hint=problem[1])
+        if reference.module in ("", own.name) and reference.name in own.defined:
+            continue
+        same = [(stem, m) for stem, m in imported if m.name == (reference.module or own.name)]
+        there = next((stem for stem, module in same if reference.name in module.defined), None)
+        if there is not None:
+            if own.name == (reference.module or own.name):
+                reference.written.text = f"{there}.{reference.name}"
+            continue
+        if not any(stem == reference.module and reference.name in module.defined for stem, module in imported):
+            problem = _problem(reference, own, dict(imported), complete)
+            if problem:
+                hint = neighbours.who_defines(reference.name)
+                yield codes.UNKNOWN_TYPE.at(reference.span, problem=problem, hint=hint)
 
 
-def _problem(
-    reference: Reference, own: ModuleNames, modules: Mapping[str, ModuleNames], complete: bool,
-    neighbours: Neighbours,
-) -> tuple[str, str] | None:  # fmt: skip
-    """What is wrong with a reference, and how to mend it."""
-    name, module = reference.name, reference.module
-    if module in ("", own.name):
-        if name in own.defined:
-            return None
-        problem = f"module {own.name} defines no '{name}'"
-    elif module in modules:
-        if name in modules[module].defined:
-            return None
-        problem = f"module {module} defines no '{name}'"
-    elif complete:
-        problem = f"module {module} is not imported, so '{module}::{name}' is unknown"
-    else:
-        return None
-    return problem, neighbours.who_defines(name)
-
-
+def _problem(reference: Reference, own: ModuleNames, imported: Mapping[str, ModuleNames], complete: bool) -> str:
+    """What is wrong with a reference that none of the known modules resolves; nothing if another one might."""
+    name, module = reference.name, reference.module or own.name
+    if module == own.name or module in imported or any(names.name == module for names in imported.values()):
+        return f"module {module} defines no '{name}'" if complete or module != own.name or not imported else ""
+    return f"module {module} is not imported, so '{module}::{name}' is unknown" if complete else ""

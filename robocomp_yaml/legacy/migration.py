@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
@@ -13,10 +15,11 @@ from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.ledger import Entry
-from robocomp_yaml.legacy.linking import INTERFACES, Neighbours, name_imports, unknown_references
+from robocomp_yaml.legacy.linking import INTERFACES, Neighbours, name_imports, resolve_references
 from robocomp_yaml.legacy.outputs import CHANGED, EDITED, FAILED, TAKEN, Output, OutputRoot
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
 Progress = Callable[[Sequence[LegacyFile]], Iterator[LegacyFile]]
@@ -29,7 +32,8 @@ class Migration:
     entries: list[Entry] = field(default_factory=list)
     roots: dict[str, OutputRoot] = field(default_factory=dict)
     general: list[Diagnostic] = field(default_factory=list)
-    schemas: set[str] = field(default_factory=set)
+    homes: dict[str, list[Output]] = field(default_factory=dict)
+    """The documents of each workspace, whose first line names a schema there."""
     _documents: list[tuple[Entry, OutputRoot, Output]] = field(default_factory=list)
 
     @property
@@ -55,6 +59,10 @@ class Migration:
             for output in root.outputs:
                 if output.path == WORKSPACE_FILE and output.state == FAILED and not root.problem:
                     self.general.append(_not_written(root.root.shown(output.path), root, output))
+        for home, outputs in sorted(self.homes.items()):
+            if any(output.state not in (FAILED, TAKEN) for output in outputs):
+                with contextlib.suppress(OSError):  # a workspace that cannot be written to has migrated all the same
+                    workspace_files.install(Path(home))
 
     def add(self, entry: Entry, root: OutputRoot, output: Output) -> None:
         """An entry's document, with what its state means to the user."""
@@ -122,7 +130,7 @@ def _link(
         document = chosen[file.path]
         entry.diagnostics += name_imports(entry.file, document, known.of(document), neighbours)
     for _, entry in good:
-        entry.diagnostics += unknown_references(entry.file, neighbours)
+        entry.diagnostics += resolve_references(entry.file, neighbours)
 
 
 def _plan(
@@ -141,7 +149,7 @@ def _plan(
             os.path.relpath(document, file.root), workspaces.modeline(document, home, rules.kind) + gap + body,
             force=force,
         )
-        run.schemas.add(home)
+        run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
         if rules.kind == INTERFACES and home in interfaces:
             interfaces[home].append(document)

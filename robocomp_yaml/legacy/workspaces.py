@@ -5,15 +5,15 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.legacy.document import List, Map, Notes, text
 from robocomp_yaml.legacy.outputs import OutputRoot
 from robocomp_yaml.link import workspace as link_workspace
 from robocomp_yaml.link.workspace import Workspace, root_above
+from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import WORKSPACE_FILE
-
-SCHEMAS = ".rcyaml/schemas"
 
 
 @dataclass(slots=True)
@@ -62,10 +62,7 @@ def file_text(root: str, interfaces: Iterable[str]) -> str:
 
 
 def modeline(document: str, root: str, kind: str) -> str:
-    """The line by which an editor finds the schema."""
-    schema = os.path.join(root, SCHEMAS, f"{kind}.schema.json")
-    path = os.path.relpath(schema, os.path.dirname(document) or ".").replace(os.sep, "/")
-    return f"# yaml-language-server: $schema={path}\n"
+    return workspace_files.modeline(kind, Path(document), Path(root)) + "\n"
 
 
 def _is_below(path: str, folder: str) -> bool:

@@ -38,6 +38,7 @@ class Document:
 class Documents:
     """The documents of a run by real path, with all that is wrong with each by itself."""
 
+    on_read: Callable[[str], None] = lambda path: None
     read: dict[str, Document] = field(default_factory=dict)
     contents: dict[str, bytes] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
@@ -49,6 +50,7 @@ class Documents:
         if document is None:
             document = self.read[real] = Document(path, real, kind_of(path) or "idsl")
             self.diagnostics += self._load(document)
+            self.on_read(path)
         return document
 
     def _load(self, document: Document) -> Iterator[Diagnostic]:
@@ -82,10 +84,10 @@ class Documents:
 def _kinds_of_types(tree: Mapping) -> Iterator[Diagnostic]:
     """Each type is of exactly one kind: a rule that a schema can state, but not explain."""
     for key, node in build_interface.entries(tree, "types"):
-        kinds = [kind for kind in build_interface.TYPE_KINDS if isinstance(node, Mapping) and kind in node.entries]
+        assert isinstance(node, Mapping)
+        kinds = [kind for kind in build_interface.TYPE_KINDS if kind in node.entries]
         if not kinds:
-            yield codes.NO_KIND.at(key.span, name=key.lexeme, hint="write {struct: …}, {enum: …}, {sequence: …} or "
-                                   "{map: …}")
+            hint = "write {struct: …}, {enum: …}, {sequence: …} or {map: …}"
+            yield codes.NO_KIND.at(key.span, name=key.lexeme, hint=hint)
         elif len(kinds) > 1:
-            assert isinstance(node, Mapping)
             yield codes.TWO_KINDS.at(node.entries[kinds[1]][0].span, name=key.lexeme, kinds=" and ".join(kinds))

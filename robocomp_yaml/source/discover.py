@@ -12,6 +12,7 @@ from robocomp_yaml.diag.span import Span
 
 KINDS = ("idsl", "cdsl")
 WORKSPACE_FILE = "rcyaml.yaml"
+MANIFEST = ".rcyaml/manifest.json"
 _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
 
 
@@ -26,10 +27,12 @@ def kind_of(path: str) -> str | None:
 
 @dataclass(slots=True)
 class Found:
-    """Documents in the order of their paths; `folders` are those that were asked for."""
+    """Documents in the order of their paths; `folders` are those that were asked for, `roots` the folders below them
+    into which something was compiled."""
 
     documents: list[str] = field(default_factory=list)
     folders: list[str] = field(default_factory=list)
+    roots: list[str] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
 
@@ -40,7 +43,7 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
     for path in paths:
         if os.path.isdir(path):
             found.folders.append(path)
-            below = list(documents_below(path))
+            below = list(documents_below(path, found.roots))
             if not below:
                 found.diagnostics.append(codes.NOTHING_FOUND.at(
                     Span(path), hint="`rcyaml new interface NAME` writes a first one, `rcyaml migrate` carries over "
@@ -62,9 +65,12 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
     return found
 
 
-def documents_below(folder: str) -> Iterator[str]:
-    """Every document below a folder, sorted within each folder; a link to a folder is not followed."""
+def documents_below(folder: str, roots: list[str] | None = None) -> Iterator[str]:
+    """Every document below a folder, sorted within each folder; a link to a folder is not followed. The folders that
+    have a manifest are added to `roots`."""
     for where, folders, names in os.walk(folder):
+        if roots is not None and ".rcyaml" in folders and os.path.isfile(os.path.join(where, MANIFEST)):
+            roots.append(os.path.normpath(where))
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(names):
             if kind_of(name):

@@ -44,7 +44,8 @@ def build(documents: Mapping[str, str], folder: Path) -> dict[str, Built]:
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text, encoding="utf-8")
     analysis = pipeline.analyse([str(folder)], [str(folder)])
-    assert [d for d in analysis.diagnostics if d.severity == ERROR] == []
+    errors = [d for d in analysis.diagnostics if d.severity == ERROR]
+    assert not errors, errors
     built = {}
     for linked in analysis.program.components.values():
         component = linked.component

@@ -37,7 +37,9 @@ def test_what_is_written_is_read_back(key: str, value: str) -> None:
     assert properties.read(properties.entry_line(key, value)).values == {key: value}
 
 
-@pytest.mark.parametrize(("key", "value"), [("", "x"), ("a", ""), (" a", "x"), ("a", "x\n"), ("a", "x\t"), ("a\0", "x")])
+@pytest.mark.parametrize(("key", "value"), [
+    ("", "x"), ("a", ""), (" a", "x"), ("a", "x\n"), ("a", "x\t"), ("a\0", "x"),
+])
 def test_what_cannot_be_written_is_refused(key: str, value: str) -> None:
     with pytest.raises(ValueError, match="property"):
         properties.entry_line(key, value)

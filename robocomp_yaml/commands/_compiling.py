@@ -1,0 +1,132 @@
+"""What `rcyaml compile` does between the documents and the disk."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from robocomp_yaml.commands import _options
+from robocomp_yaml.commands._outcome import File, Outcome
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
+from robocomp_yaml.emit import stamp, writer
+from robocomp_yaml.emit.build import Build, Options, build
+from robocomp_yaml.emit.changes import Changes
+from robocomp_yaml.emit.ports import Ports, assign
+from robocomp_yaml.link.linker import Linker
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.pipeline import Analysis, analyse
+from robocomp_yaml.source import workspace_files
+from robocomp_yaml.source.discover import documents_below, kind_of
+
+
+@dataclass(slots=True)
+class Run:
+    """One compile. `look_only` writes nothing."""
+
+    paths: tuple[str, ...]
+    include: tuple[str, ...]
+    output: str | None
+    targets: tuple[str, ...]
+    look_only: bool = False
+    adopt: bool = False
+    _schemas: dict[str, bytes] = field(default_factory=dict)
+
+    def carry_out(self, *, with_diff: bool = False) -> tuple[Outcome, stamp.Stamp | None]:
+        """What it came to; with a stamp where the same run need not be made again while nothing changes."""
+        with _options.progress("reading", self.paths) as on_read:
+            analysis = analyse(self.paths, self.include, on_read)
+        options = Options(
+            self.output, analysis.found.folders, frozenset(self.targets), analysis.linker.workspace_of, _ports(analysis)
+        )
+        built = build(analysis.program, analysis.diagnostics, options)
+        others = self._other_roots(analysis)
+        recovered = [] if self.look_only else writer.recover(built.plans, others)
+        changes = writer.prepare(built.plans, adopt=self.adopt, others=others)
+        lasting = analysis.with_more(built.diagnostics)
+        told = [*lasting, *recovered, *changes.diagnostics]
+        if not self.look_only:
+            told += writer.commit(changes)
+            self._refresh_schemas(analysis)
+        outcome = _outcome_of(analysis, built, changes, in_order(told), with_diff=with_diff)
+        outcome.planned = self.look_only
+        if self.look_only or has_errors(told):
+            return outcome, None
+        return outcome, self._stamp(analysis, changes, outcome.settled(lasting))
+
+    def _other_roots(self, analysis: Analysis) -> list[str]:
+        """The folders in which a document that is gone may have left something."""
+        others = list(analysis.found.roots)
+        if self.output is not None and analysis.found.folders and os.path.isdir(self.output):
+            for _ in documents_below(self.output, others):
+                pass
+        return others
+
+    def _refresh_schemas(self, analysis: Analysis) -> None:
+        """Brings the schemas up to date that editors read. A workspace that cannot be written to has compiled all the
+        same."""
+        for workspace in analysis.linker.workspaces.values():
+            try:
+                workspace_files.install(Path(workspace.root))
+            except OSError:
+                continue
+            for kind in workspace_files.GLOBS:
+                path = os.path.normpath(os.path.join(workspace.root, workspace_files.schema_path(kind)))
+                self._schemas[path] = Path(path).read_bytes()
+
+    def _stamp(self, analysis: Analysis, changes: Changes, again: Outcome) -> stamp.Stamp | None:
+        """What the same run made again would come to; None where that depends on more than what was read (on names of
+        files that an import might have meant)."""
+        unresolved = any(linked.unresolved for linked in analysis.program.modules.values())
+        broken = any(linked.broken for linked in analysis.program.components.values())
+        if unresolved or broken:
+            return None
+        settled = {os.path.join(root.root, path): data for root in changes.roots for path, data in root.settled.items()}
+        once = [os.path.join(root.root, path) for root in changes.roots for path in root.once]
+        return stamp.take(
+            inputs=analysis.contents,
+            absent=analysis.absent | set(changes.journals),
+            folders={folder: _options.find_below(folder) for folder in analysis.found.folders},
+            outputs=settled | self._schemas,
+            present=once,
+            replay=again.as_data(),
+        )
+
+
+def _outcome_of(
+    analysis: Analysis, built: Build, changes: Changes, told: list[Diagnostic], *, with_diff: bool
+) -> Outcome:
+    files = [
+        File(root.root, change.path, change.action, change.orig, "".join(change.diff()) if with_diff else "")
+        for root in changes.roots
+        for change in root.changes
+    ]
+    program = analysis.program
+    return Outcome(told, files, program.documents, len(program.asked), built.compiled)
+
+
+def _ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
+    """The ports of a component's workspace, assigned once for each workspace; where a component is in none, those of
+    this run's components."""
+    known: dict[str, Ports] = {}
+
+    def of(linked: LinkedComponent) -> Ports:
+        workspace = analysis.linker.workspace_of(linked.component.path)
+        key = workspace.root if workspace.declared else ""
+        if key not in known:
+            known[key] = assign([*_neighbours(workspace, analysis), *analysis.program.components.values()])
+        return known[key]
+
+    return of
+
+
+def _neighbours(workspace: Workspace, analysis: Analysis) -> Iterable[LinkedComponent]:
+    """All components of a workspace, whether this run is about them or not."""
+    if not workspace.declared:
+        return ()
+    paths = [path for path in documents_below(workspace.root) if kind_of(path) == "cdsl"]
+    around = Linker(analysis.linker.documents, analysis.linker.search)
+    around.link(paths)  # what is wrong with neighbours is for their own `check`
+    return around.program.components.values()

@@ -1,0 +1,178 @@
+"""The stamp of a whole run: what it read, found missing and left on the disk, so that the same run need not be made.
+
+A stamp is trusted only as far as contents go: every file of the user is hashed again, no time of change is looked
+at. Whatever cannot be made sure of makes a stamp stale, and a stale stamp costs nothing but the run. Only the standard
+library is imported, for this is what a run with nothing to do consists of.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import stat
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass
+
+import robocomp_yaml
+from robocomp_yaml.source.digest import digest
+
+FOLDER = ".rcyaml/stamps"
+_KEPT = 32
+_DATA = ("schemas", "templates", "migrate")
+
+
+@dataclass(frozen=True, slots=True)
+class Stamp:
+    """All paths are as the run used them, relative to its working folder or absolute.
+
+    `inputs`: of each file read, its real path and digest. `absent`: where it looked in vain. `folders`: of each folder
+    asked, what was found below. `outputs`: of each file written, its digest and whether it may be run. `present`:
+    files whose contents are the user's. `replay`: what the run had to say, in the caller's form.
+    """
+
+    tool: str
+    inputs: dict[str, list[str]]
+    absent: list[str]
+    folders: dict[str, list[str]]
+    outputs: dict[str, list[str | bool]]
+    present: list[str]
+    replay: dict[str, object]
+
+
+def key(arguments: Iterable[str]) -> str:
+    """What tells one kind of run from another: arguments, working folder and search path."""
+    return digest(json.dumps([list(arguments), os.getcwd(), os.environ.get("RCYAML_PATH", "")]).encode())
+
+
+def take(
+    *,
+    inputs: Mapping[str, bytes],
+    absent: Iterable[str],
+    folders: Mapping[str, Iterable[str]],
+    outputs: Mapping[str, bytes],
+    present: Iterable[str],
+    replay: Mapping[str, object],
+) -> Stamp | None:
+    """The stamp of a run that is done; None where one of its files has gone already. `inputs` are the bytes that were
+    read, `outputs` those that were meant to be written: the disk may have changed since."""
+    real = _Real()
+    try:
+        return Stamp(
+            tool(),
+            {path: [real.path(path), digest(data)] for path, data in inputs.items()},
+            sorted(absent),
+            {folder: list(found) for folder, found in folders.items()},
+            {path: [digest(data), _may_run(os.lstat(path))] for path, data in outputs.items()},
+            sorted(present),
+            dict(replay),
+        )
+    except OSError:
+        return None
+
+
+def is_current(stamp: Stamp, find: Callable[[str], Iterable[str]]) -> bool:
+    """Whether the run would read, find and leave the same again. `find` lists what is below a folder asked, as it did
+    for the run."""
+    real = _Real()
+    try:
+        return (
+            not any(os.path.lexists(path) for path in stamp.absent)
+            and all(os.path.lexists(path) for path in stamp.present)
+            and all(list(find(folder)) == found for folder, found in stamp.folders.items())
+            and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
+            and all(_digest(path) == hash_ for path, (_, hash_) in stamp.inputs.items())
+            and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
+            and stamp.tool == tool()
+        )
+    except (OSError, ValueError, TypeError):
+        return False
+
+
+def load(folder: str, name: str) -> Stamp | None:
+    """The stamp that a run with this key left below a folder, or None."""
+    try:
+        with open(_file(folder, name), "rb") as file:
+            stamp = Stamp(**json.load(file))
+        for pair in (*stamp.inputs.values(), *stamp.outputs.values()):
+            _first, _second = pair
+        return stamp
+    except (OSError, ValueError, TypeError, AttributeError, RecursionError):
+        return None
+
+
+def save(folder: str, name: str, stamp: Stamp) -> None:
+    """Keeps a stamp. Where that cannot be done, the next run simply is made again."""
+    path = _file(folder, name)
+    part = f"{path}.{os.getpid()}"
+    with contextlib.suppress(OSError):
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        _ignored_by_git(os.path.dirname(path))
+        try:
+            with open(part, "w", encoding="utf-8") as file:
+                json.dump(asdict(stamp), file, separators=(",", ":"))
+            os.replace(part, path)
+        finally:
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(part)
+        _forget_old(os.path.dirname(path))
+
+
+def tool() -> str:
+    """What tells one rcyaml from another: its version; in a checkout, where code and data change without a new one,
+    also the size and time of each of its files."""
+    package = os.path.dirname(os.path.abspath(robocomp_yaml.__file__))
+    if os.path.isdir(os.path.join(package, "_data")):
+        return robocomp_yaml.__version__
+    parts = [robocomp_yaml.__version__]
+    for top in (package, *(os.path.join(os.path.dirname(package), name) for name in _DATA)):
+        for where, below, names in os.walk(top):
+            below[:] = sorted(name for name in below if name != "__pycache__")
+            for name in sorted(names):
+                state = os.stat(os.path.join(where, name))
+                parts.append(f"{os.path.relpath(where, package)}/{name} {state.st_size} {state.st_mtime_ns}")
+    return digest("\n".join(parts).encode())
+
+
+class _Real:
+    """Real paths; each folder is resolved once."""
+
+    def __init__(self) -> None:
+        self._folders: dict[str, str] = {}
+
+    def path(self, path: str) -> str:
+        if os.path.islink(path):
+            return os.path.realpath(path)
+        folder, name = os.path.split(path)
+        if folder not in self._folders:
+            self._folders[folder] = os.path.realpath(folder)
+        return os.path.join(self._folders[folder], name)
+
+
+def _is_as_written(path: str, hash_: str | bool, may_run: str | bool) -> bool:
+    status = os.lstat(path)
+    return stat.S_ISREG(status.st_mode) and _may_run(status) == may_run and _digest(path) == hash_
+
+
+def _may_run(status: os.stat_result) -> bool:
+    return bool(status.st_mode & stat.S_IXUSR)
+
+
+def _digest(path: str) -> str:
+    with open(path, "rb", buffering=0) as file:
+        return digest(file.read())
+
+
+def _file(folder: str, name: str) -> str:
+    return os.path.join(folder, FOLDER, f"{name}.json")
+
+
+def _ignored_by_git(folder: str) -> None:
+    with contextlib.suppress(FileExistsError), open(os.path.join(folder, ".gitignore"), "x", encoding="utf-8") as file:
+        file.write("*\n")
+
+
+def _forget_old(folder: str) -> None:
+    stamps = [entry for entry in os.scandir(folder) if entry.name.endswith(".json")]
+    for entry in sorted(stamps, key=lambda entry: entry.stat().st_mtime, reverse=True)[_KEPT:]:
+        os.unlink(entry.path)
