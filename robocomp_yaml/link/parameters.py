@@ -40,11 +40,11 @@ def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Par
     """The parameters of a document, as far as they have types, and what is wrong with these. `period` is what the
     component says, in milliseconds."""
     resolver = _Resolver(document)
-    members = resolver.members(document.parameters, None, _IN_PARAMETERS)
+    members = tuple(resolver.members(document.parameters, None, _IN_PARAMETERS))
     constraints = tuple(resolver.constraints(document.rules))
     types = [resolver.named(name) for name, _ in document.types]
     resolver.unused()
-    root = RecordType("", tuple(members), document.doc)
+    root = RecordType("", members, document.doc)
     if resolver.found == [] and _size(root, {}) > MAX_VALUES:
         resolver.found.append(codes.TOO_LARGE.at(
             document.span, name="parameters", limit=MAX_VALUES, what="values of plain types"

@@ -13,6 +13,7 @@ import ast
 import re
 import warnings
 from dataclasses import dataclass, field
+from keyword import kwlist
 
 MAX_LENGTH = 2000
 MAX_DEPTH = 50
@@ -26,6 +27,10 @@ _COMPARE = {
 _TRUTHS = {"true": True, "false": False}
 _FOREIGN = ((re.compile(r"&&"), "and"), (re.compile(r"\|\|"), "or"), (re.compile(r"!(?!=)"), "not"),
             (re.compile(r"(?<![=<>!])=(?!=)"), "=="))
+
+_RESERVED = re.compile(
+    r"\b(?:" + "|".join(sorted(set(kwlist) - {"and", "or", "not", "in", "for", "if", "True", "False"})) + r")\b"
+)
 
 
 class NotInLanguage(ValueError):
@@ -144,7 +149,7 @@ def parse(text: str) -> Expression:
     """The tree of an expression. Raises NotInLanguage."""
     if len(text) > MAX_LENGTH:
         raise NotInLanguage(f"an expression has at most {MAX_LENGTH} characters")
-    source = " ".join(text.splitlines())  # line ends mean nothing; each stays one character
+    source = _without_keywords(text.replace("\n", " ").replace("\r", " "))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of the parser, about code that we do not run
@@ -172,14 +177,26 @@ def _without_texts(source: str) -> str:
     return re.sub(r"\"[^\"]*\"|'[^']*'", lambda text: " " * len(text[0]), source)
 
 
+def _without_keywords(source: str) -> str:
+    """Python's other reserved words are names here. In bold letters the parser takes them for names, and gives them
+    back in plain ones (it normalizes names by NFKC); their length stays the same."""
+    bare = _without_texts(source)
+    for word in reversed(list(_RESERVED.finditer(bare))):
+        bold = chr(0x1D41A + ord(word[0][0]) - ord("a")) if word[0][0].islower() else chr(0x1D400 + ord(word[0][0]) - 65)
+        source = source[: word.start()] + bold + source[word.start() + 1 :]
+    return source
+
+
 class _Reader:
     def __init__(self, source: str) -> None:
         self.source = source
         self._bytes = None if source.isascii() else source.encode()
         self._depth = 0
 
-    def at(self, node: ast.AST) -> int:
-        offset: int = getattr(node, "col_offset", 0)
+    def at(self, node: ast.AST, offset: int | None = None) -> int:
+        """The index of a node's first character, or of another offset in bytes."""
+        if offset is None:
+            offset = int(getattr(node, "col_offset", 0))
         return offset if self._bytes is None else len(self._bytes[:offset].decode(errors="ignore"))
 
     def read(self, node: ast.expr) -> Expression:
@@ -197,7 +214,7 @@ class _Reader:
             case ast.Name(id=name):
                 return Literal(_TRUTHS[name], at=at) if name in _TRUTHS else Name(name, at=at)
             case ast.Attribute(value=of, attr=name):
-                return Attribute(self.read(of), name, at=at)
+                return Attribute(self.read(of), name, at=self.at(node, node.end_col_offset) - len(name))
             case ast.Subscript(value=of, slice=index) if not isinstance(index, ast.Slice | ast.Tuple):
                 return Index(self.read(of), self.read(index), at=at)
             case ast.List(elts=items) | ast.Tuple(elts=items):
