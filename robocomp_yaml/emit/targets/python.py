@@ -16,6 +16,7 @@ from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
+from robocomp_yaml.emit.targets import python_parameters
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
 from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.emit.targets.slice import file_name
@@ -71,6 +72,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     return [
         *_runtime(),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
+        python_parameters.plan(component),
         FilePlan("generated/component.py", _rendered("component.py", view, table)),
         FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
         FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
