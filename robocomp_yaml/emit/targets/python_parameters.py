@@ -78,9 +78,12 @@ def plan(linked: LinkedComponent) -> FilePlan:
     """`generated/parameters.py`."""
     found = linked.parameters
     source = found.document.path if found.document is not None else linked.component.path
-    return FilePlan("generated/parameters.py", render("python/parameters.py.j2", _view(
-        found.parameters, linked.component.name, one_line(source.rpartition("/")[2])
-    )))  # fmt: skip
+    return FilePlan("generated/parameters.py", text(found.parameters, linked.component.name, source))
+
+
+def text(parameters: Parameters, component: str, source: str) -> str:
+    """The module with the parameters of a component, made from the document `source`."""
+    return render("python/parameters.py.j2", _view(parameters, component, one_line(source.rpartition("/")[2])))
 
 
 def _view(parameters: Parameters, name: str, source: str) -> View:

@@ -59,20 +59,15 @@ class Behavior:
     def getParameterList(self, current: Ice.Current) -> dict[str, Any]:
         """The parameters by their dotted paths; and the other properties, which nobody can change."""
         parameter = self._component.behavior.Parameter
-        properties = self._settings.parameters()
-        listed = {key: parameter(False, properties[key], "string") for key in sorted(self._store.unread)}
+        listed = {key: parameter(False, text, "string") for key, text in sorted(self._store.unread.items())}
         for key, entry in self._store.entries().items():
             listed[key] = parameter(entry.is_editable, entry.text, entry.type)
         return listed
 
     def setParameterList(self, parameters: dict[str, Any], current: Ice.Current) -> None:
         """All of them, or none: then the log says why."""
-        properties = self._settings.parameters()
-        changes = {
-            key: given.value
-            for key, given in parameters.items()
-            if key not in self._store.unread or given.value != properties[key]
-        }
+        others = self._store.unread
+        changes = {key: given.value for key, given in parameters.items() if others.get(key) != given.value}
         before = self._store.entries()
         try:
             self._store.change_texts(changes)

@@ -96,8 +96,7 @@ class Store:
         self._news: deque[Change] = deque()
         self._telling = threading.Lock()
         self._shown: Any = None
-        self.unread: set[str] = set()
-        self.values, self._references = self._read(properties, overrides)
+        self.values, self._references, self.unread = self._read(properties, overrides)
 
     def shows_in(self, live: Live) -> None:
         self._shown = live
@@ -139,8 +138,9 @@ class Store:
     def reload(self, properties: Mapping[str, str], overrides: Mapping[str, str]) -> None:
         """Takes the values from properties once more."""
         with self._lock:
-            made, references = self._read(properties, overrides)
+            made, references, unread = self._read(properties, overrides)
             self._replace(made, Taking(references=references))
+            self.unread = unread
         self._tell()
 
     def listen(self, listener: Listener) -> None:
@@ -150,8 +150,11 @@ class Store:
         """Each plain value as text, by its dotted path; references to the environment as they stand in the config."""
         return dict(flat(self.kind, self.values, self._references))
 
-    def _read(self, properties: Mapping[str, str], overrides: Mapping[str, str]) -> Any:
-        """Values and references. `overrides` are of the command line; they are paths, whatever the table says."""
+    def _read(
+        self, properties: Mapping[str, str], overrides: Mapping[str, str]
+    ) -> tuple[Any, dict[Path, str], Mapping[str, str]]:
+        """Values, references, and the properties that are nobody's. `overrides` are of the command line; they are
+        paths, whatever the table says."""
         if "period.compute" not in properties and "Period.Compute" in properties:  # RoboComp's own spelling
             properties = {**properties, "period.compute": properties["Period.Compute"]}
         reader = Reader(properties, self._table.spellings)
@@ -166,8 +169,7 @@ class Store:
         taking.problems += () if taking.problems else self._broken(made)
         if taking.problems:
             raise ParameterError(taking.problems)
-        self.unread = properties.keys() - reader.used
-        return made, taking.references
+        return made, taking.references, {key: properties[key] for key in properties.keys() - reader.used}
 
     def _broken(self, made: Any) -> Iterable[Problem]:
         return [
