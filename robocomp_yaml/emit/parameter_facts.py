@@ -62,7 +62,7 @@ def _spelled(data: object) -> str:
 
 
 def records(root: RecordType) -> tuple[list[tuple[str, RecordType]], list[EnumType]]:
-    """The records that parameters use, those inside first, by name (a group by its path behind a dot, the root by a
+    """The records that parameters use, those inside first, by name (a group by its path in code behind a dot, the root by a
     dot); and the enums."""
     found: dict[str, RecordType] = {}
     enums: dict[str, EnumType] = {}
@@ -77,7 +77,7 @@ def records(root: RecordType) -> tuple[list[tuple[str, RecordType]], list[EnumTy
                 if (name or path) in found:
                     return
                 for member in members:
-                    visit(member.type, "" if name else inside(path, member.name))
+                    visit(member.type, "" if name else inside(path, member.code_name))
                 found[name or path] = type_
 
     visit(root, ".")

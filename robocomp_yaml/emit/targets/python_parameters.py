@@ -150,7 +150,7 @@ class _Types:
 
     def member(self, member: Member, group: str | None) -> MemberView:
         """`group` is the path of the group that it stands in, None in a struct."""
-        inner = None if group is None else inside(group, member.name)
+        inner = None if group is None else inside(group, member.code_name)
         arguments = [self.kind(member.type, inner)]
         if member.default is not None:
             arguments.append(f"default={literal(member.default.data)}")
@@ -194,7 +194,7 @@ class _Types:
 
 
 def _group_class(path: str) -> str:
-    return "".join(part[:1].upper() + part[1:] for part in path[1:].replace("-", "_").split(".")) + "Group"
+    return "".join(part[:1].upper() + part[1:] for part in path[1:].split(".")) + "Group"
 
 
 def _plain(type_: BasicType) -> str:

@@ -46,12 +46,14 @@ class Plain:
 
     def take(self, raw: Any, path: Path, taking: Taking) -> Any:
         """The value that `raw` stands for; a problem goes to `taking` where there is none."""
+        raw = texts.referred(raw)
         if isinstance(raw, texts.Unset):
             taking.refuse(path, f"comes from the environment variable {raw.name}, which is not set")
             return None
         if isinstance(raw, texts.Referred):
             taking.references[path] = raw.reference
-        value = self.read(raw) if taking.is_text and isinstance(raw, str) else self.of(raw)
+        is_text = isinstance(raw, texts.Referred) or (taking.is_text and isinstance(raw, str))
+        value = self.read(raw) if is_text else self.of(raw)
         if value is None:
             unit = f" ({self.unit})" if self.unit else ""
             wanted = f"{self.words}{unit}"

@@ -15,6 +15,7 @@ TRUTHS = {
 _WHOLE = re.compile(r"[-+]?[0-9]{1,40}(?:\.0*)?\Z")
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z")
 _REFERENCE = re.compile(r"\$\{env:([A-Za-z_][A-Za-z0-9_]*)\}\Z")
+_VARIABLE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _BLANKS = " \t"
 
 
@@ -42,6 +43,13 @@ def resolved(text: str) -> Any:
     referred = Referred(value)
     referred.reference = text
     return referred
+
+
+def referred(raw: Any) -> Any:
+    """What the data `{"env": NAME}` stands for; other data as it is."""
+    if not isinstance(raw, dict) or raw.keys() != {"env"} or not isinstance(raw["env"], str):
+        return raw
+    return resolved(f"${{env:{raw['env']}}}") if _VARIABLE.match(raw["env"]) else raw
 
 
 def unquoted(value: str) -> str:
