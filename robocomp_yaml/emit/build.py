@@ -22,7 +22,7 @@ from robocomp_yaml.link.workspace import Workspace
 if TYPE_CHECKING:
     from robocomp_yaml.emit.ports import Ports
 
-TARGETS = ("slice", "python", "cpp", "config")
+TARGETS = ("slice", "python", "cpp", "config", "docs")
 
 
 @dataclass(slots=True)
@@ -73,9 +73,14 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
     for real in sorted(program.asked & program.components.keys(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if _usable_component(component, state, result):
-            from robocomp_yaml.emit.component import component_plan  # with the targets, which Slice alone needs not
+            from robocomp_yaml.emit.component import component_plan, values_of  # with the targets, which Slice alone needs not
 
-            result.plans.append(component_plan(component, options, slices))
+            plan = component_plan(component, options, slices, program)
+            if any(document.path in state.faulty for document in values_of(component, program)):
+                # What is wrong has been said; what the values wrote before stays until they are right again.
+                files = [file for file in plan.files if not file.path.startswith("etc/")]
+                plan = RootPlan(plan.root, plan.owner, files, partial=True)
+            result.plans.append(plan)
             result.diagnostics += _not_yet(component)
             result.compiled += 1
     return result
@@ -120,6 +125,11 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
     if linked.broken and component.path not in state.faulty:
         result.diagnostics.append(_unresolved(component.name, component.path, component.path, state))
         return False
+    document = linked.parameters.document
+    if document is not None and document.path in state.faulty:
+        if component.path not in state.faulty:
+            result.diagnostics.append(_unresolved(component.name, component.path, document.path, state))
+        return False
     return _usable(component.name, component.path, linked.imports, state, result)
 
 
@@ -135,7 +145,7 @@ def _unresolved(name: str, path: str, cause: str, state: _State) -> Diagnostic:
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
-        "parameters": component.parameters, "statemachine": component.statemachine, "gui": component.gui,
+        "statemachine": component.statemachine, "gui": component.gui,
         "options": component.options, "compatibility": component.compatibility, "uses": component.has_uses,
     }  # fmt: skip
     for key, value in asked.items():

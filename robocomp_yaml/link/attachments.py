@@ -24,10 +24,12 @@ _NAMES_COMPONENT = re.compile(rb"^component:[ \t]*[\"']?([^\"'#\r\n]+?)[\"']?[ \
 
 @dataclass(slots=True)
 class Attachments:
-    """Follows the references between components, parameters and values. Keys of the tables are real paths."""
+    """Follows the references between components, parameters and values. Keys of the tables are real paths; `absent`
+    collects the paths at which a document would be found if it were there."""
 
     documents: Documents
     program: Program
+    absent: set[str]
     diagnostics: list[Diagnostic] = field(default_factory=list)
     _parameters_of: dict[str, list[tuple[str, Span]]] = field(default_factory=dict)  # component: its PDSLs
     _component_of: dict[str, str] = field(default_factory=dict)  # PDSL or values: what `component:` names
@@ -61,9 +63,12 @@ class Attachments:
         values = os.path.normpath(os.path.join(folder, "etc", "config.yaml"))
         if os.path.isfile(values):
             yield self.documents.get(values)
+        else:
+            self.absent.add(values)
 
     def _beside(self, document: Document, folder: str) -> Iterator[Document]:
         """The documents beside a component that name it as theirs."""
+        self.absent.add(os.path.normpath(document.path.removesuffix(".cdsl.yaml") + SUFFIX))
         try:
             names = sorted(name for name in os.listdir(folder or ".") if name.endswith(SUFFIX))
         except OSError:

@@ -38,7 +38,7 @@ class Linker:
         todo = [self.documents.get(path) for path in paths]
         self.program.asked = {document.real for document in todo}
         components: list[tuple[Document, LinkedComponent]] = []
-        attachments = Attachments(self.documents, self.program, self.diagnostics)
+        attachments = Attachments(self.documents, self.program, self.search.absent, self.diagnostics)
         seen: set[str] = set()
         while todo:
             document = todo.pop()

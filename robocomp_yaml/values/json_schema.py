@@ -227,7 +227,7 @@ def in_words(type_: Type) -> str:
         kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
         size = f" of {type_.size.in_words} entries" if type_.size != Size() else ""
         words = f"a {kind}{size}, each {one} {in_words(type_.element)}"
-    elif type_.name:
+    elif isinstance(type_, RecordType) and type_.name:
         words = type_.name
     return words
 
