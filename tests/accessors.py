@@ -12,17 +12,21 @@ from conftest import ROOT
 from robocomp_yaml.emit.targets import python_parameters
 from robocomp_yaml.model.parameters import Parameters
 
+_LAST: list[Any] = []  # the parameters and the module that were asked for last
+
 
 def python(parameters: Parameters) -> ModuleType:
     """The module `generated/parameters.py` of a component with these parameters."""
+    if _LAST and _LAST[0] is parameters:
+        return _LAST[1]
     if "generated" not in sys.modules:
         package = ModuleType("generated")
         package.__path__ = [str(ROOT / "templates" / "python")]
         sys.modules["generated"] = package
     made = ModuleType("generated.parameters")
     text = python_parameters.text(parameters, "Component", "x.pdsl.yaml")
-    with mock.patch.dict(sys.modules, {"generated.parameters": made}):
-        exec(compile(text, "parameters.py", "exec"), made.__dict__)
+    exec(compile(text, "parameters.py", "exec"), made.__dict__)
+    _LAST[:] = [parameters, made]
     return made
 
 
@@ -53,3 +57,11 @@ def take(parameters: Parameters, data: Any) -> tuple[Any, list[str]]:
         values = kind.take(data, (), taking)
     problems = [problem.message for problem in taking.problems if "comes from the environment" not in problem.message]
     return (None if problems else composite.data(kind, values)), problems
+
+
+def read_back(parameters: Parameters, properties: dict[str, str]) -> Any:
+    """The values that a component has which was started with these properties, as data."""
+    started = store(parameters, properties)
+    from generated.runtime import composite
+
+    return composite.data(started.kind, started.values)

@@ -17,7 +17,7 @@ from generated.runtime.paths import unescaped
 from generated.runtime.plain import Plain, Text
 
 _HOLE = re.compile(r"\{([A-Za-z0-9_][A-Za-z0-9_-]*)\}")
-_TOML = re.compile(r"Endpoints\.|Proxies\.(?!.*Prefix$)")
+_TOML = re.compile(r"(?:Endpoints|Period|Agent)\.|Proxies\.(?!.*Prefix$)")
 
 
 @dataclass(frozen=True)
