@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.suggest import suggest
@@ -48,13 +48,16 @@ class Comparison:
         return not self.lacking and not self.outdated
 
 
-def compare(new: Sequence[Code], base: Mapping[str, Code], yours: Sequence[Code]) -> Comparison:
+def compare(
+    new: Sequence[Code], base: Mapping[str, Code], yours: Sequence[Code], bases: Collection[str] = ()
+) -> Comparison:
     """`new` is the skeleton of today and `base` that which the user's files came from, file by file, as far as it is
-    known; `yours` are the user's files."""
+    known; `yours` are the user's files. `bases` are the classes that a skeleton's class inherits from, beside those in
+    `new`."""
     result = Comparison()
     members, definitions = _by_name(yours, "members"), _by_name(yours, "definitions")
     bodies = {name: [pair for pair in found if pair[1].has_body] for name, found in members.items()}
-    elsewhere = _inherited(new, yours)
+    elsewhere = _inherited(new, yours, bases)
     for skeleton in new:
         older = base.get(skeleton.path)
         for part, known in (("members", members), ("definitions", definitions)):
@@ -78,9 +81,9 @@ def _by_name(codes: Iterable[Code], part: str) -> dict[str, list[tuple[Code, Met
     return found
 
 
-def _inherited(new: Sequence[Code], yours: Sequence[Code]) -> set[str]:
+def _inherited(new: Sequence[Code], yours: Sequence[Code], bases: Collection[str]) -> set[str]:
     """Methods that the class may have from a class of the user's own that it inherits from: those named anywhere."""
-    expected = {base for code in new for base in code.bases}
+    expected = {*bases, *(base for code in new for base in code.bases)}
     if all(base in expected for code in yours for base in code.bases):
         return set()
     words = {word for code in yours for line in code.lines for word in re.findall(r"\w+", line)}

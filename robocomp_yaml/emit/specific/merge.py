@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from robocomp_yaml.emit.specific import entries, threeway
@@ -43,11 +43,12 @@ class Result:
 def merge(sides: Sequence[Side], others: Sequence[Code] = ()) -> list[Result]:
     """The merge of each file; `others` is more code of the user, in which methods may stand."""
     plain = [_plain(side) for side in sides]
-    results = (_merge(side, [one for one in plain if one is not side], others) for side in plain)
+    bases = {base for side in plain if (code := read(side.path, side.new)) for base in code.bases}
+    results = (_merge(side, [one for one in plain if one is not side], others, bases) for side in plain)
     return [_restored(side, result) for side, result in zip(sides, results, strict=True)]
 
 
-def _merge(side: Side, besides: Sequence[Side], others: Sequence[Code]) -> Result:
+def _merge(side: Side, besides: Sequence[Side], others: Sequence[Code], bases: Collection[str]) -> Result:
     yours = read(side.path, side.yours)
     new = read(side.path, side.new)
     if yours is None or new is None:
@@ -55,7 +56,7 @@ def _merge(side: Side, besides: Sequence[Side], others: Sequence[Code]) -> Resul
     old = None if side.base is None else read(side.path, side.base)
     goal = new if old is None else _with_what_is_gone(new, old, yours)
     elsewhere = [*others, *(code for one in besides if (code := read(one.path, one.yours)))]
-    judge = _Judge(side, yours, goal, old, elsewhere)
+    judge = _Judge(side, yours, goal, old, elsewhere, bases, {code.path for code in others})
     lacking = judge.lacking(yours)
     goal_text = "".join(goal.lines)
     if goal_text == side.base and not lacking:
@@ -111,22 +112,27 @@ def _words(line: str) -> list[str]:
 class _Judge:
     """Whether a text will do as the merge of a file."""
 
-    def __init__(self, side: Side, yours: Code, goal: Code, old: Code | None, elsewhere: Sequence[Code]) -> None:
-        self.side, self.yours, self.goal, self.elsewhere = side, yours, goal, elsewhere
+    def __init__(
+        self, side: Side, yours: Code, goal: Code, old: Code | None, elsewhere: Sequence[Code], bases: Collection[str],
+        untouched: Collection[str],
+    ) -> None:  # fmt: skip
+        """`untouched` are those files of `elsewhere` that are not merged."""
+        self.side, self.yours, self.goal, self.elsewhere, self.bases = side, yours, goal, elsewhere, bases
+        self.untouched = untouched
         self.base = {} if old is None else {side.path: old}
         self.changed = _changed(old, goal) if old else set()
         self.was_outdated = self._outdated(yours, old) - self.changed
         self.mine = Counter(_lines(side.yours)) - Counter(_lines(side.base or ""))
 
     def lacking(self, code: Code) -> set[str]:
-        found = compare([self.goal], self.base, [code, *self.elsewhere])
+        found = compare([self.goal], self.base, [code, *self.elsewhere], self.bases)
         return {one.method.name for one in found.lacking}
 
     def _outdated(self, code: Code, against: Code | None) -> set[str]:
         if against is None:
             return set()
-        found = compare([against], self.base, [code, *self.elsewhere])
-        return {one.method.name for one in found.outdated if one.code.path == code.path}
+        found = compare([against], self.base, [code, *self.elsewhere], self.bases)
+        return {one.method.name for one in found.outdated if one.code.path in (code.path, *self.untouched)}
 
     def touches_changed(self, conflicts: Sequence[Conflict]) -> bool:
         """Whether lines that both sides changed belong to a method that is called otherwise now."""
@@ -143,8 +149,8 @@ class _Judge:
             return "the result would be no proper code"
         if lacking := self.lacking(code):
             return f"there is no place for {', '.join(sorted(lacking))}"
-        mine = _counts(self.yours)
-        if twice := {name for name, count in _counts(code).items() if count > max(1, mine[name])}:
+        mine, now = _counts([self.yours, *self.elsewhere]), _counts([code, *self.elsewhere])
+        if twice := {name for name, count in now.items() if count > max(1, mine[name])}:
             return f"{', '.join(sorted(twice))} would stand there twice"
         if outdated := self._outdated(code, self.goal if self.base else None) - self.was_outdated:
             return f"{', '.join(sorted(outdated))} changed on both sides"
@@ -157,8 +163,10 @@ def _changed(old: Code, new: Code) -> set[str]:
     return {m.name for m in (*new.members, *new.definitions) if before.get(m.name, m.signature) != m.signature}
 
 
-def _counts(code: Code) -> Counter[str]:
-    return Counter(method.name for method in code.members) + Counter(f"{m.name}()" for m in code.definitions)
+def _counts(codes: Sequence[Code]) -> Counter[str]:
+    """How often each method is declared, and how often defined."""
+    declared = Counter(method.name for code in codes for method in code.members)
+    return declared + Counter(f"{method.name}()" for code in codes for method in code.definitions)
 
 
 def _compiles(code: Code) -> bool:
