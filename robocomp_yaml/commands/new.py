@@ -15,7 +15,7 @@ from typing import Any
 
 import click
 
-from robocomp_yaml.commands import _options, init
+from robocomp_yaml.commands import _options, _workspace
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LONGEST_NAME = 200
@@ -132,7 +132,7 @@ def write(ctx: click.Context, document: NewDocument) -> None:
     document.path.parent.mkdir(parents=True, exist_ok=True)
     with document.path.open("x", encoding="utf-8") as file:
         file.write(document.text)
-    init.tell(ctx, "wrote", document.path)
+    _workspace.tell(ctx, "wrote", document.path)
 
 
 def _create(ctx: click.Context, make: Callable[[Path], NewDocument]) -> None:
@@ -142,12 +142,12 @@ def _create(ctx: click.Context, make: Callable[[Path], NewDocument]) -> None:
     try:
         if root is None:
             root = Path()
-            init.make(ctx, root)
+            _workspace.make(ctx, root)
         document = make(root)
         write(ctx, document)
         workspace_files.install(root)
     except OSError as error:
-        raise init.unwritable(error) from error
+        raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
         click.echo(f"next: rcyaml compile {document.path}")
 

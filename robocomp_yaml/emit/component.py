@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit import config
+from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
 from robocomp_yaml.emit.ports import assign
 from robocomp_yaml.emit.targets import languages
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
-
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.build import Options
 
 
 def component_plan(
