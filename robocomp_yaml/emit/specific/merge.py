@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from robocomp_yaml.emit.specific import entries, threeway
-from robocomp_yaml.emit.specific.code import Code, read
+from robocomp_yaml.emit.specific.code import Code, Import, read
 from robocomp_yaml.emit.specific.compare import compare
 from robocomp_yaml.emit.specific.insert import insert
 from robocomp_yaml.emit.specific.threeway import Conflict
@@ -93,20 +93,28 @@ def _merge_text(side: Side) -> Result:
 
 
 def _with_what_is_gone(new: Code, old: Code, yours: Code) -> Code:
-    """The new skeleton with those methods of the old one that the user still has: a merge deletes none."""
+    """The new skeleton with those methods and imports of the old one that the user still has: a merge deletes none."""
     mine = {method.name for method in (*yours.members, *yours.definitions)}
     today = {method.name for method in (*new.members, *new.definitions)}
     gone = {method.name for method in (*old.members, *old.definitions)} & mine - today
-    used = Counter(word for line in yours.lines if "import" not in line for word in _words(line))
-    imports = tuple(one for one in old.imports if one in yours.imports and used[one.key.split()[-1]])
-    text = insert(new, replace(old, imports=imports), gone)
+    kept = tuple(one for one in old.imports if one in yours.imports)
+    text = insert(_joined_imports(new, kept), replace(old, imports=kept), gone)
     code = read(new.path, text)
     assert code is not None
     return code
 
 
-def _words(line: str) -> list[str]:
-    return "".join(c if c.isidentifier() or c.isdigit() else " " for c in line).split()
+def _joined_imports(code: Code, more: Sequence[Import]) -> Code:
+    """The code with more names in those lines of it that import from the same module."""
+    lines = list(code.lines)
+    for n, line in enumerate(lines):
+        head, word, names = line.rstrip().partition(" import ")
+        if word and head.startswith("from "):
+            wanted = [one.line.rstrip().partition(word)[2] for one in more if one.line.startswith(f"{head}{word}")]
+            lines[n] = f"{head}{word}{', '.join(sorted({*names.split(', '), *wanted}))}\n"
+    joined = read(code.path, "".join(lines))
+    assert joined is not None
+    return joined
 
 
 class _Judge:

@@ -7,11 +7,12 @@ import os
 import shutil
 import subprocess
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 YOURS, BASE, NEW = "yours", "as generated before", "as generated now"
 _OPEN, _OLD, _MIDDLE, _CLOSE = (mark * 7 for mark in "<|=>")
+LF = "\n"
 _SECONDS = 30  # more than git takes for any file that someone wrote
 
 
@@ -38,8 +39,10 @@ def merge(base: str, yours: str, new: str) -> Merged:
         return Merged(yours)
     if yours == base:
         return Merged(new)
-    marked = _by_git(base, yours, new) if _git() else None
-    return _read(marked if marked is not None else _by_library(base, yours, new), yours)
+    ended = [f"{text.removesuffix(LF)}{LF}" for text in (base, yours, new)]
+    marked = _by_git(*ended) if _git() else None
+    merged = _read(marked if marked is not None else _by_library(*ended), ended[1])
+    return merged if yours.endswith(LF) else replace(merged, text=merged.text.removesuffix(LF))
 
 
 @functools.cache
