@@ -119,10 +119,15 @@ def cerberus_verdict(root: RecordType, data: object) -> tuple[bool, Any]:
     return bool(verdict), as_data(root, validator.document)
 
 
+_NOTHING = object()  # for null, which Cerberus would take for a wish for the default
+
+
 def with_references(type_: Type, data: Any) -> Any:
     """`{env: NAME}`, where a plain value stands, as an object of its own, so that Cerberus takes it for one."""
     from robocomp_yaml.values.rules import Reference
 
+    if data is None:
+        return _NOTHING
     match type_:
         case BasicType() | EnumType():
             is_reference = isinstance(data, dict) and data.keys() == {"env"} and _is_variable(data["env"])

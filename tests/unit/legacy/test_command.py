@@ -126,6 +126,17 @@ def test_one_bad_file_does_not_stop_the_others(rcyaml: Run, tmp_path: Path) -> N
     ]  # fmt: skip
 
 
+def test_what_compile_wrote_is_not_migrated_back(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, TREE)
+    rcyaml("migrate", ".")
+    assert rcyaml("compile").exit_code == 0
+    before = read_tree(tmp_path)
+    assert {"slice/Speech.ice", "components/speech/slice/Speech.ice"} <= set(before)
+    result = rcyaml("migrate", ".")
+    assert (result.exit_code, "Slice" in result.stdout) == (0, False)
+    assert read_tree(tmp_path) == before
+
+
 @pytest.mark.parametrize("path", ["Speech.idsl", "Speech.idsl.yaml", "notes.txt"])
 def test_a_report_overwrites_nothing_but_a_report(path: str, rcyaml: Run, tmp_path: Path) -> None:
     files = {"Speech.idsl": SPEECH, "Speech.idsl.yaml": "module: Mine\n", "notes.txt": "mine\n"}
