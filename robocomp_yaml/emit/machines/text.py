@@ -1,0 +1,34 @@
+"""Tables as text of a language: constructor calls in Python, braces in C++."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import MISSING, fields, is_dataclass
+
+WIDTH = 110
+
+Leaf = Callable[[object], str]
+
+
+def python(table: object, indent: str = "") -> str:
+    """A call of the table's class, without what is as by default; long ones with one argument a line."""
+    if isinstance(table, tuple):
+        return _sequence([python(item, indent + "    ") for item in table], indent)
+    if not is_dataclass(table):
+        return repr(table)
+    name = type(table).__name__
+    given = [f for f in fields(table) if f.default is MISSING or getattr(table, f.name) != f.default]
+    inner = indent + "    "
+    parts = [f"{f.name}={python(getattr(table, f.name), inner)}" for f in given]
+    line = f"{name}({', '.join(parts)})"
+    if "\n" not in line and len(indent) + len(line) <= WIDTH:
+        return line
+    return f"{name}(\n" + "".join(f"{inner}{part},\n" for part in parts) + f"{indent})"
+
+
+def _sequence(items: list[str], indent: str) -> str:
+    line = f"({', '.join(items)}{',' if len(items) == 1 else ''})"
+    if "\n" not in line and len(indent) + len(line) <= WIDTH:
+        return line
+    inner = indent + "    "
+    return "(\n" + "".join(f"{inner}{item},\n" for item in items) + f"{indent})"
