@@ -18,7 +18,7 @@ from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
-from robocomp_yaml.source.discover import Found, discover
+from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
 
 Check = Callable[[Program], Iterator[Diagnostic]]
 
@@ -34,6 +34,10 @@ class Analysis:
     diagnostics: list[Diagnostic]
     contents: dict[str, bytes] = field(default_factory=dict)
     absent: set[str] = field(default_factory=set)
+
+    def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+        """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
+        return in_order([*self.diagnostics, *_with_lint(diagnostics, self.linker)])
 
 
 def checks() -> list[Check]:
@@ -59,9 +63,10 @@ def analyse(
     said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]
     for run in checks():
         said += run(program)
-    return Analysis(
-        program, linker, found, in_order(_with_lint(said, linker)), documents.contents, linker.search.absent
-    )
+    contents = documents.contents
+    for workspace in linker.workspaces.values():
+        contents[os.path.normpath(os.path.join(workspace.root, WORKSPACE_FILE))] = workspace.content
+    return Analysis(program, linker, found, in_order(_with_lint(said, linker)), contents, linker.search.absent)
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

@@ -1,1 +1,1 @@
-"""What a schema cannot say. Every module here has `check(program) -> Iterator[Diagnostic]`; `pipeline` calls them all."""
+"""What a schema cannot say: every module here has `check(program) -> Iterator[Diagnostic]`."""

@@ -6,13 +6,16 @@ Python forgets.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
 
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.references import Name, groups, kind_of
-from robocomp_yaml.model.interface import Interface, Module
+from robocomp_yaml.model.interface import Module
 
 RESERVED = frozenset(
     "bool byte class const dictionary double enum exception extends false float idempotent implements int interface "
@@ -23,6 +26,15 @@ UNESCAPED_IN_PYTHON = frozenset(("False", "True", "as", "async", "await", "nonlo
 LONGEST_NAME = 200
 
 
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Why Slice does not take a word; `facts` fill the code's message beside the word and its kind."""
+
+    code: Code
+    hint: str = "choose another name"
+    facts: Mapping[str, str] = field(default_factory=dict)
+
+
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.modules.values():
         yield from _module(linked.module)
@@ -30,9 +42,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _module(module: Module) -> Iterator[Diagnostic]:
     yield from _legal(Name("module", module.name, module.span))
-    owner = f"module {module.name}"
     defined = [Name(kind_of(d), d.name, d.span) for d in module.definitions]
-    yield from _distinct(owner, "definitions", defined)
+    yield from _distinct(f"module {module.name}", sorted(defined, key=lambda name: name.span), "definitions")
     yield from _not_named_as("module", module.name, defined)
     for name in defined:
         yield from _legal(name)
@@ -40,41 +51,45 @@ def _module(module: Module) -> Iterator[Diagnostic]:
         for group in groups(definition):
             for name in group:
                 yield from _legal(name)
-            owner = f"{kind_of(definition)} {definition.name}"
-            if isinstance(definition, Interface) and group and group[0].kind == "method":
+            if group and group[0].kind == "method":
                 yield from _not_named_as(kind_of(definition), definition.name, group)
-            yield from _distinct(owner, f"{group[0].kind}s" if group else "", group)
+            if len(group) > 1:
+                yield from _distinct(f"{kind_of(definition)} {definition.name}", group, f"{group[0].kind}s")
 
 
 def _legal(name: Name) -> Iterator[Diagnostic]:
-    """Whether Slice takes an identifier; its characters are the schema's matter."""
-    word = name.text
+    fault = fault_of(name.text)
+    if fault is None and name.kind == "method" and name.text == "staticmethod":
+        fault = Fault(codes.PYTHON_WORD)
+    if fault is not None:
+        word = name.text if len(name.text) <= LONGEST_NAME else f"{name.text[:20]}…"
+        yield fault.code.at(name.span, name=word, kind=name.kind, hint=fault.hint, **fault.facts)
+
+
+@lru_cache(maxsize=10_000)
+def fault_of(word: str) -> Fault | None:
+    """Whether Slice takes a word as an identifier; its characters are the schema's matter."""
     if word in RESERVED:
         other = word[0].swapcase() + word[1:]
-        hint = f"choose another name; '{other}' is allowed"
-        yield codes.RESERVED_WORD.at(name.span, name=word, kind=name.kind, hint=hint)
-        return
-    if word in UNESCAPED_IN_PYTHON or (name.kind == "method" and word == "staticmethod"):
-        yield codes.PYTHON_WORD.at(name.span, name=word, kind=name.kind, hint="choose another name")
-        return
+        return Fault(codes.RESERVED_WORD, f"choose another name; '{other}' is allowed")
+    if word in UNESCAPED_IN_PYTHON:
+        return Fault(codes.PYTHON_WORD)
     parts = [part for part in word.split("_") if part]
-    hint = "choose another name"
     if "_".join(parts) != word:
         reason = "underscores stand alone, between other characters"
-        hint = f"write '{'_'.join(parts)}'" if parts and not parts[0][0].isdigit() else hint
-    elif word[:3].lower() == "ice":
-        reason = f"names that start with '{word[:3]}' are Ice's own"
-    elif word.endswith(RESERVED_SUFFIXES):
+        better = "_".join(parts) if parts and not parts[0][0].isdigit() else ""
+        return Fault(codes.ILLEGAL_NAME, f"write '{better}'" if better else "choose another name", {"reason": reason})
+    if word[:3].lower() == "ice":
+        return Fault(codes.ILLEGAL_NAME, facts={"reason": f"names that start with '{word[:3]}' are Ice's own"})
+    if word.endswith(RESERVED_SUFFIXES):
         suffix = next(suffix for suffix in RESERVED_SUFFIXES if word.endswith(suffix))
-        reason = f"names that end in '{suffix}' are Ice's own"
-    elif len(word) > LONGEST_NAME:
-        word, reason = f"{word[:20]}…", f"a name has at most {LONGEST_NAME} characters"
-    else:
-        return
-    yield codes.ILLEGAL_NAME.at(name.span, name=word, kind=name.kind, reason=reason, hint=hint)
+        return Fault(codes.ILLEGAL_NAME, facts={"reason": f"names that end in '{suffix}' are Ice's own"})
+    if len(word) > LONGEST_NAME:
+        return Fault(codes.ILLEGAL_NAME, facts={"reason": f"a name has at most {LONGEST_NAME} characters"})
+    return None
 
 
-def _distinct(owner: str, kinds: str, names: Iterable[Name]) -> Iterator[Diagnostic]:
+def _distinct(owner: str, names: Iterable[Name], kinds: str) -> Iterator[Diagnostic]:
     first: dict[str, Name] = {}
     for name in names:
         other = first.setdefault(name.text.lower(), name)

@@ -8,7 +8,7 @@ from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.link.references import exceptions_of, kind_of, types_of
-from robocomp_yaml.link.suggest import suggest
+from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Module, TypeDefinition, TypeRef
 
 # How other languages call the basic types.
@@ -41,26 +41,30 @@ class _Index:
 
     def __init__(self, program: Program) -> None:
         self.program = program
-        self._by_name: dict[str, list[Module]] = {}
+        self._by_name: dict[tuple[str, bool], list[Module]] = {}
         self._suggestions_left = MOST_SUGGESTIONS
 
     def suggest(self, word: str, candidates: Iterator[str]) -> str | None:
         self._suggestions_left -= 1
         return suggest(word, candidates) if self._suggestions_left >= 0 else None
 
-    def definers(self, name: str) -> list[Module]:
+    def definers(self, name: str, exception: bool) -> list[Module]:
+        """The modules that define a type, or an exception, of this name, in order of their paths."""
         if not self._by_name:
             for linked in sorted(self.program.modules.values(), key=lambda linked: linked.module.path):
-                for definition in linked.module.definitions:
-                    self._by_name.setdefault(definition.name, []).append(linked.module)
-        return self._by_name.get(name, [])
+                for definition in (*linked.module.types, *linked.module.exceptions):
+                    key = (definition.name, isinstance(definition, ExceptionType))
+                    self._by_name.setdefault(key, []).append(linked.module)
+        return self._by_name.get((name, exception), [])
 
 
 def _type(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnostic]:
-    if ref.is_basic or ref.module in linked.unresolved:
+    if ref.is_basic:
         return
     found = linked.find(ref)
     if found is None:
+        if ref.module in linked.unresolved:
+            return
         yield codes.UNKNOWN_TYPE.at(ref.span, name=ref.text, hint=_hint(linked, ref, index))
     elif not isinstance(found[1], TypeDefinition):
         kind = kind_of(found[1])
@@ -71,8 +75,6 @@ def _type(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnos
 
 
 def _exception(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnostic]:
-    if ref.module in linked.unresolved:
-        return
     found = None if ref.is_basic else linked.find(ref)
     if found is not None and not isinstance(found[1], ExceptionType):
         kind = kind_of(found[1])
@@ -80,7 +82,7 @@ def _exception(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Di
             ref.span, name=ref.text, kind=kind, hint="an exception is defined under `exceptions:`",
             related=[Related(f"the {kind} stands here", found[1].span)],
         )
-    elif found is None:
+    elif found is None and ref.module not in linked.unresolved:
         hint = _hint(linked, ref, index, exception=True)
         yield codes.UNKNOWN_EXCEPTION.at(ref.span, name=ref.text, hint=hint)
 
@@ -91,10 +93,15 @@ def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, exception: bool = F
         return "a method that returns nothing has no `returns`"
     if not exception and ref.text in _MEANT:
         return f"did you mean '{_MEANT[ref.text]}'?"
-    definers = [m for m in index.definers(ref.name) if ref.module in ("", m.name, m.stem)]
-    for imported in linked.imports:
-        if imported.module in definers:
-            return f"write '{imported.module.stem}.{ref.name}': a name of another module stands behind that module's"
+    definers = index.definers(ref.name, exception)
+    if ref.module:
+        definers = [m for m in definers if ref.module in (m.name, m.stem)] or definers
+    imported = {id(other.module) for other in linked.imports}
+    for module in definers:
+        if id(module) in imported and ref.module:
+            return f"did you mean '{module.stem}.{ref.name}'?"
+        if id(module) in imported:
+            return f"write '{module.stem}.{ref.name}': a name of another module stands behind that module's"
     if definers:
         return f"add {definers[0].stem} to `imports`, and write '{definers[0].stem}.{ref.name}'"
     meant = index.suggest(ref.text, _known(linked, exception))

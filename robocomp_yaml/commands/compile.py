@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import click
 
 from robocomp_yaml.commands import _options
@@ -28,20 +30,23 @@ def command(
     An interface becomes Slice, in the workspace's slice folder. A component becomes a runnable program in its own
     folder: generated/ is always rewritten, src/ is yours and written only once.
     """
-    from robocomp_yaml.commands import _compiling
-    from robocomp_yaml.emit import writer
+    from robocomp_yaml.commands import _outcome
+    from robocomp_yaml.emit import stamp
 
     paths = paths or (".",)
-    with _options.progress("reading", paths) as on_read:
-        from robocomp_yaml.pipeline import analyse
+    look_only = dry_run or diff or check
+    # A run that was made already, of which nothing changed since, is not made again: only told of.
+    name = stamp.key([*paths, "-o", output or "", "-I", *include, "-t", *targets])
+    folder = output or (paths[0] if os.path.isdir(paths[0]) else os.path.dirname(paths[0])) or "."
+    made = None if diff or ctx.obj.verbosity > 0 else stamp.load(folder, name)
+    if made is not None and stamp.is_current(made, _options.find_below):
+        outcome = _outcome.Outcome.of_data(made.replay)
+        outcome.planned = look_only
+    else:
+        from robocomp_yaml.commands import _compiling
 
-        analysis = analyse(paths, include, on_read)
-    built = _compiling.build(analysis, output, targets)
-    only_look = dry_run or diff or check
-    recovered = [] if only_look else writer.recover(built.plans, built.others)
-    changes = writer.prepare(built.plans, adopt=adopt, others=built.others)
-    told = [*analysis.diagnostics, *built.diagnostics, *recovered, *changes.diagnostics]
-    if not only_look:
-        told += writer.commit(changes)
-        told += _compiling.refresh_schemas(analysis)
-    _compiling.report(ctx, changes, told, analysis, format_, dry_run=only_look, diff=diff, check=check)
+        run = _compiling.Run(paths, include, output, targets, look_only=look_only, adopt=adopt)
+        outcome, made = run.carry_out(with_diff=diff)
+        if made is not None:
+            stamp.save(folder, name, made)
+    _outcome.report(ctx, outcome, format_, diff=diff, check=check)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
@@ -12,7 +11,7 @@ import click
 from robocomp_yaml.commands import _options
 
 if TYPE_CHECKING:
-    from robocomp_yaml.legacy.migration import Migration
+    from robocomp_yaml.legacy.result import Migration
     from robocomp_yaml.legacy.sources import LegacyFile
 
 LONG = 50
@@ -42,25 +41,22 @@ def command(
     edited is overwritten, and the sources stay as they are.
     """
     from robocomp_yaml.legacy.ledger import as_json
-    from robocomp_yaml.legacy.migration import forced, migrate
+    from robocomp_yaml.legacy.migration import migrate
     from robocomp_yaml.pipeline import search_folders
 
     run = migrate(paths, output, search_folders(include), force=force, progress=_progress)
-    shown = run.changes() if show_diff else forced(run)
+    shown = run.changes() if show_diff else run.forced()
     for path, change in list(shown):
         click.echo(change.diff(path), nl=False, err=format_ != "text")
     if not dry_run:
-        _write(run)
+        run.write()
     lost = sum(entry.lines()["lost"] for entry in run.entries)
     if report is not None:
         _save(report, as_json(run.entries))
     _print(ctx, run, format_, dry_run)
-    failed = any(entry.status == "refused" for entry in run.entries) or any(
-        diagnostic.severity == "error" for diagnostic in run.diagnostics
-    )
     if strict and lost:
         click.echo(f"{lost} line{'s are' if lost > 1 else ' is'} lost, and --strict does not allow that", err=True)
-    ctx.exit(1 if failed or (strict and lost) else 0)
+    ctx.exit(1 if run.failed or (strict and lost) else 0)
 
 
 def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
@@ -71,23 +67,9 @@ def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
         yield from bar
 
 
-def _write(run: Migration) -> None:
-    from pathlib import Path
-
-    try:
-        from robocomp_yaml.source import workspace_files
-    except ImportError:
-        return run.write()
-
-    run.write()
-    for home in sorted(run.schemas):
-        if os.path.isdir(home):
-            workspace_files.install(Path(home))
-
-
 def _save(path: str, text: str) -> None:
     try:
-        with click.open_file(path, "w", encoding="utf-8") as file:
+        with click.open_file(path, "w", encoding="utf-8", errors="backslashreplace") as file:
             file.write(text)
     except OSError as error:
         raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error

@@ -17,7 +17,8 @@ class Code:
 
     `message` is a format string for the facts given to `at`. `why` explains (Markdown). `wrong` and `right` are small
     trees of files, path to text (bytes for what is no text, None for an empty folder, "-> target" for a symlink), on
-    which `rcyaml COMMAND` (a `*` is what a shell makes of it) gives this diagnostic, and gives none: the tests run both.
+    which `rcyaml COMMAND` (a `*` is what a shell makes of it) gives this diagnostic, and gives none: the tests run
+    both.
     """
 
     id: str

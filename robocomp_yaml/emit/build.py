@@ -11,11 +11,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_yaml import resources
-from robocomp_yaml.diag.codes import cdsl, compiling
+from robocomp_yaml.diag.codes import cdsl, compiling, idsl
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
+from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.emit.targets import languages, slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
@@ -26,14 +27,14 @@ TARGETS = ("slice", "python", "cpp", "config")
 @dataclass(slots=True)
 class Options:
     """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
-    `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `neighbours` the other
-    components of a component's workspace (asked for only when a first `etc/config` is to be written)."""
+    `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
+    component's workspace (asked for only when a first `etc/config` is to be written)."""
 
     output: str | None
     below: Sequence[str]
     targets: frozenset[str]
     workspace_of: Callable[[str], Workspace]
-    neighbours: Callable[[LinkedComponent], list[LinkedComponent]]
+    ports: Callable[[LinkedComponent], Ports]
 
     def wants(self, target: str) -> bool:
         return not self.targets or target in self.targets
@@ -45,12 +46,13 @@ class Build:
 
     plans: list[RootPlan] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    compiled: int = 0
 
 
 def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options) -> Build:
     """Plans for every asked document without errors, in its own text or in what it imports."""
     result = Build()
-    faulty = {d.span.file for d in diagnostics if d.severity == ERROR}
+    state = _State.of(diagnostics)
     texts: dict[int, FilePlan] = {}
 
     def slices(modules: Iterable[LinkedModule], folder: str = "") -> Iterator[FilePlan]:
@@ -62,15 +64,17 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
 
     for real in sorted(program.asked & program.modules.keys(), key=lambda real: program.modules[real].module.path):
         linked = program.modules[real]
-        if options.wants("slice") and _usable(linked.module.name, linked.module.path, [linked], faulty, result):
+        if options.wants("slice") and _usable(linked.module.name, linked.module.path, [linked], state, result):
             root = options.output or _slice_folder(options.workspace_of(linked.module.path))
             owner = os.path.relpath(linked.module.path, root)
             result.plans.append(RootPlan(root, owner, list(slices(linked.closure()))))
+            result.compiled += 1
     for real in sorted(program.asked & program.components.keys(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
-        if _usable_component(component, faulty, result):
+        if _usable_component(component, state, result):
             result.plans.append(_component_plan(component, options, slices))
             result.diagnostics += _not_yet(component)
+            result.compiled += 1
     return result
 
 
@@ -86,12 +90,13 @@ def _component_plan(
         modules = linked.modules()
         plan.files += slices(modules, "slice/")
         if all(scope.module.name != "RoboCompCommonBehavior" for scope in modules):
-            plan.files.append(FilePlan("slice/CommonBehavior.ice", resources.text("templates/slice/CommonBehavior.ice")))
+            common = resources.text("templates/slice/CommonBehavior.ice")
+            plan.files.append(FilePlan("slice/CommonBehavior.ice", common))
     if options.wants(component.language.name):
         plan.files += languages()[component.language.name].plan(linked)
     if options.wants("config"):
         written = os.path.lexists(os.path.join(root, CONFIG))
-        plan.files.append(config.plan(linked, [] if written else options.neighbours(linked)))
+        plan.files.append(config.plan(linked, assign([linked]) if written else options.ports(linked)))
     return plan
 
 
@@ -110,33 +115,51 @@ def _slice_folder(workspace: Workspace) -> str:
     return workspace.slice_folder or os.path.join(workspace.root, "slice")
 
 
-def _usable(name: str, path: str, modules: Iterable[LinkedModule], faulty: set[str], result: Build) -> bool:
-    """Whether a document has no error, nor anything that it imports; when only that is so, says it."""
-    if path in faulty:
+@dataclass(slots=True)
+class _State:
+    """Documents by path: those with errors, and those with an unresolved import that was lowered to less."""
+
+    faulty: set[str] = field(default_factory=set)
+    lowered: set[str] = field(default_factory=set)
+
+    @classmethod
+    def of(cls, diagnostics: Iterable[Diagnostic]) -> _State:
+        state = cls()
+        for diagnostic in diagnostics:
+            if diagnostic.severity == ERROR:
+                state.faulty.add(diagnostic.span.file)
+            elif diagnostic.code in (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id):
+                state.lowered.add(diagnostic.span.file)
+        return state
+
+
+def _usable(name: str, path: str, modules: Iterable[LinkedModule], state: _State, result: Build) -> bool:
+    """Whether a document has no error, nor anything that it imports; when only the latter, says what follows."""
+    if path in state.faulty:
         return False
     for top in modules:
         for linked in top.closure():
-            if linked.module.path in faulty or linked.unresolved:
-                told = _unresolved(name, path, linked.module.path)
-                # Where the cause is an error already, this only says what follows from it.
-                result.diagnostics.append(told.as_severity(NOTE) if linked.module.path in faulty else told)
+            if linked.module.path in state.faulty or linked.unresolved:
+                result.diagnostics.append(_unresolved(name, path, linked.module.path, state))
                 return False
     return True
 
 
-def _usable_component(linked: LinkedComponent, faulty: set[str], result: Build) -> bool:
+def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> bool:
     component = linked.component
-    if linked.broken and component.path not in faulty:
-        result.diagnostics.append(_unresolved(component.name, component.path, component.path))
+    if linked.broken and component.path not in state.faulty:
+        result.diagnostics.append(_unresolved(component.name, component.path, component.path, state))
         return False
-    return _usable(component.name, component.path, linked.imports, faulty, result)
+    return _usable(component.name, component.path, linked.imports, state, result)
 
 
-def _unresolved(name: str, path: str, cause: str) -> Diagnostic:
+def _unresolved(name: str, path: str, cause: str, state: _State) -> Diagnostic:
     related = [Related("this document has errors, or imports what is not there", Span(cause))] if cause != path else []
-    return compiling.UNRESOLVED.at(
+    told = compiling.UNRESOLVED.at(
         Span(path), name=name, related=related, hint="`rcyaml check` says what is missing; mend that first"
     )
+    # Where the cause is an error already, this only says what follows from it.
+    return told if cause in state.lowered else told.as_severity(NOTE)
 
 
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.atomic import Step
@@ -17,7 +17,8 @@ REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", 
 
 EDITED: someone changed a generated file; their version is kept under `orig`, ours is written (or, where it is no longer
 generated, nothing is). ADOPT: it was there before rcyaml, and is kept under `orig` likewise. KEPT: it is the user's,
-and stays. LEFT: it is the user's, and no document asks for it any more. REFUSED: a diagnostic says why not.
+and stays. LEFT: it is the user's, and no document asks for it any more. REFUSED: it stays as it is, as a
+diagnostic says.
 """
 
 WRITING = (CREATE, UPDATE, ADOPT, EDITED, REMOVE)
@@ -56,6 +57,12 @@ class RootChanges:
     settled: dict[str, bytes] = field(default_factory=dict)
     once: list[str] = field(default_factory=list)
     refused: bool = False
+
+    def refuse(self) -> None:
+        """Nothing of this root is written."""
+        self.refused = True
+        self.steps.clear()
+        self.changes = [replace(c, action=REFUSED, orig="") if c.action in WRITING else c for c in self.changes]
 
 
 @dataclass(slots=True)

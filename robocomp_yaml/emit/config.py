@@ -21,9 +21,8 @@ _ICE = (
 )
 
 
-def plan(component: LinkedComponent, others: Sequence[LinkedComponent]) -> FilePlan:
-    """`etc/config` of a component; `others` are the other components of its workspace."""
-    table = ports.assign([component, *others])
+def plan(component: LinkedComponent, table: Ports) -> FilePlan:
+    """`etc/config` of a component; `table` has the ports of its workspace."""
     sections = (
         _head(component), _offers(component, table), _needs(component, table), _topics(component), _worker(component),
         _middleware(),
@@ -40,29 +39,29 @@ def _head(linked: LinkedComponent) -> Iterator[str]:
 
 def _offers(linked: LinkedComponent, table: Ports) -> Iterator[str]:
     yield "# What it offers: where it listens."
-    path = linked.component.path
     docs = {port.name: port.interface.doc for port in linked.implements}
     for name in ports.adapters(linked):
         doc = docs.get(name, "State, period, properties and orderly stop of every component.")
         yield from _comment(name, doc)
-        yield entry_line(f"{name}.Endpoints", f"tcp -p {table.endpoints[path, name].port}")
+        yield entry_line(f"{name}.Endpoints", f"tcp -p {table.endpoint(linked, name).port}")
 
 
 def _needs(linked: LinkedComponent, table: Ports) -> Iterator[str]:
     if linked.requires:
         yield "# What it needs: where the others listen."
+    here = ports.document(linked)
     earlier: dict[tuple[str, str], int] = {}
     for port in linked.requires:
         key = interface_key(port)
         identity = port.interface.name.lower()
         # A second proxy to an interface is for a second component that implements it, where there is one.
         count = earlier[key] = earlier.get(key, -1) + 1
-        found = [one for one in table.implementers.get(key, ()) if one[0] is not linked]
+        found = [one for one in table.implementers.get(key, ()) if ports.document(one[0]) != here]
         yield from _comment(port.name, port.interface.doc)
         if found:
             other, adapter = found[min(count, len(found) - 1)]
             yield f"# {_implemented(linked, found, other)}"
-            endpoint = table.endpoints[other.component.path, adapter]
+            endpoint = table.endpoint(other, adapter)
         else:
             yield "# No component of this workspace implements it: set host and port of the one that does."
             endpoint = Endpoint(ports.default_port("", port.interface.name))

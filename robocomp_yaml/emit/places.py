@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 STATE = ".rcyaml"
 """The folder of a root in which rcyaml keeps what it must remember."""
@@ -12,13 +12,15 @@ STATE = ".rcyaml"
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What stands at a path. `data` is None where there is nothing, and where nobody asked for it; `problem` says why
-    nothing can be written there. `mode` is that of a file, 0 for a link."""
+    """What stands at a path. `data` is None where there is nothing, and where nobody asked for it; `mode` is that of a
+    file, 0 for a link. `problem` says why nothing can be written there, `culprit` which part of the path it is that
+    stands in the way; `outside` when it leads out of the root."""
 
     exists: bool = False
     data: bytes | None = None
     mode: int = 0
     problem: str = ""
+    culprit: str = ""
     outside: bool = False
 
 
@@ -44,33 +46,47 @@ class Root:
     def look(self, path: str, *, read: bool = True) -> Found:
         """What stands at a path relative to the root; contents only if `read`."""
         if not _is_plain(path):
-            return Found(outside=True, problem="it is no plain path below the folder")
+            return Found(problem="that is no plain path below it", culprit=path, outside=True)
         full = f"{self.real}/{path}"
         try:
             status = os.lstat(full)
             if stat.S_ISLNK(status.st_mode):
-                return self._link(full, read)
+                return self._link(path, full, read)
             if not stat.S_ISREG(status.st_mode):
                 what = "a folder" if stat.S_ISDIR(status.st_mode) else "something that is no file"
-                return Found(exists=True, problem=f"{what} stands there")
+                return Found(exists=True, problem=f"{what} stands there", culprit=path)
             found = Found(exists=True, data=contents(full) if read else None, mode=stat.S_IMODE(status.st_mode))
         except FileNotFoundError:
             found = NOTHING
+        except NotADirectoryError:
+            return self._blocked(path)
         except OSError as error:
-            found = Found(problem=in_words(error))
-        if not self._is_inside(self._real_folder(path.rpartition("/")[0])):
-            return Found(exists=found.exists, outside=True, problem="a link leads out of the folder")
+            found = Found(problem=in_words(error), culprit=path)
+        folder = path.rpartition("/")[0]
+        if not self._is_inside(self._real_folder(folder)):
+            return replace(self._blocked(path), exists=found.exists, outside=True)
         return found
 
-    def _link(self, full: str, read: bool) -> Found:
+    def _link(self, path: str, full: str, read: bool) -> Found:
         if not self._is_inside(os.path.realpath(full)):
-            return Found(exists=True, outside=True, problem="a link leads out of the folder")
+            return Found(exists=True, problem=f"it is a link to {os.readlink(full)}", culprit=path, outside=True)
         try:
             if not stat.S_ISREG(os.stat(full).st_mode):
-                return Found(exists=True, problem="a link to something that is no file stands there")
+                return Found(exists=True, problem="a link to something that is no file stands there", culprit=path)
             return Found(exists=True, data=contents(full) if read else None)
         except FileNotFoundError:
             return Found(exists=True, data=b"" if read else None)
+
+    def _blocked(self, path: str) -> Found:
+        """Which folder of a path is none, or is a link that leads away."""
+        parts = path.split("/")[:-1]
+        for folder in ("/".join(parts[: n + 1]) for n in range(len(parts))):
+            full = f"{self.real}/{folder}"
+            if os.path.islink(full) and not self._is_inside(os.path.realpath(full)):
+                return Found(problem=f"'{folder}' is a link to {os.readlink(full)}", culprit=folder)
+            if not os.path.isdir(full):
+                return Found(problem=f"'{folder}' is no folder", culprit=folder)
+        return Found(problem=f"'{self.path}' is no folder", culprit=".")
 
     def _real_folder(self, folder: str) -> str:
         real = self._folders.get(folder)

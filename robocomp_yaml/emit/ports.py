@@ -43,15 +43,23 @@ class Endpoint:
 
 @dataclass(slots=True)
 class Ports:
-    """The endpoint of each adapter (component's document, interface's name) of a workspace, and which components
-    implement an interface (module, name), in order of their paths."""
+    """The endpoint of each adapter (real path of the component's document, interface's name) of a workspace, and which
+    components implement an interface (module, name), in order of their paths."""
 
     endpoints: dict[tuple[str, str], Endpoint] = field(default_factory=dict)
     implementers: dict[tuple[str, str], list[tuple[LinkedComponent, str]]] = field(default_factory=dict)
 
+    def endpoint(self, linked: LinkedComponent, name: str) -> Endpoint:
+        return self.endpoints[document(linked), name]
+
 
 def default_port(component: str, interface: str) -> int:
     return FIRST + zlib.crc32(f"{component}/{interface}".encode()) % COUNT
+
+
+def document(linked: LinkedComponent) -> str:
+    """What tells a component from another, whatever its path was spelled like."""
+    return os.path.realpath(linked.component.path)
 
 
 def adapters(linked: LinkedComponent) -> list[str]:
@@ -61,23 +69,23 @@ def adapters(linked: LinkedComponent) -> list[str]:
 
 def assign(components: Iterable[LinkedComponent]) -> Ports:
     """The ports of a workspace's components: those that stand in their `etc/config`, else defaults."""
-    ordered = sorted(components, key=lambda linked: (linked.component.name, linked.component.path))
+    distinct = {document(linked): linked for linked in components}
+    ordered = sorted(distinct.items(), key=lambda item: (item[1].component.name, item[0]))
     result = Ports()
     taken = set(_RESERVED)
-    for linked in ordered:
+    for key, linked in ordered:
         for name, entry in _written(linked):
             endpoint = parse_endpoint(entry.value)
             if endpoint:
-                result.endpoints[linked.component.path, name] = endpoint
+                result.endpoints[key, name] = endpoint
                 taken.add(endpoint.port)
-    for linked in ordered:
-        component = linked.component
+    for key, linked in ordered:
         for name in sorted(adapters(linked)):
-            if (component.path, name) not in result.endpoints:
-                port = _next_free(default_port(component.name, name), taken)
-                result.endpoints[component.path, name] = Endpoint(port)
-                taken.add(port)
-    for linked in sorted(ordered, key=lambda linked: linked.component.path):
+            if (key, name) not in result.endpoints:
+                number = _next_free(default_port(linked.component.name, name), taken)
+                result.endpoints[key, name] = Endpoint(number)
+                taken.add(number)
+    for _, linked in sorted(distinct.items()):
         for port in linked.implements:
             result.implementers.setdefault(interface_key(port), []).append((linked, port.name))
     return result

@@ -13,14 +13,19 @@ from collections.abc import Iterable
 WIDTH = 110
 LONGEST_WORD = 8_000  # characters; the preprocessor's buffer has 65,536 bytes
 
+_HANG = re.compile(r" *(?:[-*+] +|[0-9]+[.)] +)?")  # below what the lines of a paragraph or list item start
+_HARMFUL = re.compile("[^\x20-\x7e\xa0-\ud7ff\ue000-\U0010ffff\n]|\\*/|/\\*|\\\\|\"\"\"")
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]")
 
 
 def comment(doc: str, indent: str = "", *, unit: str = "", tags: Iterable[tuple[str, str]] = ()) -> list[str]:
     """The lines of a doc comment; none when there is nothing to say. `tags` are such as ('@param speed', 'How fast.');
     a tag without text is left out."""
+    tags = [tag for tag in tags if tag[1]]
+    if not (doc or unit or tags):
+        return []
     lines = _body(_with_unit(doc, unit), WIDTH - len(indent) - 3)
-    tagged = [line for tag, text in tags if text for line in _tag(tag, text, WIDTH - len(indent) - 3)]
+    tagged = [line for tag, text in tags for line in _tag(tag, text, WIDTH - len(indent) - 3)]
     if not lines and not tagged:
         return []
     if len(lines) == 1 and not tagged and len(indent) + len(lines[0]) + 7 <= WIDTH:
@@ -31,6 +36,8 @@ def comment(doc: str, indent: str = "", *, unit: str = "", tags: Iterable[tuple[
 
 def described(doc: str, unit: str) -> str:
     """A doc with its unit, as one paragraph."""
+    if not (doc or unit):
+        return ""
     return " ".join(_with_unit(doc, unit).split())
 
 
@@ -46,7 +53,7 @@ def _with_unit(doc: str, unit: str) -> str:
 def _body(doc: str, width: int) -> list[str]:
     lines: list[str] = []
     for line in _harmless(doc).strip("\n").split("\n"):
-        lines += _wrapped(line.rstrip(), width, line[: len(line) - len(line.lstrip())])
+        lines += _wrapped(line.rstrip(), width, " " * len(_HANG.match(line)[0]))  # type: ignore[index]
     return lines if any(lines) else []
 
 
@@ -70,6 +77,8 @@ def _closed(line: str) -> str:
 
 
 def _harmless(doc: str) -> str:
+    if not _HARMFUL.search(doc):
+        return doc
     plain = _CONTROL.sub("", doc.replace("\r\n", "\n").replace("\t", "    "))
     plain = plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''")
     return plain.replace("\\", "\\\\")

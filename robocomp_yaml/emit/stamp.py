@@ -1,8 +1,8 @@
 """The stamp of a whole run: what it read, found missing and left on the disk, so that the same run need not be made.
 
-A stamp is trusted only as far as contents go: every file is hashed again, no time of change is looked at. Whatever
-cannot be made sure of makes a stamp stale, and a stale stamp costs nothing but the run. Only the standard library is
-imported, for this is what a run with nothing to do consists of.
+A stamp is trusted only as far as contents go: every file of the user is hashed again, no time of change is looked
+at. Whatever cannot be made sure of makes a stamp stale, and a stale stamp costs nothing but the run. Only the standard
+library is imported, for this is what a run with nothing to do consists of.
 """
 
 from __future__ import annotations
@@ -80,7 +80,8 @@ def is_current(stamp: Stamp, find: Callable[[str], Iterable[str]]) -> bool:
             not any(os.path.lexists(path) for path in stamp.absent)
             and all(os.path.lexists(path) for path in stamp.present)
             and all(list(find(folder)) == found for folder, found in stamp.folders.items())
-            and all(real.path(path) == where and _digest(path) == hash_ for path, (where, hash_) in stamp.inputs.items())
+            and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
+            and all(_digest(path) == hash_ for path, (_, hash_) in stamp.inputs.items())
             and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
             and stamp.tool == tool()
         )
@@ -118,15 +119,19 @@ def save(folder: str, name: str, stamp: Stamp) -> None:
 
 
 def tool() -> str:
-    """A digest of rcyaml itself: its version, code and data. A checkout may change without a new version."""
+    """What tells one rcyaml from another: its version; in a checkout, where code and data change without a new one,
+    also the size and time of each of its files."""
     package = os.path.dirname(os.path.abspath(robocomp_yaml.__file__))
-    folders = [package, *(os.path.join(os.path.dirname(package), name) for name in _DATA)]
-    hashes = [robocomp_yaml.__version__]
-    for top in folders[:1] if os.path.isdir(os.path.join(package, "_data")) else folders:
+    if os.path.isdir(os.path.join(package, "_data")):
+        return robocomp_yaml.__version__
+    parts = [robocomp_yaml.__version__]
+    for top in (package, *(os.path.join(os.path.dirname(package), name) for name in _DATA)):
         for where, below, names in os.walk(top):
             below[:] = sorted(name for name in below if name != "__pycache__")
-            hashes += (f"{os.path.relpath(where, package)}/{name} {_digest(f'{where}/{name}')}" for name in sorted(names))
-    return digest("\n".join(hashes).encode())
+            for name in sorted(names):
+                state = os.stat(os.path.join(where, name))
+                parts.append(f"{os.path.relpath(where, package)}/{name} {state.st_size} {state.st_mtime_ns}")
+    return digest("\n".join(parts).encode())
 
 
 class _Real:

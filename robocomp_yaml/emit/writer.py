@@ -35,11 +35,14 @@ def prepare(plans: Iterable[RootPlan], *, adopt: bool = False, others: Iterable[
 
 
 def commit(prepared: Changes) -> list[Diagnostic]:
-    """Makes the changes of all roots that had no refusal; where one of them cannot be made, none is."""
+    """Makes the changes of all roots that had no refusal; where one of them cannot be made, none is, and all of
+    `prepared` are refused."""
     batches = [atomic.Batch(root.real, tuple(root.steps)) for root in prepared.roots if root.steps]
     try:
         atomic.carry_out(batches)
     except atomic.WriteFailed as failure:
+        for root in prepared.roots:
+            root.refuse()
         shown = next((root.root for root in prepared.roots if root.real == failure.root), failure.root)
         path = os.path.normpath(os.path.join(shown, failure.path))
         return [codes.CANNOT_WRITE.at(
@@ -80,12 +83,13 @@ class _Root:
         self.old = Manifest()
         self.new = Manifest()
         self.diagnostics = list(wanted.diagnostics())
+        self.culprits: set[str] = set()
         self.result = RootChanges(wanted.root.path, wanted.root.real)
 
     def prepare(self) -> None:
         manifest_found = self.root.look(manifest.PATH)
         if not self._usable(manifest_found):
-            self.result.refused = True
+            self.result.refuse()
             return
         for path in sorted({*self.wanted.files, *self.old.files}):
             wanted, entry = self.wanted.files.get(path), self.old.files.get(path)
@@ -97,8 +101,7 @@ class _Root:
                 self._always(wanted.plan, entry)
         self._manifest(manifest_found)
         if any(diagnostic.severity == "error" for diagnostic in self.diagnostics):
-            self.result.refused = True
-            self.result.steps.clear()
+            self.result.refuse()
 
     def _usable(self, found: Found) -> bool:
         if found.problem:
@@ -216,8 +219,10 @@ class _Root:
 
     def _refuse(self, path: str, found: Found) -> None:
         self._note(path, changes.REFUSED)
-        code = codes.OUTSIDE if found.outside else codes.CANNOT_WRITE
-        self.diagnostics.append(code.at(Span(self.root.shown(path)), path=path, reason=found.problem))
+        if found.culprit not in self.culprits:
+            self.culprits.add(found.culprit)
+            code = codes.OUTSIDE if found.outside else codes.CANNOT_WRITE
+            self.diagnostics.append(code.at(Span(self.root.shown(path)), path=path, reason=found.problem))
 
     def _warn_edited(self, path: str, what: str) -> None:
         self.diagnostics.append(codes.EDITED.at(

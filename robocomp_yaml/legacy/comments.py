@@ -104,10 +104,12 @@ def _block_lines(text: str) -> list[str]:
     lines = [line.expandtabs(4).rstrip() for line in body.split("\n")]
     lines[0] = lines[0].strip()
     rest = [line for line in lines[1:] if line.strip()]
-    if rest and all(line.lstrip().startswith("*") for line in rest):
+    starred = rest and all(line.lstrip().startswith("*") for line in rest)
+    if starred:
         lines[1:] = [re.sub(r"^\s*\*+ ?", "", line) for line in lines[1:]]
-    margin = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
-    lines[1:] = [line[margin:] for line in lines[1:]]
+    if not (starred and lines[0]):
+        margin = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
+        lines[1:] = [line[margin:] for line in lines[1:]]
     while lines and not lines[0].strip():
         del lines[0]
     while lines and not lines[-1].strip():
@@ -121,7 +123,7 @@ def _put(
 ) -> None:  # fmt: skip
     before, around, after = _neighbours(comment, places, starts)
     behind = before is not None and source.line(before.end) == comment.first and not comment.alone
-    touching = before is not None and behind and not source.text[before.end : comment.start].strip()
+    touching = before is not None and behind and source.text[before.end : comment.start].strip() in ("", ";")
     inline = after is not None and comment.more and source.line(after.start) == comment.last and not touching
     if before is not None and behind and not inline:
         if source.line(before.start) != comment.first and source.text[before.end - 1] == "}":

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from robocomp_yaml.legacy.yamltext import is_printable, scalar
 
 WIDTH = 120
+GAP = None  # an empty line between comments; several are one
+Line = str | None
 
 
 @dataclass(slots=True)
@@ -32,11 +34,25 @@ class Notes:
         self.head += [*other.head, *other.tail, *other.foot]
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Raw:
-    """A scalar as it is spelled: a number, a boolean, a name that needs no quotes."""
+    """A scalar as it is spelled: a number, a boolean."""
 
     lexeme: str
+
+
+@dataclass(slots=True)
+class Name:
+    """The name of something, which may turn out to be spelled in another way."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Doc:
+    """A text for people: if it is long it may be folded, and what reads it strips it."""
+
+    text: str
 
 
 @dataclass(slots=True)
@@ -56,6 +72,7 @@ class Map:
 @dataclass(slots=True)
 class List:
     items: list[Entry] = field(default_factory=list)
+    block: bool = False
 
     def put(self, value: Value, notes: Notes | None = None) -> Entry:
         entry = Entry("", value, notes or Notes())
@@ -63,7 +80,7 @@ class List:
         return entry
 
 
-Value = str | Raw | Map | List | None
+Value = str | Raw | Name | Doc | Map | List | None
 
 
 @dataclass(slots=True)
@@ -76,31 +93,30 @@ class Entry:
 def text(document: Map, around: Notes) -> str:
     """The document's text; `around` are the comments above and below all."""
     lines = [*_comments(around.head, ""), *_map(document, ""), *_comments(around.foot, "")]
-    while lines and not lines[-1]:
-        lines.pop()
-    return "\n".join(lines) + "\n"
+    kept = [line for line, before in zip(lines, [GAP, *lines], strict=False) if line is not GAP or before is not GAP]
+    return "\n".join(line or "" for line in kept).rstrip("\n") + "\n"
 
 
-def _map(node: Map, indent: str) -> Iterator[str]:
+def _map(node: Map, indent: str) -> Iterator[Line]:
     for entry in node.entries:
         yield from _comments(entry.notes.head, indent)
         yield from _entry(entry, indent, f"{indent}{scalar(entry.key)}:")
 
 
-def _list(node: List, indent: str) -> Iterator[str]:
+def _list(node: List, indent: str) -> Iterator[Line]:
     for item in node.items:
         yield from _comments(item.notes.head, indent)
         yield from _entry(item, indent, f"{indent}-")
 
 
-def _entry(entry: Entry, indent: str, start: str) -> Iterator[str]:
+def _entry(entry: Entry, indent: str, start: str) -> Iterator[Line]:
     tail = "  # " + " # ".join(entry.notes.tail) if entry.notes.tail else ""
     line = _line(entry.value, start)
     inner = indent + "  "
     if line is not None:
         yield line + tail
-    elif isinstance(entry.value, str):
-        header, body = _block_text(entry.value, inner)
+    elif isinstance(entry.value, Doc):
+        header, body = _block_text(entry.value.text, inner)
         yield f"{start} {header}{tail}"
         yield from body
     elif isinstance(entry.value, Map):
@@ -117,17 +133,16 @@ def _line(value: Value, start: str) -> str | None:
     if value is None:
         return start
     if isinstance(value, Map | List):
-        if isinstance(value, Map) and value.block and value.entries:
-            return None
         line = _flow(value)
         limit = value.limit if isinstance(value, Map) else WIDTH
         empty = line in ("{}", "[]")
         return f"{start} {line}" if line is not None and (empty or len(start) + 1 + len(line) <= limit) else None
     if isinstance(value, Raw):
         return f"{start} {value.lexeme}"
-    line = f"{start} {scalar(value)}"
-    as_block = "\n" in value or (len(line) > WIDTH and " " in value)
-    return None if as_block and is_printable(value) and not value[:1].isspace() else line
+    told = value.text if isinstance(value, Doc | Name) else value
+    line = f"{start} {scalar(told)}"
+    as_block = isinstance(value, Doc) and ("\n" in told or (len(line) > WIDTH and " " in told))
+    return None if as_block and is_printable(told) and not told[:1].isspace() else line
 
 
 def _flow(value: Value) -> str | None:
@@ -136,10 +151,12 @@ def _flow(value: Value) -> str | None:
         return "null"
     if isinstance(value, Raw):
         return value.lexeme
-    if isinstance(value, str):
-        return None if "\n" in value else scalar(value, flow=True)
+    if isinstance(value, str | Name):
+        return scalar(value if isinstance(value, str) else value.text, flow=True)
+    if isinstance(value, Doc):
+        return None if "\n" in value.text else scalar(value.text, flow=True)
     entries = value.entries if isinstance(value, Map) else value.items
-    if any(entry.notes for entry in entries) or (entries and isinstance(value, Map) and value.block):
+    if entries and (value.block or any(entry.notes for entry in entries)):
         return None
     parts: list[str] = []
     for entry in entries:
@@ -161,6 +178,6 @@ def _block_text(value: str, indent: str) -> tuple[str, list[str]]:
     )
 
 
-def _comments(lines: list[str], indent: str) -> Iterator[str]:
+def _comments(lines: list[str], indent: str) -> Iterator[Line]:
     for line in lines:
-        yield f"{indent}# {line}".rstrip() if line else ""
+        yield f"{indent}# {line}".rstrip() if line else GAP

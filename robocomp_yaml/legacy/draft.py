@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.comments import Placed
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
+from robocomp_yaml.legacy.document import Entry, List, Map, Name, Notes
 from robocomp_yaml.legacy.grammar import Parsed, token
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
@@ -36,7 +36,7 @@ class Reference:
 
     module: str
     name: str
-    written: Raw
+    written: Name
     span: Span
 
 
@@ -93,7 +93,7 @@ class Reader:
         own = "|".join(re.escape(name) for name in names if name)
         drop = re.compile(self.rules.doc_drop.replace("{name}", f"(?:{own})"))
         kept = [line.replace("\t", " ") for line in lines if not drop.match(line.strip())]
-        return dedented(self.rules.doc_strip.sub("", "\n".join(kept)))
+        return trimmed(self.rules.doc_strip.sub("", "\n".join(kept)))
 
     def imports(self, nodes: list[Tree[Token]]) -> tuple[List, list[ImportDraft]]:
         """The list under `imports:`, each file once."""
@@ -122,11 +122,9 @@ def base_name(path: str) -> str:
     return re.sub(r"\.(?:idsl|ice)$", "", re.split(r"[/\\]", path)[-1], flags=re.IGNORECASE)
 
 
-def dedented(text: str) -> str:
-    """Without blank lines around it, and without the indentation that all lines but the first share."""
+def trimmed(text: str) -> str:
+    """Without blank lines around it, and without blanks around its first and behind each line."""
     lines = [line.rstrip() for line in text.split("\n")]
-    while lines and not lines[0].strip():
+    while lines and not lines[0]:
         del lines[0]
-    rest = [line for line in lines[1:] if line]
-    margin = min((len(line) - len(line.lstrip()) for line in rest), default=0)
-    return "\n".join([lines[0].lstrip(), *(line[margin:] for line in lines[1:])]).rstrip() if lines else ""
+    return "\n".join([lines[0].lstrip(), *lines[1:]]).rstrip() if lines else ""

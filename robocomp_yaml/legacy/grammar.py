@@ -9,6 +9,7 @@ from functools import cache
 
 from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedInput
+from lark.lexer import PatternRE, PatternStr, TerminalDef
 
 from robocomp_yaml import resources
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -40,6 +41,7 @@ class Parsed:
 class _Parser:
     lark: Lark
     trivia: list[Token]
+    literals: dict[str, str]
 
 
 @cache
@@ -51,11 +53,21 @@ def _parser(grammar: str) -> _Parser:
         trivia.append(token)
         return token
 
+    literals: dict[str, str] = {}
+
+    def edit(terminal: TerminalDef) -> None:
+        """Keywords are whole words, also where the grammar takes no name that could end what they begin."""
+        if isinstance(terminal.pattern, PatternStr):
+            literals[terminal.name] = terminal.pattern.value
+            if terminal.pattern.value.isalpha():
+                terminal.pattern = PatternRE(rf"{terminal.pattern.value}\b", terminal.pattern.flags)
+                terminal.priority = 1
+
     lark = Lark(
         text, parser="lalr", lexer="contextual", propagate_positions=True, maybe_placeholders=False,
-        lexer_callbacks=dict.fromkeys(_IGNORED.findall(text), keep),
+        lexer_callbacks=dict.fromkeys(_IGNORED.findall(text), keep), edit_terminals=edit,
     )
-    return _Parser(lark, trivia)
+    return _Parser(lark, trivia, literals)
 
 
 def parse(source: Source, rules: Rules) -> Parsed:
@@ -68,8 +80,9 @@ def parse(source: Source, rules: Rules) -> Parsed:
         try:
             tree = parser.lark.parse(text)
         except UnexpectedInput as error:
-            fault = syntax_error.explain(error, text, source, rules, parser.lark)
-            said.append(fault.diagnostic)
+            fault = syntax_error.Explainer(source, rules, parser.literals, text).explain(error)
+            if not (fault.at_end and any(diagnostic.hint == syntax_error.BRACE_HINT for diagnostic in said)):
+                said.append(fault.diagnostic)
             text = fault.rest
         else:
             return Parsed(None if said else tree, list(parser.trivia), said)

@@ -103,7 +103,7 @@ class OutputRoot:
             todo = [output for output in self.outputs if output.state in (CREATED, CHANGED)]
             steps = [Step(o.path, self._before(o), o.text.encode()) for o in todo]
             memory = self._memory()
-            if memory != self.remembered:
+            if memory is not None and memory != self.remembered:
                 steps.append(Step(MEMORY, self.remembered, memory))
             if not steps:
                 return
@@ -122,9 +122,13 @@ class OutputRoot:
     def _before(self, output: Output) -> bytes | None:
         return None if output.state == CREATED else self.root.look(output.path).data
 
-    def _memory(self) -> bytes:
+    def _memory(self) -> bytes | None:
+        """What is to be remembered; None where there never was anything."""
         known = dict(self.memory)
         for output in self.outputs:
             if output.state in (CREATED, CHANGED, UNCHANGED):
                 known[output.path] = digest(output.text.encode())
-        return (json.dumps({"files": dict(sorted(known.items()))}, indent=2, ensure_ascii=False) + "\n").encode()
+        if not known and self.remembered is None:
+            return None
+        data = json.dumps({"files": dict(sorted(known.items()))}, indent=2, ensure_ascii=False)
+        return f"{data}\n".encode("utf-8", "backslashreplace")  # a name that is not UTF-8 becomes JSON's escape of it

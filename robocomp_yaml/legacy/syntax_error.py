@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from lark import Lark, Token, Tree
+from lark import Token, Tree
 from lark.exceptions import UnexpectedInput, UnexpectedToken
-from lark.lexer import PatternStr
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -15,9 +15,11 @@ from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
 
-_SILENT = re.compile(r'//[^\n]*|/\*[\s\S]*?\*/|#[^\n]*|"(?:[^"\\\n]|\\.)*"')
-_WORD = re.compile(r"\w+")
+BRACE_HINT = "a '}' is probably missing before it"
 MOST_NAMED = 6
+
+_SILENT = re.compile(r'//[^\n]*|/\*[\s\S]*?\*/|#[^\n]*|"(?:[^"\\\n]|\\.)*"')
+_LAST = re.compile(r'(?:\w+|"[^"]*"|\S)\Z')
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,10 +28,11 @@ class Fault:
 
     diagnostic: Diagnostic
     rest: str | None
+    at_end: bool = False
 
 
 def without_silent(text: str) -> str:
-    """The text, as long as before, with blanks for comments, directives and what stands in quotes."""
+    """The text, as long as before, with blanks for comments and directives, and nothing in its quotes."""
 
     def blank(found: re.Match[str]) -> str:
         quoted = found[0][0] == '"'
@@ -38,124 +41,113 @@ def without_silent(text: str) -> str:
     return _SILENT.sub(blank, text)
 
 
-def explain(error: UnexpectedInput, text: str, source: Source, rules: Rules, lark: Lark) -> Fault:
-    bare = without_silent(text)
-    at = error.pos_in_stream if error.pos_in_stream is not None else len(text)
-    found = str(error.token) if isinstance(error, UnexpectedToken) else text[at : at + 1]
-    if isinstance(error, UnexpectedToken) and error.token.type == "$END":
-        return Fault(_at_end(error, bare, source, rules, lark), None)
-    start, end = _statement(bare, at)
-    misplaced = _misplaced_keyword(error, bare, start, lark)
-    if misplaced is not None:
-        diagnostic = codes.SYNTAX.at(
-            source.span(start, start + len(misplaced)), problem=f"'{misplaced}' cannot stand here",
-            hint="a '}' is probably missing before it",
-        )
-    elif not isinstance(error, UnexpectedToken) and found in '"/':
-        what = "text in quotes" if found == '"' else "comment"
-        diagnostic = codes.SYNTAX.at(source.span(at, at + 1), problem=f"this {what} is never closed", hint="")
-    else:
-        diagnostic = _unexpected(error, bare, at, found, source, rules, lark)
-    rest = None
-    if text[start:end].strip():
-        rest = text[:start] + re.sub(r"[^\n]", " ", text[start:end]) + text[end:]
-    return Fault(diagnostic, rest)
+class Explainer:
+    """Explains an error in a text, which is the source's but for statements that are blanked out."""
 
+    def __init__(self, source: Source, rules: Rules, literals: Mapping[str, str], text: str) -> None:
+        self.source, self.rules, self.literals, self.text = source, rules, literals, text
+        self.bare = without_silent(text)
 
-def _unexpected(
-    error: UnexpectedInput, bare: str, at: int, found: str, source: Source, rules: Rules, lark: Lark
-) -> Diagnostic:
-    names = _accepted(error)
-    before = bare[:at].rstrip()
-    last = re.search(r'\w+\Z|"[^"]*"\Z|\S?\Z', before)
-    after = f" after '{source.text[last.start() : len(before)]}'" if last and last[0] else ""
-    if "SEMICOLON" in names and "RBRACE" not in names:
-        return codes.SYNTAX.at(
-            source.span(len(before) - 1, len(before)), problem=f"a ';' is missing{after}", hint=""
-        )
-    expected = _in_words(names, rules, lark)
-    close = suggest(found, [word.strip("'") for word in expected if word.startswith("'") and word[1:2].isalpha()])
-    if len(expected) > MOST_NAMED:
-        problem = f"'{found}' cannot stand here"
-    else:
-        problem = f"expected {_either(expected)}{after}, found '{found}'"
-    hint = f"did you mean '{close}'?" if close else ""
-    return codes.SYNTAX.at(source.span(at, at + max(len(found), 1)), problem=problem, hint=hint)
+    def explain(self, error: UnexpectedInput) -> Fault:
+        if isinstance(error, UnexpectedToken) and error.token.type == "$END":
+            return Fault(self._at_end(error), None, at_end=True)
+        at = error.pos_in_stream or 0
+        start, end = self._statement(at)
+        depth = self.bare.count("{", 0, start) - self.bare.count("}", 0, start)
+        rest = None
+        if depth > 0 and self.text[start:end].strip():
+            rest = self.text[:start] + re.sub(r"[^\n]", " ", self.text[start:end]) + self.text[end:]
+        return Fault(self._diagnostic(error, at, start, depth), rest)
 
+    def _diagnostic(self, error: UnexpectedInput, at: int, start: int, depth: int) -> Diagnostic:
+        keyword = self._misplaced_keyword(error, start) if depth > 0 else None
+        if keyword is not None:
+            return self._say(start, start + len(keyword), f"'{keyword}' cannot stand here", BRACE_HINT)
+        if isinstance(error, UnexpectedToken):
+            return self._unexpected(error, at, str(error.token))
+        char = self.text[at]
+        if char == '"' or self.text.startswith("/*", at):
+            what = "text in quotes" if char == '"' else "comment"
+            return self._say(at, at + 1, f"this {what} is never closed")
+        return self._say(at, at + 1, f"'{char}' cannot stand here")
 
-def _at_end(error: UnexpectedInput, bare: str, source: Source, rules: Rules, lark: Lark) -> Diagnostic:
-    end = len(bare.rstrip())
-    where = source.span(max(end - 1, 0), end)
-    open_: list[int] = []
-    for at, char in enumerate(bare):
-        if char == "{":
-            open_.append(at)
-        elif char == "}" and open_:
-            open_.pop()
-    if open_:
-        first = source.span(open_[-1], open_[-1] + 1)
-        return codes.SYNTAX.at(
-            where, problem="a '}' is missing: the file ends before this block does", hint="",
-            related=[Related("the block begins here", first)],
-        )
-    expected = _either(_in_words(_accepted(error), rules, lark))
-    return codes.SYNTAX.at(where, problem=f"the file ends where {expected} is expected", hint="")
+    def _unexpected(self, error: UnexpectedToken, at: int, found: str) -> Diagnostic:
+        names = set(error.accepts or error.expected)
+        before = self.bare[:at].rstrip()
+        within = before[-1:] not in (";", "{", "}", "")
+        last = _LAST.search(before)
+        after = f" after '{self.source.text[last.start() : len(before)]}'" if last else ""
+        if within and "SEMICOLON" in names and "RBRACE" not in names:
+            return self._say(len(before) - 1, len(before), f"a ';' is missing{after}")
+        expected = self._in_words(names if within else names - {"SEMICOLON"})
+        if len(expected) > MOST_NAMED and within:
+            expected = [word for word in expected if not word.strip("'").isalpha()]
+        words = [self.literals[name] for name in names if self.literals.get(name, "").isalpha()]
+        close = suggest(found, sorted(words))
+        if not expected or len(expected) > MOST_NAMED:
+            problem = f"'{found}' cannot stand here"
+        else:
+            problem = f"expected {_either(expected)}{after}, found '{found}'"
+        return self._say(at, at + len(found), problem, f"did you mean '{close}'?" if close else "")
 
+    def _at_end(self, error: UnexpectedToken) -> Diagnostic:
+        end = len(self.bare.rstrip())
+        open_: list[int] = []
+        for at, char in enumerate(self.bare):
+            if char == "{":
+                open_.append(at)
+            elif char == "}" and open_:
+                open_.pop()
+        if open_:
+            begin = Related("the block begins here", self.source.span(open_[-1], open_[-1] + 1))
+            problem = "a '}' is missing: the file ends before this block does"
+            return self._say(end - 1, end, problem, related=[begin])
+        expected = _either(self._in_words(set(error.accepts or error.expected) - {"SEMICOLON"}))
+        return self._say(max(end - 1, 0), end, f"the file ends where {expected} is expected")
 
-def _statement(bare: str, at: int) -> tuple[int, int]:
-    """From where to where the statement goes that holds a place: between ';', '{' and '}', with its own blocks."""
-    start = max(bare.rfind(char, 0, at) for char in ";{}") + 1
-    depth, end = 0, at
-    while end < len(bare):
-        char = bare[end]
-        if char == "}" and depth == 0:
-            break
-        depth += (char == "{") - (char == "}")
-        end += 1
-        if depth == 0 and char in ";}":
-            break
-    if not bare[start:end].strip():  # a '}' too many
-        end += 1
-    rest = re.compile(r"\s*;").match(bare, end) if bare[end - 1 : end] == "}" else None
-    start += len(bare[start:end]) - len(bare[start:end].lstrip())
-    return start, rest.end() if rest else end
+    def _say(
+        self, start: int, end: int, problem: str, hint: str = "", related: Iterable[Related] = ()
+    ) -> Diagnostic:
+        return codes.SYNTAX.at(self.source.span(start, end), problem=problem, hint=hint, related=related)
 
+    def _statement(self, at: int) -> tuple[int, int]:
+        """From where to where the statement goes that holds a place: between ';', '{' and '}', with its own blocks."""
+        bare = self.bare
+        start = max(bare.rfind(char, 0, at) for char in ";{}") + 1
+        depth, end = 0, at
+        while end < len(bare):
+            char = bare[end]
+            if char == "}" and depth == 0:
+                break
+            depth += (char == "{") - (char == "}")
+            end += 1
+            if depth == 0 and char in ";}":
+                break
+        if not bare[start:end].strip():  # a '}' too many
+            end += 1
+        semicolon = re.compile(r"\s*;").match(bare, end) if bare[end - 1 : end] == "}" else None
+        start += len(bare[start:end]) - len(bare[start:end].lstrip())
+        return start, semicolon.end() if semicolon else end
 
-def _misplaced_keyword(error: UnexpectedInput, bare: str, start: int, lark: Lark) -> str | None:
-    """The statement's first word, if it is a keyword that the parser could not take for one there."""
-    word = _WORD.match(bare, start)
-    keywords = {
-        str(terminal.pattern.value).lower() for terminal in lark.terminals if isinstance(terminal.pattern, PatternStr)
-    }
-    if word is None or word[0].lower() not in keywords:
+    def _misplaced_keyword(self, error: UnexpectedInput, start: int) -> str | None:
+        """The statement's first word, if it is a keyword that the parser could not take for one there."""
+        word = re.compile(r"\w+").match(self.bare, start)
+        if word is None or word[0].lower() not in {literal.lower() for literal in self.literals.values()}:
+            return None
+        if isinstance(error, UnexpectedToken) and error.token.start_pos == start:
+            return word[0] if "RBRACE" in (error.accepts or error.expected) else None
+        parser = getattr(error, "interactive_parser", None)
+        for value in reversed(parser.parser_state.value_stack if parser is not None else []):
+            if isinstance(value, Token) and value.start_pos == start:
+                return word[0] if value.type == "NAME" else None
+            if isinstance(value, Tree) and not value.meta.empty and value.meta.start_pos == start:
+                return word[0]
         return None
-    if isinstance(error, UnexpectedToken) and error.token.start_pos == start:
-        return word[0] if "RBRACE" in _accepted(error) else None
-    stack = error.interactive_parser.parser_state.value_stack if hasattr(error, "interactive_parser") else []
-    for value in reversed(stack):
-        if isinstance(value, Token) and value.start_pos == start:
-            return word[0] if value.type == "NAME" else None
-        if isinstance(value, Tree) and not value.meta.empty and value.meta.start_pos == start:
-            return word[0]
-    return None
 
-
-def _accepted(error: UnexpectedInput) -> set[str]:
-    if isinstance(error, UnexpectedToken):
-        return set(error.accepts or error.expected)
-    return set(getattr(error, "allowed", ()) or ())
-
-
-def _in_words(names: set[str], rules: Rules, lark: Lark) -> list[str]:
-    """The terminals as a user knows them, in the grammar's order, each once."""
-    known: list[str] = []
-    for terminal in lark.terminals:
-        if terminal.name in names:
-            said = str(terminal.pattern.value) if isinstance(terminal.pattern, PatternStr) else terminal.name
-            known.append(rules.words.get(terminal.name, f"'{said}'"))
-    if "$END" in names:
-        known.append(rules.words["$END"])
-    return list(dict.fromkeys(known))
+    def _in_words(self, names: set[str]) -> list[str]:
+        """The terminals as a user knows them, each once; those that rules.yaml calls '' are not mentioned."""
+        said = [self.rules.words.get(name, f"'{self.literals.get(name, name)}'") for name in sorted(names)]
+        return sorted({word for word in said if word}, key=lambda word: (word[0] == "'", word))
 
 
 def _either(words: list[str]) -> str:

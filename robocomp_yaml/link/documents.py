@@ -84,10 +84,10 @@ class Documents:
 def _kinds_of_types(tree: Mapping) -> Iterator[Diagnostic]:
     """Each type is of exactly one kind: a rule that a schema can state, but not explain."""
     for key, node in build_interface.entries(tree, "types"):
-        kinds = [kind for kind in build_interface.TYPE_KINDS if isinstance(node, Mapping) and kind in node.entries]
+        assert isinstance(node, Mapping)
+        kinds = [kind for kind in build_interface.TYPE_KINDS if kind in node.entries]
         if not kinds:
-            yield codes.NO_KIND.at(key.span, name=key.lexeme, hint="write {struct: …}, {enum: …}, {sequence: …} or "
-                                   "{map: …}")
+            hint = "write {struct: …}, {enum: …}, {sequence: …} or {map: …}"
+            yield codes.NO_KIND.at(key.span, name=key.lexeme, hint=hint)
         elif len(kinds) > 1:
-            assert isinstance(node, Mapping)
             yield codes.TWO_KINDS.at(node.entries[kinds[1]][0].span, name=key.lexeme, kinds=" and ".join(kinds))

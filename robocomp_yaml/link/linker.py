@@ -59,7 +59,7 @@ class Linker:
         """The workspace that a document belongs to; without a declared one, its own folder."""
         folder = os.path.dirname(path)
         if folder not in self._by_folder:
-            root = root_above(folder)
+            root = root_above(folder, self.search.absent)
             if root is None:
                 self._by_folder[folder] = Workspace(folder)
             else:

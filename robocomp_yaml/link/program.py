@@ -31,6 +31,7 @@ class LinkedModule:
     imports: list[LinkedModule] = field(default_factory=list)
     unresolved: set[str] = field(default_factory=set)
     _own: dict[str, Definition] = field(default_factory=dict)
+    _found: dict[str, tuple[LinkedModule, Definition] | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for definition in self.module.definitions:
@@ -38,7 +39,14 @@ class LinkedModule:
 
     def find(self, ref: TypeRef) -> tuple[LinkedModule, Definition] | None:
         """The definition that a reference of this module names, with the module it stands in; None for a basic type
-        and for what is not there. Own names need no qualifier; a name of an imported module needs one."""
+        and for what is not there. Own names need no qualifier; a name of an imported module needs one.
+
+        Answers are kept: names are looked up once the imports are joined, and often."""
+        if ref.text not in self._found:
+            self._found[ref.text] = self._look_up(ref)
+        return self._found[ref.text]
+
+    def _look_up(self, ref: TypeRef) -> tuple[LinkedModule, Definition] | None:
         qualifier = ref.module
         for scope in (self, *self.imports):
             known_as = ("", scope.module.name, scope.module.stem) if scope is self else (

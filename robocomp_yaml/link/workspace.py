@@ -20,22 +20,26 @@ SUFFIX = ".idsl.yaml"
 @dataclass(slots=True)
 class Workspace:
     """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
-    look for imports in, `slice_folder` is where Slice goes (both joined with the root), `lint` a severity (or 'off')
-    by code."""
+    look for imports in, `slice_folder` is where Slice goes (both joined with the root), `content` the bytes of the
+    file, `lint` a severity (or 'off') by code."""
 
     root: str
     declared: bool = False
     interfaces: tuple[str, ...] = ()
     slice_folder: str = ""
+    content: bytes = b""
     lint: dict[str, str] = field(default_factory=dict)
 
 
-def root_above(folder: str) -> str | None:
-    """The nearest folder at or above one that holds `rcyaml.yaml`, spelled relative where `folder` is."""
+def root_above(folder: str, absent: set[str] | None = None) -> str | None:
+    """The nearest folder at or above one that holds `rcyaml.yaml`, spelled relative where `folder` is. The paths at
+    which there is none are added to `absent`."""
     here = folder or "."
     for _ in range(len(os.path.abspath(here).split(os.sep)) + 1):
         if os.path.isfile(os.path.join(here, WORKSPACE_FILE)):
             return os.path.normpath(here)
+        if absent is not None:
+            absent.add(os.path.join(here, WORKSPACE_FILE))
         here = os.path.join(here, os.pardir)
     return None
 
@@ -47,6 +51,7 @@ def read(root: str) -> tuple[Workspace, list[Diagnostic]]:
     raw, diagnostics = read_bytes(path)
     if raw is None:
         return workspace, diagnostics
+    workspace.content = raw
     content, diagnostics = decode(path, raw)
     if content is None:
         return workspace, diagnostics

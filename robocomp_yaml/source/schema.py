@@ -85,11 +85,15 @@ def _explain(
         case "required":
             yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(place, root))
         case _:
-            message = _own_message(whole, path)
+            # A key that may not be there is refused at its own place, and explained at that of the mapping around it.
+            forbidden = kind.name == "falseSchema"
+            message = _own_message(whole, path[:-1] if forbidden else path)
             if kind.name == "pattern" and facts["pattern"] == NAME and isinstance(node, Scalar):
                 yield codes.WRONG_NAME.at(node.span, name=node.lexeme, hint=_name_hint(node.lexeme))
                 return
-            yield codes.WRONG_SHAPE.at(_span(node, key), problem=message or _in_words(kind.name, facts, node, place))
+            problem = message or _in_words(kind.name, facts, node, place)
+            span = key.span if forbidden and key else _span(node, key)
+            yield codes.WRONG_SHAPE.at(span, problem=problem, hint=_nearest(facts.get("options"), node))
 
 
 def _unknown_key(
@@ -176,6 +180,16 @@ def _what(node: Node) -> str:
     kind = {bool: "a boolean", int: "a number", float: "a number"}.get(type(node.data), "text")
     shown = node.lexeme if len(node.lexeme) <= 30 else node.lexeme[:27] + "…"
     return f"{kind}, '{shown}'" if kind == "text" else f"{kind}, {shown}"
+
+
+def _nearest(options: object, node: Node) -> str:
+    """The option that a word was meant to be, where one is near."""
+    if not isinstance(options, list) or not isinstance(node, Scalar):
+        return ""
+    from robocomp_yaml.diag.suggest import suggest
+
+    meant = suggest(node.lexeme, [str(option) for option in options])
+    return f"did you mean '{meant}'?" if meant else ""
 
 
 def _name_hint(name: str) -> str:

@@ -12,12 +12,16 @@ from dataclasses import dataclass
 from ruamel.yaml.cyaml import CParser
 from ruamel.yaml.error import MarkedYAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode
+from ruamel.yaml.tag import Tag
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
 MAX_DEPTH = 100
+
+UNTAGGED = Tag(suffix="")
+"""The tag (`ctag`) of composed nodes for which the text has none."""
 
 _BRACKET = re.compile(r"[\[{\]}]")
 _DEEP_BLOCK = re.compile(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
@@ -37,7 +41,7 @@ _WORDS = (
     ("expected ',' or ']'", "a ']' or a ',' is missing before this", ""),
     ("did not find expected node content", "a value is missing here", ""),
     ("expected the node content", "a value is missing here", ""),
-    ("unexpected end of stream", "the document ends inside of a quoted text", "close the quotes"),
+    ("unexpected end of stream", "this quoted text is never closed", "close the quotes"),
     ("document separator", "a quoted text is not closed before '---'", "close the quotes"),
     ("undefined alias", "no anchor (&name) of this name stands before this alias", "quote a text that starts with '*'"),
     ("unknown escape", "this escape means nothing in double quotes", "double the backslash, or use single quotes"),
@@ -54,10 +58,10 @@ class Refused(Exception):
 
 
 class _Composer(CParser):  # type: ignore[misc]
-    """libyaml's composer; implicit tags stay empty, so that an explicit one can be told apart."""
+    """libyaml's composer; where no tag stands, it is UNTAGGED."""
 
-    def resolve(self, kind: type, value: str, implicit: object) -> str:
-        return ""
+    def resolve(self, kind: type, value: str, implicit: object) -> Tag:
+        return UNTAGGED
 
     def descend_resolver(self, current: object, index: object) -> None:
         pass
@@ -94,7 +98,7 @@ def _compose_as_1_2(text: str) -> Node | None:
             continue
         seen.add(id(node))
         if not _has_explicit_tag(text, node.start_mark.index):
-            node.tag = ""
+            node.ctag = UNTAGGED
         if isinstance(node, MappingNode):
             todo += [part for pair in node.value for part in pair]
         elif not isinstance(node, ScalarNode):
@@ -146,10 +150,12 @@ def _deep_place(path: str, text: str) -> Span:
 
 
 def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
-    mark = error.problem_mark or error.context_mark
+    problem = " ".join(str(part) for part in (error.context, error.problem) if part)
+    # Where a key or a quoted text begins says more than where the parser gave up on it.
+    begins = "expected ':'" in problem or "quoted scalar" in problem and "escape" not in problem
+    mark = (begins and error.context_mark) or error.problem_mark or error.context_mark
     line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
     span = Span(path, line, column, line, column + 1)
-    problem = " ".join(str(part) for part in (error.context, error.problem) if part)
     if "but found another document" in problem:
         return codes.SEVERAL_DOCUMENTS.at(span, hint="put it into a file of its own")
     lines = text.splitlines()

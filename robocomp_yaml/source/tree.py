@@ -112,7 +112,7 @@ class _Builder:
         if known is not None:
             self._alias(node, known[1])
             return known[0]
-        if node.tag:
+        if node.ctag is not syntax.UNTAGGED:
             self._explicit_tag(node)
         before = self.size
         self.size += 1
@@ -198,7 +198,7 @@ class _Builder:
 
     def _key(self, mapping: MappingNode, node: ScalarNode, value: Node) -> Scalar:
         """A key is the text as spelled: `2d`, `on` and `1` are keys like any other."""
-        if node.tag:
+        if node.ctag is not syntax.UNTAGGED:
             self._explicit_tag(node)
         if not node.style and mapping.flow_style and ":" in node.value:
             missing_value = value.data is None and isinstance(value, Scalar) and not value.lexeme

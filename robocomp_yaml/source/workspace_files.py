@@ -66,7 +66,8 @@ def _wired(settings: Path) -> str:
         text = ""
     except ValueError:
         raise Unreadable("it is not UTF-8 text") from None
-    return with_members(text if text.strip() else "{}\n", "yaml.schemas", {schema_path(kind): globs for kind, globs in GLOBS.items()})
+    ours = {schema_path(kind): globs for kind, globs in GLOBS.items()}
+    return with_members(text if text.strip() else "{}\n", "yaml.schemas", ours)
 
 
 def _write(path: Path, text: str) -> bool:

@@ -37,14 +37,15 @@ class Built:
 Build = Callable[[Mapping[str, str]], dict[str, Built]]
 
 
-def build(documents: Mapping[str, str], folder: Path) -> dict[str, Built]:
+def build(documents: Mapping[str, str], folder: Path, *search: Path) -> dict[str, Built]:
     """Writes the documents and compiles the components among them, each in its document's folder and without
-    `etc/config`; they come back by name."""
+    `etc/config`; they come back by name. Imports are looked for in `folder` and `search`."""
     for path, text in documents.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text, encoding="utf-8")
-    analysis = pipeline.analyse([str(folder)], [str(folder)])
-    assert [d for d in analysis.diagnostics if d.severity == ERROR] == []
+    analysis = pipeline.analyse([str(folder)], [str(folder), *map(str, search)])
+    errors = [d for d in analysis.diagnostics if d.severity == ERROR]
+    assert not errors, errors
     built = {}
     for linked in analysis.program.components.values():
         component = linked.component

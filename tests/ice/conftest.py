@@ -23,7 +23,9 @@ def start() -> Iterator[Start]:
     """`start(command, cwd=…, env={…})`: a process that is killed at the end of the test, if it still runs."""
     started: list[Running] = []
 
-    def start_process(command: Sequence[str | Path], cwd: Path | None = None, env: dict[str, str] | None = None) -> Running:
+    def start_process(
+        command: Sequence[str | Path], cwd: Path | None = None, env: Mapping[str, str] | None = None
+    ) -> Running:
         process = subprocess.Popen(
             [str(word) for word in command],
             cwd=cwd,

@@ -12,7 +12,7 @@ from processes import Ports, Start
 from scenario import INTERFACES, cdsl
 
 BOTH = pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["INT", "TERM"])
-WORKER = "from generated.genericworker import GenericWorker\nimport sys, time\n\nclass SpecificWorker(GenericWorker):\n"
+WORKER = "from generated.genericworker import GenericWorker\nimport sys, threading, time\n\nclass SpecificWorker(GenericWorker):\n"
 
 
 @pytest.fixture
@@ -77,7 +77,7 @@ def test_while_python_is_still_importing(arm: Built, start: Start) -> None:
 
 
 def test_a_thread_of_the_user_does_not_hold_it_up(arm: Built, start: Start) -> None:
-    write(arm, "    def initialize(self):\n        import threading\n        threading.Thread(target=time.sleep, args=(60,)).start()\n")
+    write(arm, "    def initialize(self):\n        threading.Thread(target=time.sleep, args=(60,)).start()\n")
     assert start(arm.command).wait_for("ArmComp is running").stop(within=2.0) == 0
 
 

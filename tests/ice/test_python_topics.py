@@ -60,7 +60,11 @@ def pair(build: Build, icestorm: Storm) -> tuple[Built, Built]:
     ids=["plain", "renamed", "prefixed"],
 )
 def test_events_arrive_in_order(
-    pair: tuple[Built, Built], start: Start, icestorm: Storm, for_publisher: dict[str, str], for_subscriber: dict[str, str]
+    pair: tuple[Built, Built],
+    start: Start,
+    icestorm: Storm,
+    for_publisher: dict[str, str],
+    for_subscriber: dict[str, str],
 ) -> None:
     publisher, subscriber = pair
     publisher.configure({"TopicManager.Proxy": icestorm.manager, **for_publisher})

@@ -40,11 +40,11 @@ CONTESTED = Code(
     "RC6003",
     "error",
     "{path} would be written for {one} and for {other}, with different contents",
-    "Two documents cannot own one file. Give each component a folder of its own, and each interface document its own "
-    "name in the output folder.",
-    {**_DOCUMENTS, "speech/other.cdsl.yaml": _OTHER},
-    {**_DOCUMENTS, "other/other.cdsl.yaml": _OTHER},
-    "compile .",
+    "Two documents cannot own one file. Interfaces are written to one folder under their documents' names: rename one, "
+    "or compile them with different `-o`. A component has a folder of its own.",
+    {"a/Speech.idsl.yaml": _SPEECH, "b/Speech.idsl.yaml": _SPEECH.replace("reset", "stop")},
+    {"a/Speech.idsl.yaml": _SPEECH, "b/Mouth.idsl.yaml": _SPEECH.replace("Speech", "Mouth")},
+    "compile . -o out",
 )
 EDITED = Code(
     "RC6004",

@@ -71,8 +71,9 @@ PYTHON_WORD = Code(
     ERROR,
     "no {kind} can be called '{name}': Ice does not escape this word in Python",
     why="Ice's mappings escape the reserved words of their languages: a member `lambda` is `_lambda` in Python. Ice "
-    "3.7 forgets False, True, as, async, await, nonlocal and with, and for methods staticmethod, so that no Python program "
-    "can load the interface. Where everything is written in C++, `lint: {RC1006: off}` in `rcyaml.yaml` allows them.",
+    "3.7 forgets False, True, as, async, await, nonlocal and with, and for methods staticmethod, so that no Python "
+    "program can load the interface. Where everything is written in C++, `lint: {RC1006: off}` in `rcyaml.yaml` allows "
+    "them.",
     wrong=_methods("      find: {in: {with: string}}\n"),
     right=_methods("      find: {in: {lambda: string}}\n"),
 )
@@ -160,7 +161,8 @@ EMPTY_TYPE = Code(
     "RC1018",
     ERROR,
     "the {kind} '{name}' has no {parts}",
-    why="Slice refuses structs without members and enums without enumerators. Exceptions and interfaces may be empty.",
+    why="Slice refuses structs without members and enums without enumerators. Exceptions and interfaces can be "
+    "empty.",
     wrong=_types("  Marker: {struct: {}}\n"),
     right=_types("  Marker: {struct: {id: int}}\n"),
 )
@@ -213,6 +215,17 @@ MISFIT = Code(
     "text, in quotes where YAML would read something else; an enum's value is the name of an enumerator.",
     wrong=_types("  Motor: {struct: {speed: {type: byte, default: 300}}}\n"),
     right=_types("  Motor: {struct: {speed: {type: byte, default: 255}}}\n"),
+)
+
+NUMBER = Code(
+    "RC1025",
+    WARNING,
+    "Ice does not carry {value} as it is: {reason}",
+    why="Into the Python and C++ that it generates, Ice 3.7 writes six digits of a constant or default that has a "
+    "fraction, and behind a float without a point it puts `.0F`: 1e-7 becomes 1e-07.0F, which is no C++. On the wire, "
+    "numbers are whole.",
+    wrong=_types("  Circle: {struct: {turn: {type: double, default: 6.283185307179586}}}\n"),
+    right=_types("  Circle: {struct: {turn: {type: double, default: 6.28319}}}\n"),
 )
 
 FILE_NAME = Code(

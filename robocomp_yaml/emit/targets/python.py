@@ -8,18 +8,19 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets.python_names import ice_name, module_variable
+from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
 from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.link.references import groups
 
 LANGUAGE = "python"
 
@@ -47,6 +48,7 @@ class View:
     period: int
     files: list[str]
     modules: list[SliceModule]
+    escape: bool
     behavior: str
     implements: list[ServedView]
     subscribes: list[ServedView]
@@ -108,6 +110,7 @@ def _view(linked: LinkedComponent) -> View:
         period=component.period or DEFAULT_PERIOD,
         files=[json.dumps(file, ensure_ascii=False) for file in files],
         modules=[SliceModule(ice_name(name), module_variable(name)) for name in names],
+        escape=any(is_forgotten(name) for name in _identifiers(linked)),
         behavior=module_variable(BEHAVIOR),
         implements=ports.implements,
         subscribes=ports.subscribes,
@@ -116,3 +119,12 @@ def _view(linked: LinkedComponent) -> View:
         publishes=ports.publishes,
         accessors=[*ports.requires, *ports.publishes],
     )
+
+
+def _identifiers(linked: LinkedComponent) -> Iterator[str]:
+    """Every name in the component's Slice."""
+    for scope in linked.modules():
+        yield scope.module.name
+        for definition in scope.module.definitions:
+            yield definition.name
+            yield from (name.text for group in groups(definition) for name in group)

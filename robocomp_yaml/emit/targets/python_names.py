@@ -5,13 +5,15 @@ from __future__ import annotations
 import keyword
 from collections.abc import Iterable, Iterator
 
-# What Ice 3.7's mapping puts an underscore before. The keywords that it forgets are escaped when the generated
-# component loads its Slice (templates/python/runtime/keywords.py).
+# What Ice 3.7's mapping puts an underscore before. What it forgets is escaped when the generated component loads its
+# Slice (templates/python/runtime/keywords.py).
 ICE_ESCAPES = frozenset(
-    "None and assert break checkedCast class continue def del elif else except exec finally for from global if import "
-    "in is lambda not or pass print raise return self try uncheckedCast while yield".split()
+    "None and assert break class continue def del elif else except exec finally for from global if import in is lambda "
+    "not or pass print raise return self try while yield".split()
 )
-_KEYWORDS = frozenset(keyword.kwlist)
+_PROXY_METHODS = frozenset(("checkedCast", "uncheckedCast"))
+_KEYWORDS = frozenset((*keyword.kwlist, "staticmethod"))
+_FORGOTTEN = _KEYWORDS - ICE_ESCAPES
 
 # Attributes of every worker: accessors and methods called so get another name.
 WORKER_ATTRIBUTES = frozenset(
@@ -33,6 +35,16 @@ def ice_name(name: str) -> str:
 def python_name(name: str) -> str:
     """The attribute or variable called so."""
     return f"_{name}" if name in ICE_ESCAPES or name in _KEYWORDS else name
+
+
+def proxy_method(name: str) -> str:
+    """An operation as the caller spells it."""
+    return f"_{name}" if name in _PROXY_METHODS else python_name(name)
+
+
+def is_forgotten(name: str) -> bool:
+    """Whether Python cannot have the name, and Ice does not escape it."""
+    return name in _FORGOTTEN
 
 
 def module_variable(name: str) -> str:

@@ -14,11 +14,12 @@ from robocomp_yaml.emit.targets.python_names import (
     ice_name,
     module_variable,
     parameters,
-    python_name,
+    proxy_method,
 )
 from robocomp_yaml.emit.targets.python_text import docstring, one_line, signature
 from robocomp_yaml.emit.targets.python_types import hint, qualified, zero
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
+from robocomp_yaml.model.component import WAIT
 from robocomp_yaml.model.interface import Member, Method, TypeRef
 
 IN = "    "
@@ -52,7 +53,7 @@ class ServedView:
 
 @dataclass(frozen=True, slots=True)
 class AccessorView:
-    """A proxy that the worker has. `options` are the further arguments of its row in the table."""
+    """A proxy that the worker has. `absent` and `timeout` are '' where the run time's default holds."""
 
     name: str
     topic: str
@@ -60,7 +61,8 @@ class AccessorView:
     proxy: str
     docstring: str
     summary: str
-    options: str
+    absent: str = ""
+    timeout: str = ""
 
 
 class Ports:
@@ -82,26 +84,32 @@ class Ports:
         ]
 
     def _required(self, port: Port) -> AccessorView:
-        options = "" if port.use.absent == "wait" else f', absent="{port.use.absent}"'
-        if port.use.timeout is not None:
-            options += f", timeout={port.use.timeout!r}"
-        attribute = self._names.take(f"{port.name.lower()}_proxy")
         text = port.use.doc or port.interface.doc
         note = f"{port.name}, at the address that the property `{port.name}Proxy` gives.\n\n{text}"
         return AccessorView(
-            port.name, "", attribute, _proxy(port), docstring(note, IN * 2), f"calls {port.name}", options
+            name=port.name,
+            topic="",
+            attribute=self._names.take(f"{port.name.lower()}_proxy"),
+            proxy=_proxy(port),
+            docstring=docstring(note, IN * 2),
+            summary=f"calls {port.name}",
+            absent="" if port.use.absent == WAIT else port.use.absent,
+            timeout="" if port.use.timeout is None else repr(port.use.timeout),
         )
 
     def _published(self, port: Port) -> AccessorView:
-        lower = port.name.lower()
-        attribute = self._names.take(f"{lower}_proxy", f"{lower}_pubproxy")
         events = ", ".join(
-            f"{python_name(m.name)}({', '.join(member.name for member in m.inputs)})" for m in _published_methods(port)
+            f"{proxy_method(m.name)}({', '.join(member.name for member in m.inputs)})" for m in _published_methods(port)
         )
-        note = f"Publishes {port.name}: {events}.\n\n{port.use.doc or port.interface.doc}"
-        summary = f"publishes {port.name}: {events}"
-        topic = port.interface.name
-        return AccessorView(port.name, topic, attribute, _proxy(port), docstring(note, IN * 2), summary, "")
+        lower = port.name.lower()
+        return AccessorView(
+            name=port.name,
+            topic=port.interface.name,
+            attribute=self._names.take(f"{lower}_proxy", f"{lower}_pubproxy"),
+            proxy=_proxy(port),
+            docstring=docstring(f"Publishes {port.name}: {events}.\n\n{port.use.doc or port.interface.doc}", IN * 2),
+            summary=f"publishes {port.name}",
+        )
 
     def _served(self, port: Port, title: str, methods: Sequence[Method]) -> ServedView:
         every, new = [], []

@@ -6,12 +6,13 @@ the author's order. The text depends on the module and its imports alone.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator
 
 from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
 from robocomp_yaml.emit.slice_literal import literal
 from robocomp_yaml.link.program import Definition, LinkedModule
-from robocomp_yaml.link.references import exceptions_of, groups, macro, types_of
+from robocomp_yaml.link.references import macro, types_of
 from robocomp_yaml.model.interface import (
     Constant,
     Enum,
@@ -27,6 +28,8 @@ from robocomp_yaml.model.interface import (
 )
 
 IN = "  "
+
+_STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 
 
 def file_name(linked: LinkedModule) -> str:
@@ -44,8 +47,10 @@ def text(linked: LinkedModule) -> str:
 
 
 def in_order(linked: LinkedModule) -> list[Definition]:
-    """The module's definitions, each after those that it uses, else as the author ordered them."""
-    own = {definition.name: definition for definition in linked.module.definitions}
+    """The module's definitions, each after those that it uses, else as the author ordered them. Interfaces come last,
+    and nothing uses them."""
+    module = linked.module
+    own: dict[str, Definition] = {d.name: d for d in (*module.constants, *module.types, *module.exceptions)}
     done: dict[str, Definition] = {}
     entered: set[str] = set()
     todo = [(definition, False) for definition in reversed(own.values())]
@@ -56,51 +61,38 @@ def in_order(linked: LinkedModule) -> list[Definition]:
         elif definition.name not in entered:
             entered.add(definition.name)
             todo.append((definition, True))
-            needed = [own.get(ref.name) for ref in (*types_of(definition), *exceptions_of(definition))
-                      if _is_own(linked, ref)]
-            todo += [(other, False) for other in reversed(needed) if other is not None]
-    return list(done.values())
-
-
-def _is_own(linked: LinkedModule, ref: TypeRef) -> bool:
-    found = None if ref.is_basic else linked.find(ref)
-    return found is not None and found[0] is linked
+            found = [linked.find(ref) for ref in types_of(definition) if not ref.is_basic]
+            todo += [(other[1], False) for other in reversed(found) if other and other[0] is linked]
+    return [*done.values(), *module.all_interfaces]
 
 
 class _File:
     def __init__(self, linked: LinkedModule) -> None:
         self.linked = linked
         self.module = linked.module
+        self._names: dict[str, tuple[str, str]] = {}
         self.own_names = {definition.name.lower() for definition in linked.module.definitions}
 
     def lines(self) -> Iterator[str]:
+        body = list(self._module())
         yield f"// Compiled by rcyaml from {self.module.path.rpartition('/')[2]}: change that file, not this one."
         yield from (f"#ifndef {guard(self.linked)}", f"#define {guard(self.linked)}", "")
-        if self._has_underscores():
+        if any("_" in line and _has_underscores(line) for line in body):
             yield from ('[["underscore"]]', "")
         if self.linked.imports:
             yield from (f"#include <{file_name(imported)}>" for imported in self.linked.imports)
             yield ""
+        yield from body
+        yield from ("", "#endif")
+
+    def _module(self) -> Iterator[str]:
         yield from comment(self.module.doc)
         yield from (f"module {self.module.name}", "{")
         for number, definition in enumerate(in_order(self.linked)):
             if number:
                 yield ""
             yield from self._definition(definition)
-        yield from ("};", "", "#endif")
-
-    def _has_underscores(self) -> bool:
-        """Slice takes underscores in names only when a file says so."""
-        if "_" in self.module.name:
-            return True
-        for definition in self.module.definitions:
-            refs = (*types_of(definition), *exceptions_of(definition))
-            names = (name.text for group in groups(definition) for name in group)
-            if "_" in definition.name or any("_" in name for name in names):
-                return True
-            if any("_" in self._type(ref) for ref in refs) or any("_" in value for value in _defaults(definition)):
-                return True
-        return False
+        yield "};"
 
     def _definition(self, definition: Definition) -> Iterator[str]:
         unit = definition.unit if isinstance(definition, Constant) else ""
@@ -183,17 +175,25 @@ class _File:
     def _type(self, ref: TypeRef, hidden: Collection[str] = ()) -> str:
         """A type's name. `hidden` are names, in lower case, that mean something else where it is used. From the root
         where its first word would be taken for something else."""
+        if ref.text not in self._names:
+            self._names[ref.text] = self._name(ref)
+        name, first_word = self._names[ref.text]
+        if first_word not in hidden:
+            return name
+        return f"::{name}" if "::" in name else f"::{self.module.name}::{name}"
+
+    def _name(self, ref: TypeRef) -> tuple[str, str]:
+        """A type's name, and its first word in lower case ('' where that cannot be mistaken)."""
         if ref.is_basic:
-            return ref.text
+            return ref.text, ""
         found = self.linked.find(ref)
         if found is None:
-            return ref.text.replace(".", "::")
+            return ref.text.replace(".", "::"), ""
         scope, definition = found
-        if scope is not self.linked:
-            module = scope.module.name.lower()
-            root = "::" if module in self.own_names or module in hidden else ""
-            return f"{root}{scope.module.name}::{definition.name}"
-        return f"::{self.module.name}::{definition.name}" if definition.name.lower() in hidden else definition.name
+        if scope is self.linked:
+            return definition.name, definition.name.lower()
+        name, first_word = f"{scope.module.name}::{definition.name}", scope.module.name.lower()
+        return (f"::{name}", "") if first_word in self.own_names else (name, first_word)
 
     def _value(self, type_: TypeRef, value: Literal) -> str:
         """Enumerators are named with their enum: a member, a type or a module may have an enumerator's name too."""
@@ -218,11 +218,6 @@ def _enum(enum: Enum) -> Iterator[str]:
     yield f"{IN}}};"
 
 
-def _defaults(definition: Definition) -> Iterator[str]:
-    """The enumerators that a definition names."""
-    if isinstance(definition, Constant) and not definition.type.is_basic:
-        yield definition.value.lexeme
-    elif isinstance(definition, Struct | ExceptionType):
-        for member in definition.members:
-            if member.default is not None and not member.type.is_basic:
-                yield member.default.lexeme
+def _has_underscores(line: str) -> bool:
+    """Whether a line has names with underscores, which Slice takes only when a file says so."""
+    return not line.lstrip().startswith(("/*", "*")) and "_" in _STRING.sub("", line)

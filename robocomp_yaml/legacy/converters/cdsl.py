@@ -9,7 +9,7 @@ from lark import Token, Tree
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.suggest import suggest
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Value
+from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
 from robocomp_yaml.legacy.draft import Draft, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
 
@@ -35,15 +35,14 @@ class _Converter:
         self._put("component", name, Notes(notes.head, notes.tail))
         doc = reader.doc(component, name)
         if doc:
-            self._put("doc", doc, Notes())
+            self._put("doc", Doc(doc), Notes())
         listed, imports = reader.imports(trees(tree, "import"))
         if listed.items:
             self._put("imports", listed, Notes())
         for clause in trees(component):
             if clause.data == "communications":
                 self._once(clause)
-                for communication in trees(clause, *LISTS):
-                    self._interfaces(communication)
+                self._communications(clause)
             elif clause.data in CLAUSES:
                 self._once(clause)
                 CLAUSES[str(clause.data)](self, clause)
@@ -82,10 +81,24 @@ class _Converter:
         known = self.reader.rules.values[name]
         if str(at).lower() not in known:
             close = suggest(str(at), known)
-            hint = f"did you mean '{close}'?" if close else f"write one of {', '.join(known)}"
+            hint = f"did you mean '{close}'?" if close else "write " + " or ".join(dict.fromkeys(known.values()))
             span = self.reader.span(at)
             self.reader.diagnostics.append(codes.UNKNOWN_VALUE.at(span, what=name, value=at, hint=hint))
         return known.get(str(at).lower(), str(at))
+
+    def _communications(self, clause: Tree[Token]) -> None:
+        """The lists of the block; the comments around it stand above the first and below the last of them."""
+        notes, listed = self.reader.notes(clause), trees(clause, *LISTS)
+        for communication in listed:
+            self._interfaces(communication)
+        if listed:
+            self.entries[self._key(listed[0])].notes.head[:0] = [*notes.head, *notes.tail]
+            last = self.entries[self._key(listed[-1])]
+            assert isinstance(last.value, List)
+            last.value.block = last.value.block or bool(notes.foot)
+            last.notes.foot += notes.foot
+        else:
+            self.reader.placed.around.foot += [*notes.head, *notes.tail, *notes.foot]
 
     def _interfaces(self, clause: Tree[Token]) -> None:
         """A list with its order and its repetitions: a second entry of one interface gets a name of its own."""

@@ -10,7 +10,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import literals
-from robocomp_yaml.legacy.document import List, Map, Notes, Raw, Value
+from robocomp_yaml.legacy.document import Doc, List, Map, Name, Notes, Raw, Value
 from robocomp_yaml.legacy.draft import Draft, ModuleNames, Reader, Reference, plain
 from robocomp_yaml.legacy.grammar import token, trees
 
@@ -68,7 +68,7 @@ class _Converter:
         if self._is_new(self.seen, name, tree):
             self.names.defined.add(name)
             body = BODIES[str(tree.data)](self, tree, name)
-            section.put(name, body, self.reader.notes(tree))
+            section.put(name, body, _foot_inside(self.reader.notes(tree), body))
 
     def _is_new(self, seen: dict[str, Span], name: str, tree: Tree[Token]) -> bool:
         """Whether a name is free yet; if not, that is said."""
@@ -84,19 +84,19 @@ class _Converter:
     def _doc(self, into: Map, tree: Tree[Token], *names: str) -> None:
         doc = self.reader.doc(tree, *names)
         if doc:
-            into.put("doc", doc)
+            into.put("doc", Doc(doc))
 
-    def _type(self, tree: Tree[Token]) -> Raw:
+    def _type(self, tree: Tree[Token]) -> Name:
         """A type as a document names it, noted as a reference."""
         qname = next((child for child in trees(tree) if child.data == "qname"), None)
-        return self._name(qname) if qname is not None else Raw(str(tree.children[0]))
+        return self._name(qname) if qname is not None else Name(str(tree.children[0]))
 
-    def _name(self, qname: Tree[Token]) -> Raw:
+    def _name(self, qname: Tree[Token]) -> Name:
         parts = [plain(child) for child in qname.children if isinstance(child, Token) and child.type == "NAME"]
         if len(parts) > 2:
             self.reader.refused("refused_scope", qname)
         module = parts[0] if len(parts) > 1 else ""
-        written = Raw(".".join(parts))
+        written = Name(".".join(parts))
         self.names.references.append(Reference(module, parts[-1], written, self.reader.span(qname)))
         return written
 
@@ -115,7 +115,7 @@ class _Converter:
     def struct(self, tree: Tree[Token], name: str) -> Map:
         body = Map(limit=SHORT)
         self._doc(body, tree, name, self.names.name)
-        body.put("struct", self._members(trees(tree, "member")))
+        body.put("struct", self._members(trees(tree, "member"), {}))
         return body
 
     def exception(self, tree: Tree[Token], name: str) -> Map | None:
@@ -125,8 +125,8 @@ class _Converter:
             body.entries.pop()
         return body if body.entries else None
 
-    def _members(self, trees_: list[Tree[Token]]) -> Map:
-        members, seen = Map(block=len(trees_) > FEW), dict[str, Span]()
+    def _members(self, trees_: list[Tree[Token]], seen: dict[str, Span]) -> Map:
+        members = Map(block=len(trees_) > FEW)
         for tree in trees_:
             name = self.reader.name(tree)
             if self._is_new(seen, name, tree):
@@ -162,7 +162,7 @@ class _Converter:
                 long = Map()
                 if value is not None:
                     long.put("value", value)
-                long.put("doc", doc)
+                long.put("doc", Doc(doc))
                 value = long
             listed.put(key, value, notes)
         body.put("enum", listed)
@@ -208,10 +208,11 @@ class _Converter:
         outs = [token(parameter, "OUT") is not None for parameter in parameters]
         if outs != sorted(outs):
             self.reader.repaired("lenient_order", token(tree, "NAME") or tree, legacy)
+        seen: dict[str, Span] = {}
         for direction, wanted in (("in", False), ("out", True)):
             chosen = [parameter for parameter, out in zip(parameters, outs, strict=True) if out is wanted]
             if chosen:
-                members = self._members(chosen)
+                members = self._members(chosen, seen)
                 members.block = False
                 body.put(direction, members)
         returned = trees(tree, "type")
@@ -226,6 +227,16 @@ class _Converter:
         if token(tree, "IDEMPOTENT") is not None:
             body.put("idempotent", Raw("true"))
         return body if body.entries else None
+
+
+def _foot_inside(notes: Notes, body: Value) -> Notes:
+    """Comments at the end of a definition's block stand below the last thing in it."""
+    inner = body.entries[-1] if notes.foot and isinstance(body, Map) and body.entries else None
+    if inner is None or not isinstance(inner.value, Map | List):
+        return notes
+    inner.value.block = True
+    inner.notes.foot += notes.foot
+    return Notes(notes.head, notes.tail)
 
 
 def free_name(name: str, taken: set[str]) -> str:

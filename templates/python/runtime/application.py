@@ -18,7 +18,7 @@ from generated.runtime.schedule import Schedule
 from generated.runtime.settings import Settings
 from generated.runtime.stopping import Stopping
 from generated.runtime.topics import Topics
-from generated.runtime.waiting import Stopped, reason
+from generated.runtime.waiting import reason
 
 WorkerClass = Callable[[worker.Context], worker.Worker]
 
@@ -72,13 +72,13 @@ class Application:
     def _work(self, only_check: bool) -> None:
         try:
             running = self._start()
-        except (StartError, Ice.LocalException, Stopped) as error:
-            if not self._stopping.is_requested():
-                self._log.error(error if isinstance(error, StartError) else f"cannot start: {reason(error)}")
-                self._stopping.request(1)
-        except Exception:
-            self._log.exception("cannot start")
+        except StartError as error:
+            self._log.error(error)
             self._stopping.request(1)
+        except Exception:
+            if not self._stopping.is_requested():  # what it was doing may fail when it is told to stop
+                self._log.exception("cannot start")
+                self._stopping.request(1)
         else:
             if only_check:
                 self._log.info("%s starts as it should", self._component.name)

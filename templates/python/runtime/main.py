@@ -16,7 +16,10 @@ usage: bin/{name} [CONFIG] [--Ice.X=Y ...] [--KEY=VALUE ...] [--startup-check]
   --KEY=VALUE       any property: wins over the same one in the file
   --startup-check   start everything, then stop
 """
-NO_ICE = "{name}: this Python ({python}) has no Ice: install Debian's python3-zeroc-ice, or run '{python} -m pip install zeroc-ice'"
+NO_ICE = """\
+{name}: this Python ({python}) has no Ice: \
+install Debian's python3-zeroc-ice, or run '{python} -m pip install zeroc-ice'
+"""
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,7 @@ def main(root: Path, name: str, arguments: Sequence[str]) -> int:
     try:
         import Ice
     except ImportError:
-        print(NO_ICE.format(name=name, python=sys.executable), file=sys.stderr)
+        print(NO_ICE.format(name=name, python=sys.executable), file=sys.stderr, end="")
         return 1
     from generated.runtime.launch import launch
 

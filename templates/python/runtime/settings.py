@@ -24,11 +24,11 @@ class Settings:
         properties = Ice.createProperties()
         for file in self._files:
             try:
-                file.open("rb").close()
+                _check_text(file)
                 properties.load(str(file))
             except OSError as error:
                 raise StartError(f"cannot read the config file {shown(file)}: {error.strerror}") from None
-            except (Ice.LocalException, UnicodeError) as error:
+            except Ice.LocalException as error:
                 raise StartError(f"cannot read the config file {shown(file)}: {error}") from None
         properties.parseCommandLineOptions("", self._arguments)
         for key, value in properties.getPropertiesForPrefix("Ice.").items():
@@ -87,6 +87,15 @@ class Settings:
         """All properties but Ice's own."""
         every = self.properties.getPropertiesForPrefix("")
         return {key: value for key, value in sorted(every.items()) if not key.startswith("Ice.")}
+
+
+def _check_text(file: Path) -> None:
+    """Ice takes any bytes, but what is no UTF-8 has no value in Python. Old comments may be in any encoding."""
+    for number, line in enumerate(file.read_bytes().splitlines(), 1):
+        try:
+            line.partition(b"#")[0].decode("utf-8")
+        except UnicodeDecodeError:
+            raise StartError(f"{shown(file)}:{number}: this line is not in UTF-8") from None
 
 
 def unquoted(value: str) -> str:

@@ -13,12 +13,15 @@ import Ice
 
 from generated.runtime.errors import StartError
 from generated.runtime.keywords import load_escaped
+from generated.runtime.settings import shown
 
 FOLDER = Path(__file__).resolve().parents[2] / "slice"
 
 
-def load(files: Sequence[str], modules: Sequence[str]) -> list[ModuleType]:
+def load(files: Sequence[str], modules: Sequence[str], escape: bool = False) -> list[ModuleType]:
     """Loads the files and what they include, and hands out the modules that they define.
+
+    `escape` says that they have names which are keywords of Python and which Ice does not escape.
 
     Ice puts them among Python's own modules. One that has the name of a real Python module (`signal`, say) is taken
     out again, so that `import signal` keeps its meaning.
@@ -26,24 +29,25 @@ def load(files: Sequence[str], modules: Sequence[str]) -> list[ModuleType]:
     shadowed = {name: sys.modules.pop(name) for name in modules if _is_python(sys.modules.get(name))}
     try:
         for file in files:
-            _load(FOLDER / file)
+            _load(FOLDER / file, escape)
         return [sys.modules[name] for name in modules]
     finally:
         sys.modules.update(shadowed)
 
 
-def _load(file: Path) -> None:
+def _load(file: Path, escape: bool) -> None:
     if not file.is_file():
-        raise StartError(f"{file} is missing: compile the component again")
+        raise StartError(f"{shown(file)} is missing: compile the component again")
     options = ["--all", "--underscore", f"-I{FOLDER}"]
     if os.path.isdir(shipped := Ice.getSliceDir() or ""):
         options.append(f"-I{shipped}")
     try:
-        Ice.loadSlice("", [*options, str(file)])
-    except SyntaxError:
-        load_escaped(file, options)
+        if escape:
+            load_escaped(file, options)
+        else:
+            Ice.loadSlice("", [*options, str(file)])
     except RuntimeError:
-        raise StartError(f"Ice does not take {file} (see above): compile the component again") from None
+        raise StartError(f"Ice does not take {shown(file)} (see above): compile the component again") from None
 
 
 def _is_python(module: ModuleType | None) -> bool:

@@ -13,7 +13,7 @@ from generated.runtime.ports import Published, Subscribed
 from generated.runtime.proxies import from_text
 from generated.runtime.settings import Settings
 from generated.runtime.stopping import Stopping
-from generated.runtime.waiting import PATIENCE, wait_for
+from generated.runtime.waiting import PATIENCE, asking, wait_for
 
 try:
     import IceStorm
@@ -39,14 +39,15 @@ class Topics:
     def publisher(self, port: Published) -> Any:
         """The proxy that sends to the topic."""
         name = self._settings.topic_name(port.name, port.topic, f"Proxies.{port.name}PubPrefix")
-        return port.proxy.uncheckedCast(self._topic(name).getPublisher().ice_oneway())
+        with asking(f"IceStorm for the topic {name}"):
+            return port.proxy.uncheckedCast(self._topic(name).getPublisher().ice_oneway())
 
     def subscribe(self, port: Subscribed, proxy: Ice.ObjectPrx) -> None:
         """Sends the topic's events to the object."""
         name = self._settings.topic_name(port.name, port.topic, f"Proxies.{port.name}Prefix")
-        topic = self._topic(name)
-        subscriber = proxy.ice_oneway()
-        topic.subscribeAndGetPublisher({}, subscriber)
+        with asking(f"IceStorm for the topic {name}"):
+            topic, subscriber = self._topic(name), proxy.ice_oneway()
+            topic.subscribeAndGetPublisher({}, subscriber)
         self._subscriptions.append((topic, subscriber))
 
     def unsubscribe(self) -> None:

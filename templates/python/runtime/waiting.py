@@ -6,6 +6,8 @@ from __future__ import annotations
 import logging
 import os
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import Ice
 
@@ -49,6 +51,15 @@ def wait_for(
             raise Stopped
 
 
+@contextmanager
+def asking(what: str) -> Iterator[None]:
+    """Ice's exceptions in there mean that the component cannot start."""
+    try:
+        yield
+    except Ice.LocalException as error:
+        raise StartError(f"cannot ask {what}: {reason(error)}") from None
+
+
 def reason(error: Ice.Exception) -> str:
     """Ice's exception in a few words."""
     if isinstance(error, Ice.ConnectionRefusedException):
@@ -59,6 +70,8 @@ def reason(error: Ice.Exception) -> str:
         return f"host {error.host} is unknown"
     if isinstance(error, Ice.ObjectNotExistException):
         return "the process answers, but has no such object"
+    if isinstance(error, Ice.NoEndpointException):
+        return "it has no endpoint, and there is no locator to ask"
     if isinstance(error, Ice.SyscallException):
         return os.strerror(error.error)
     return type(error).__name__

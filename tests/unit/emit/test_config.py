@@ -10,15 +10,19 @@ from talk import component, workspace
 from robocomp_yaml.emit import config, ports, properties
 from robocomp_yaml.emit.plan import ONCE
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.pipeline import analyse
 
 @pytest.fixture(autouse=True)
 def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
+def text(linked: dict[str, LinkedComponent], folder: str) -> str:
+    return config.plan(linked[folder], ports.assign(linked.values())).text
+
+
 def values(linked: dict[str, LinkedComponent], folder: str) -> dict[str, str]:
-    others = [other for name, other in linked.items() if name != folder]
-    return properties.read(config.plan(linked[folder], others).text).values
+    return properties.read(text(linked, folder)).values
 
 
 def test_what_a_config_holds() -> None:
@@ -28,7 +32,7 @@ def test_what_a_config_holds() -> None:
         "mouth": component("MouthComp", implements="[Mouth]"),
     })
     mouth = values(linked, "mouth")["Mouth.Endpoints"].removeprefix("tcp -p ")
-    plan = config.plan(linked["speech"], [linked["mouth"]])
+    plan = config.plan(linked["speech"], ports.assign(linked.values()))
     assert (plan.path, plan.policy, plan.executable) == ("etc/config", ONCE, False)
     speech, behavior = (ports.default_port("SpeechComp", name) for name in ("Speech", "CommonBehavior"))
     assert plan.text == f"""\
@@ -86,9 +90,8 @@ def test_a_proxy_follows_the_port_that_stands_in_the_others_config() -> None:
 
 def test_an_interface_that_nobody_implements() -> None:
     linked = workspace({"a": component("A", requires="[Mouth]", implements="[Speech]")})
-    plan = config.plan(linked["a"], [])
-    assert "No component of this workspace implements it" in plan.text
-    assert f"MouthProxy=mouth:tcp -h localhost -p {ports.default_port('', 'Mouth')}\n" in plan.text
+    assert "No component of this workspace implements it" in text(linked, "a")
+    assert f"MouthProxy=mouth:tcp -h localhost -p {ports.default_port('', 'Mouth')}\n" in text(linked, "a")
 
 
 def test_two_proxies_go_to_two_components() -> None:
@@ -99,7 +102,7 @@ def test_two_proxies_go_to_two_components() -> None:
     held = values(linked, "a")
     b, c = (values(linked, name)["Mouth.Endpoints"].removeprefix("tcp -p ") for name in "bc")
     assert [held[f"Mouth{n}Proxy"].rpartition(" ")[2] for n in ("", "1", "2")] == [b, c, c]
-    assert "Implemented by B (../b/b.cdsl.yaml), also by C." in config.plan(linked["a"], [linked["c"], linked["b"]]).text
+    assert "Implemented by B (../b/b.cdsl.yaml), also by C." in text(linked, "a")
 
 
 def test_the_configs_of_a_workspace_fit_together_in_any_order() -> None:
@@ -107,7 +110,13 @@ def test_the_configs_of_a_workspace_fit_together_in_any_order() -> None:
         "a": component("A", requires="[Mouth]"), "b": component("B", implements="[Mouth, Speech]"),
         "c": component("C", requires="[Speech]"),
     })
-    names = sorted(linked)
-    for order in (names, names[::-1]):
-        texts = {n: config.plan(linked[n], [linked[o] for o in order if o != n]).text for n in order}
-        assert texts == {n: config.plan(linked[n], [linked[o] for o in names if o != n]).text for n in names}
+    backwards = dict(reversed(linked.items()))
+    assert list(backwards) != list(linked)
+    assert {name: text(backwards, name) for name in linked} == {name: text(linked, name) for name in linked}
+
+
+def test_a_component_may_be_given_twice(tmp_path: Path) -> None:
+    """As one of this run, and as one of its workspace, under another spelling of its path."""
+    linked = workspace({"a": component("A", requires="[Mouth]", implements="[Mouth]")})
+    again = {"again": analyse([str(tmp_path)]).program.components.popitem()[1]}
+    assert text({**linked, **again}, "a") == text({**again, **linked}, "a") == text(linked, "a")

@@ -9,11 +9,19 @@ from talk import component, workspace
 
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.ports import Endpoint
+from robocomp_yaml.link.program import LinkedComponent
 
 
 @pytest.fixture(autouse=True)
 def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+
+
+def numbers(linked: dict[str, LinkedComponent], assigned: ports.Ports) -> dict[str, int]:
+    return {
+        f"{folder}.{name}": assigned.endpoint(one, name).port
+        for folder, one in linked.items() for name in ports.adapters(one)
+    }
 
 
 def test_the_hash_is_the_same_for_ever() -> None:
@@ -31,11 +39,9 @@ def test_the_later_name_moves_on(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ports, "default_port", lambda component, interface: 11310)
     linked = workspace({"z": component("A", implements="[Mouth, Speech]"), "a": component("B", implements="[Mouth]")})
     for order in (list(linked.values()), list(linked.values())[::-1]):
-        assigned = ports.assign(order).endpoints
-        assert {key: endpoint.port for key, endpoint in assigned.items()} == {
-            ("z/z.cdsl.yaml", "CommonBehavior"): 11310, ("z/z.cdsl.yaml", "Mouth"): 11312,
-            ("z/z.cdsl.yaml", "Speech"): 11313, ("a/a.cdsl.yaml", "CommonBehavior"): 11314,
-            ("a/a.cdsl.yaml", "Mouth"): 11315,
+        assert numbers(linked, ports.assign(order)) == {
+            "z.CommonBehavior": 11310, "z.Mouth": 11312, "z.Speech": 11313, "a.CommonBehavior": 11314,
+            "a.Mouth": 11315,
         }, "11311 is ROS 1's"
 
 
@@ -51,9 +57,9 @@ def test_a_port_in_a_config_is_taken() -> None:
         {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Speech]")},
         b=f"Speech.Endpoints=tcp -p {port}\n",
     )
-    assigned = ports.assign(linked.values()).endpoints
-    assert assigned["b/b.cdsl.yaml", "Speech"].port == port
-    assert assigned["a/a.cdsl.yaml", "Mouth"].port == port + 1
+    assigned = numbers(linked, ports.assign(linked.values()))
+    assert assigned["b.Speech"] == port
+    assert assigned["a.Mouth"] == port + 1
 
 
 @pytest.mark.parametrize(("value", "expected"), [

@@ -160,6 +160,7 @@ def test_a_file_that_changes_between_look_and_write(tmp_path: Path) -> None:
     (tmp_path / "a").write_text("mine\n")
     said = writer.commit(changes)
     assert codes(said) == ["RC6005"] and "run it again" in said[0].message
+    assert [change.action for change in changes] == ["refused", "refused"]
     assert tree(tmp_path) == {OWNER: "", "a": "mine\n"}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from disk import always, carry_out, codes, once, plan, tree
+from disk import actions, always, carry_out, codes, once, plan, tree
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit import manifest
@@ -39,8 +39,9 @@ def test_a_path_that_is_not_plain(root: Path, path: str, make) -> None:
 @pytest.mark.parametrize("target", ["../outside", "../outside/not/there"])
 def test_a_folder_that_is_a_link_out(root: Path, target: str, make) -> None:
     (root / "generated").symlink_to(target)
-    said = refused(root, make("generated/deep/new", "x"), always("fine", "x"))
-    assert codes(said) == ["RC6002"] and "generated/deep/new" in said[0].message
+    said = refused(root, make("generated/deep/new", "x"), make("generated/other", "x"), always("fine", "x"))
+    assert codes(said) == ["RC6002"]
+    assert "generated/deep/new" in said[0].message and f"'generated' is a link to {target}" in said[0].message
 
 
 def test_a_generated_file_that_is_a_link_out(root: Path) -> None:
@@ -74,9 +75,9 @@ def test_things_in_the_way(root: Path) -> None:
     (root / "a").mkdir()
     (root / "b").write_text("a file\n")
     said = refused(root, always("a", "x"), always("b/c", "x"), once("b/d", "x"), always("n" * 300, "x"))
-    assert codes(said) == ["RC6005"] * 4
-    assert "a folder stands there" in said[0].message
-    assert "file name too long" in said[3].message
+    assert [(d.code, d.message.partition(": ")[2]) for d in said] == [
+        ("RC6005", "a folder stands there"), ("RC6005", "'b' is no folder"), ("RC6005", "file name too long"),
+    ], "one for each cause"
 
 
 def test_a_root_that_is_a_file(tmp_path: Path) -> None:
@@ -118,6 +119,7 @@ def test_a_manifest_cannot_send_a_removal_outside(root: Path) -> None:
 def test_the_other_roots_are_written(root: Path) -> None:
     (root / "a").mkdir()
     other = root.parent / "other"
-    _, said = carry_out(plan(root, always("a", "x")), plan(other, always("a", "x")))
+    changes, said = carry_out(plan(root, always("a", "x"), always("b", "x")), plan(other, always("a", "x")))
     assert codes(said) == ["RC6005"]
     assert (other / "a").read_text() == "x"
+    assert actions(changes, root.parent) == {"other/a": "create", "root/a": "refused", "root/b": "refused"}

@@ -1,0 +1,152 @@
+"""What a compile came to, and how it is told: the same whether it was made or found to be made already."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import click
+
+from robocomp_yaml.commands import _options
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related, has_errors
+from robocomp_yaml.diag.render import render
+from robocomp_yaml.diag.span import Span
+
+SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
+
+WRITTEN = ("create", "update", "adopt", "edited")
+CHANGED = (*WRITTEN, "remove", "refused")
+_DONE = {
+    "create": "wrote", "update": "updated", "adopt": "took over", "edited": "rewrote", "remove": "removed",
+    "kept": "kept", "left": "left", "unchanged": "unchanged",
+}  # fmt: skip
+_WOULD = {
+    "create": "would write", "update": "would update", "adopt": "would take over", "edited": "would rewrite",
+    "remove": "would remove", "kept": "would keep", "left": "would leave", "unchanged": "unchanged",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class File:
+    """One file and what became of it: `action` as in `emit.changes`, `orig` where an earlier text is kept, `diff` its
+    changes when they were asked for."""
+
+    root: str
+    path: str
+    action: str
+    orig: str = ""
+    diff: str = ""
+
+
+@dataclass(slots=True)
+class Outcome:
+    """`documents` were looked at, `asked` of them named by the user, `compiled` of these compiled. `planned` when
+    nothing was written, since only a look was wanted."""
+
+    diagnostics: list[Diagnostic]
+    files: list[File]
+    documents: int
+    asked: int
+    compiled: int
+    planned: bool = False
+
+    @property
+    def dirty(self) -> bool:
+        """Whether a file that a user sees changed, or would."""
+        return any(file.action in CHANGED for file in self.files)
+
+    def as_data(self) -> dict[str, Any]:
+        return asdict(self)
+
+    @classmethod
+    def of_data(cls, data: dict[str, Any]) -> Outcome:
+        """The inverse of `as_data`."""
+        told = [
+            Diagnostic(
+                d["code"], d["severity"], d["message"], Span(**d["span"]), d["hint"],
+                tuple(Related(r["message"], Span(**r["span"])) for r in d["related"]), d["more"],
+            )
+            for d in data["diagnostics"]
+        ]  # fmt: skip
+        files = [File(**file) for file in data["files"]]
+        return cls(told, files, data["documents"], data["asked"], data["compiled"], data["planned"])
+
+    def settled(self, lasting: list[Diagnostic]) -> Outcome:
+        """The outcome of the same run made again: nothing left to write, and only the `lasting` diagnostics."""
+        files = [
+            File(file.root, file.path, "unchanged" if file.action in WRITTEN else file.action)
+            for file in self.files
+            if file.action != "remove"
+        ]
+        return Outcome(lasting, files, self.documents, self.asked, self.compiled)
+
+
+def report(ctx: click.Context, outcome: Outcome, format_: str, *, diff: bool = False, check: bool = False) -> None:
+    """Prints what happened to the files and what is wrong, and ends the command."""
+    told, color = outcome.diagnostics, _options.colored(ctx)
+    if format_ == "json":
+        files = [
+            {"path": file.path, "action": file.action, **({"orig": file.orig} if file.orig else {})}
+            for file in outcome.files
+        ]
+        data = json.loads(render("json", told, outcome.documents))
+        click.echo(json.dumps({**data, "files": files}, indent=2, ensure_ascii=False))
+    elif format_ == "sarif":
+        click.echo(render("sarif", told, outcome.documents), nl=False)
+    else:
+        if diff:
+            click.echo("".join(_painted(outcome, color)), nl=False, color=ctx.color)
+        elif ctx.obj.verbosity >= 0 or check:
+            for line in _listed(outcome, verbose=ctx.obj.verbosity > 0):
+                click.echo(line)
+        if told:
+            click.echo(render("text", told, outcome.documents, color), nl=False, color=ctx.color)
+        if ctx.obj.verbosity >= 0 and not diff:
+            click.echo(_summary(outcome))
+    ctx.exit(1 if has_errors(told) or (check and outcome.dirty) else 0)
+
+
+def _painted(outcome: Outcome, color: bool) -> Iterator[str]:
+    tints = {"+": "green", "-": "red", "@": "cyan"}
+    for file in outcome.files:
+        for line in file.diff.splitlines(keepends=True):
+            yield click.style(line, fg=tints[line[0]]) if color and line[0] in tints else line
+
+
+def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
+    """One line a file; of many alike in one folder, one line for all. What did not change is for the curious, and so
+    is what is the user's, where nothing beside it changed."""
+    words = _WOULD if outcome.planned else _DONE
+    width = 11 if outcome.planned else 7
+    groups: dict[tuple[str, str, str], list[File]] = {}
+    changed = {file.root for file in outcome.files if file.action in CHANGED}
+    for file in outcome.files:
+        idle = file.action == "unchanged" or (file.action == "kept" and file.root not in changed)
+        if file.action == "refused" or (idle and not verbose):
+            continue
+        top, slash, _ = os.path.relpath(file.path, file.root).partition("/")
+        folder = os.path.normpath(os.path.join(file.root, top)) if slash else file.root
+        groups.setdefault((file.root, file.action, folder), []).append(file)
+    for (_, action, folder), group in groups.items():
+        if len(group) > SHOWN and not verbose:
+            yield f"{words[action]:<{width}}  {folder}/ ({len(group)} files)"
+            continue
+        for file in group:
+            kept = f" (yours is {file.orig})" if file.orig else " (yours)" if action == "kept" else ""
+            yield f"{words[action]:<{width}}  {file.path}{kept}"
+
+
+def _summary(outcome: Outcome) -> str:
+    counts = Counter(file.action for file in outcome.files)
+    written = sum(counts[action] for action in WRITTEN)
+    parts = [f"{written} file{'' if written == 1 else 's'} {'to write' if outcome.planned else 'written'}"]
+    for action, words in (("remove", "removed"), ("unchanged", "unchanged"), ("kept", "yours")):
+        if counts[action]:
+            parts.append(f"{counts[action]} {words}")
+    asked, compiled = outcome.asked, outcome.compiled
+    head = f"{compiled} of {asked} documents" if compiled < asked else f"{asked} document{'' if asked == 1 else 's'}"
+    return f"{head} compiled: {', '.join(parts)}"

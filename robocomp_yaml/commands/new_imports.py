@@ -1,0 +1,76 @@
+"""What a new component imports: the documents of the workspace that define the interfaces it names."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import click
+
+
+def interface_folder(root: Path) -> Path:
+    """The folder for new interfaces: the first that the workspace declares."""
+    from robocomp_yaml.link.workspace import read
+
+    declared = read(str(root))[0].interfaces
+    return Path(declared[0]) if declared else root / "interfaces"
+
+
+def interfaces_of(root: Path, include: Sequence[str] = ()) -> dict[str, list[tuple[str, str]]]:
+    """The interfaces and topics that documents of the workspace define: name to (module, path), sorted."""
+    from robocomp_yaml.link.workspace import read
+    from robocomp_yaml.pipeline import analyse
+
+    folders = [str(root), *read(str(root))[0].interfaces, *include]
+    program = analyse([folder for folder in folders if os.path.isdir(folder)], include).program
+    found: dict[str, set[tuple[str, str]]] = {}
+    for linked in program.modules.values():
+        for interface in linked.module.all_interfaces:
+            found.setdefault(interface.name, set()).add((linked.module.name, linked.module.path))
+    return {name: sorted(found[name]) for name in sorted(found)}
+
+
+def imports_for(root: Path, document: Path, wanted: Sequence[str], include: Sequence[str] = ()) -> list[str]:
+    """What a component document must import for the interfaces wanted, each once."""
+    if not wanted:
+        return []
+    known = interfaces_of(root, include)
+    paths = [_defining(name, known) for name in wanted]
+    searched = {os.path.realpath(folder) for folder in _searched(root, include)}
+    return list(dict.fromkeys(_spelled(path, document, searched) for path in paths))
+
+
+def _searched(root: Path, include: Sequence[str]) -> Iterator[str]:
+    from robocomp_yaml.link.workspace import read
+    from robocomp_yaml.pipeline import search_folders
+
+    yield from read(str(root))[0].interfaces
+    yield from search_folders(include)
+
+
+def _defining(wanted: str, known: dict[str, list[tuple[str, str]]]) -> str:
+    """The document that defines an interface, given as `Interface` or `Module.Interface`."""
+    from robocomp_yaml.diag.suggest import suggest
+
+    module, _, name = wanted.rpartition(".")
+    candidates = [
+        (defining, path) for defining, path in known.get(name, ())
+        if not module or module in (defining, Path(path).name.removesuffix(".idsl.yaml"))
+    ]
+    if not candidates:
+        meant = suggest(name, known)
+        hint = f"did you mean '{meant}'?" if meant else "`rcyaml new interface NAME` writes one"
+        raise click.UsageError(f"no document of this workspace defines an interface '{wanted}'; {hint}")
+    if len(candidates) > 1:
+        named = " or ".join(f"{defining}.{name}" for defining, _ in candidates)
+        raise click.UsageError(f"several documents define an interface '{wanted}': say {named}")
+    return candidates[0][1]
+
+
+def _spelled(path: str, document: Path, searched: set[str]) -> str:
+    """An import: the document's name where it is looked for anyway, else a relative path."""
+    name = Path(path).name.removesuffix(".idsl.yaml")
+    if os.path.realpath(os.path.dirname(path)) in searched:
+        return name
+    return os.path.relpath(os.path.join(os.path.dirname(path), name), document.parent)

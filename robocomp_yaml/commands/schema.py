@@ -1,0 +1,86 @@
+"""`rcyaml schema`: the JSON Schema of a kind of document, or which one applies to a file and how editors find it."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+import click
+
+_MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
+
+
+@click.command(short_help="Print the JSON Schema of a kind of document.")
+@click.argument("kind", metavar="[KIND|FILE]", required=False)
+@click.pass_context
+def command(ctx: click.Context, kind: str | None) -> None:
+    """Print the JSON Schema of a KIND of document, or say which one applies to FILE; without either, list the kinds."""
+    from robocomp_yaml import resources
+    from robocomp_yaml.source.workspace_files import GLOBS
+
+    if kind is None:
+        for name, globs in GLOBS.items():
+            click.echo(f"{name:<10} {', '.join(globs):<28} {resources.folder('schemas') / f'{name}.schema.json'}")
+    elif kind in GLOBS:
+        click.echo(resources.text(f"schemas/{kind}.schema.json"), nl=False)
+    else:
+        _tell(Path(kind))
+
+
+def _tell(document: Path) -> None:
+    """Which schema applies to a document, and by what its editor finds it."""
+    from robocomp_yaml.link.workspace import root_above
+    from robocomp_yaml.source.workspace_files import modeline, schema_path
+
+    kind = _kind_of(document)
+    root = Path(root_above(str(document.parent)) or document.parent)
+    click.echo(f"{document} has the schema '{kind}'")
+    named = _named(document)
+    installed = root / schema_path(kind)
+    if named is not None:
+        click.echo(f"editors find it by the first lines of the document: {named}")
+        _tell_whether_right(kind, Path(os.path.normpath(document.parent / named)), named)
+    elif installed.is_file():
+        click.echo(f"editors find it by the workspace's settings: {installed}")
+        _tell_whether_right(kind, installed, str(installed))
+    else:
+        click.echo("editors do not find it: `rcyaml init` installs it, and the document's first line would name it:")
+        click.echo(modeline(kind, document, root))
+
+
+def _kind_of(document: Path) -> str:
+    from robocomp_yaml.diag.suggest import suggest
+    from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
+    from robocomp_yaml.source.workspace_files import GLOBS
+
+    kind = "workspace" if document.name == WORKSPACE_FILE else kind_of(str(document))
+    if kind is None:
+        meant = suggest(str(document), GLOBS)
+        hint = f"did you mean '{meant}'?" if meant else f"kinds are {', '.join(GLOBS)}"
+        raise click.UsageError(f"'{document}' is neither a kind nor the name of a document; {hint}")
+    if not document.is_file():
+        raise click.UsageError(f"there is no file '{document}'")
+    return kind
+
+
+def _named(document: Path) -> str | None:
+    """The schema that a document's modeline names."""
+    try:
+        with document.open(encoding="utf-8", errors="replace") as file:
+            head = file.read(10_000)
+    except OSError as error:
+        raise click.UsageError(f"cannot read {document}: {error.strerror}") from error
+    found = _MODELINE.search(head)
+    return found[1] if found else None
+
+
+def _tell_whether_right(kind: str, path: Path, named: str) -> None:
+    from robocomp_yaml import resources
+
+    if "://" in named:
+        return
+    if not path.is_file():
+        click.echo("that file is missing: `rcyaml init` writes it again")
+    elif path.read_bytes() != resources.text(f"schemas/{kind}.schema.json").encode("utf-8"):
+        click.echo("that file is not this version's schema: `rcyaml init` writes it again")

@@ -1,0 +1,117 @@
+"""The C++ target: a component that is built with CMake and needs Ice 3.7 alone.
+
+Most of it is the same for every component and is copied as it stands (`templates/cpp/runtime/`); what differs are a
+small generated part, the user's skeleton and the files for CMake.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+from robocomp_yaml import resources
+from robocomp_yaml.emit.plan import ONCE, FilePlan
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
+from robocomp_yaml.emit.targets.slice import file_name
+from robocomp_yaml.link.program import LinkedComponent
+
+LANGUAGE = "cpp"
+
+DEFAULT_PERIOD = 100
+DEFAULT_STANDARD = 17
+BEHAVIOR = "RoboCompCommonBehavior"
+_TOPICS = ("topics.cpp", "topics.h")  # of the run time, only where a component has topics
+# Targets that CMake makes by itself.
+_CMAKE_TARGETS = frozenset(
+    "all clean depend edit_cache help install package package_source preinstall rebuild_cache test".split()
+)
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """What the templates show: each file is about the same few things."""
+
+    source: str
+    name: str
+    comment: str
+    period: int
+    headers: list[str]
+    services: list[ServiceView]
+    implements: list[ServiceView]
+    subscribes: list[ServiceView]
+    accessors: list[AccessorView]
+    requires: list[AccessorView]
+    publishes: list[AccessorView]
+    connect_parameters: str
+    has_topics: bool
+    target: str
+    standard: int
+    ice_components: str
+    libraries: str
+    slice_stems: str
+    sources: list[str]
+
+
+def plan(component: LinkedComponent) -> list[FilePlan]:
+    """The component's files but for `slice/` and `etc/`."""
+    view = _view(component)
+    return [
+        *_runtime(view.has_topics),
+        *(
+            FilePlan(f"generated/{name}", render(f"cpp/{name}.j2", view))
+            for name in ("interfaces.h", "genericworker.h", "genericworker.cpp", "main.cpp", "component.cmake")
+        ),
+        FilePlan("src/specificworker.h", render("cpp/specificworker.h.j2", view), ONCE),
+        FilePlan("src/specificworker.cpp", render("cpp/specificworker.cpp.j2", view), ONCE),
+        FilePlan("CMakeLists.txt", render("cpp/CMakeLists.txt.j2", view), ONCE),
+    ]
+
+
+@cache
+def _runtime(has_topics: bool) -> tuple[FilePlan, ...]:
+    """The files that are the same in every component."""
+    folder = resources.folder("templates") / "cpp" / "runtime"
+    return tuple(
+        FilePlan(f"generated/runtime/{file.name}", file.read_text(encoding="utf-8"))
+        for file in sorted(folder.iterdir())
+        if has_topics or file.name not in _TOPICS
+    )
+
+
+def _view(linked: LinkedComponent) -> View:
+    component = linked.component
+    ports = Ports(linked)
+    has_topics = bool(ports.publishes or ports.subscribes)
+    has_services = bool(ports.implements or ports.subscribes)
+    files = list(dict.fromkeys(file_name(scope) for scope in linked.modules()))
+    if all(scope.module.name != BEHAVIOR for scope in linked.modules()):
+        files.append("CommonBehavior.ice")
+    doc = f"{component.name}: {component.doc}" if component.doc else component.name
+    connections = "connections" if has_topics or ports.requires else "/*connections*/"
+    services = "services" if has_services else "/*services*/"
+    runtime = [file.path.removeprefix("generated/") for file in _runtime(has_topics) if file.path.endswith(".cpp")]
+    ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
+    is_taken = component.name.lower() in _CMAKE_TARGETS
+    return View(
+        source=one_line(component.path.rpartition("/")[2]),
+        name=component.name,
+        comment=comment(doc),
+        period=component.period or DEFAULT_PERIOD,
+        headers=[f"{file}.h" for file in files],
+        services=[*ports.implements, *ports.subscribes],
+        implements=ports.implements,
+        subscribes=ports.subscribes,
+        accessors=[*ports.requires, *ports.publishes],
+        requires=ports.requires,
+        publishes=ports.publishes,
+        connect_parameters=f"const runtime::Connections& {connections}, runtime::Services& {services}",
+        has_topics=has_topics,
+        target=f"{component.name}_component" if is_taken else component.name,
+        standard=component.language.standard or DEFAULT_STANDARD,
+        ice_components=" ".join(ice),
+        libraries=" ".join(f"Ice::{name}" for name in ice),
+        slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
+        sources=["genericworker.cpp", *runtime],
+    )

@@ -1,1 +1,0 @@
-from robocomp_yaml.diag.suggest import suggest as suggest

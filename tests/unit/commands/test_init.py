@@ -1,0 +1,96 @@
+"""`rcyaml init`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from tests.conftest import read_tree, write_tree
+
+Run = Callable[..., Result]
+OWN_FILES = {
+    "rcyaml.yaml", ".gitignore", ".vscode/settings.json",
+    ".rcyaml/schemas/idsl.schema.json", ".rcyaml/schemas/cdsl.schema.json", ".rcyaml/schemas/workspace.schema.json",
+}  # fmt: skip
+EXAMPLE = {"interfaces/Hello.idsl.yaml", "components/hellocomp/hellocomp.cdsl.yaml"}
+
+
+def test_an_empty_folder_becomes_a_workspace_that_checks(rcyaml: Run, tmp_path: Path) -> None:
+    said = rcyaml("init")
+    assert said.exit_code == 0
+    assert set(read_tree(tmp_path)) == OWN_FILES | EXAMPLE
+    checked = rcyaml("check")
+    assert (checked.exit_code, checked.stdout) == (0, "2 documents: nothing wrong\n")
+
+
+def test_the_workspace_compiles(rcyaml: Run, tmp_path: Path) -> None:
+    rcyaml("init")
+    assert rcyaml("compile").exit_code == 0
+    assert (tmp_path / "components/hellocomp/bin/HelloComp").is_file()
+    again = rcyaml("compile", "--check")
+    assert again.exit_code == 0
+
+
+def test_another_folder_may_be_named(rcyaml: Run, tmp_path: Path) -> None:
+    assert rcyaml("init", "robots/shelly").exit_code == 0
+    assert set(read_tree(tmp_path / "robots/shelly")) == OWN_FILES | EXAMPLE
+    assert rcyaml("check").exit_code == 0
+
+
+def test_bare_leaves_the_example_out(rcyaml: Run, tmp_path: Path) -> None:
+    assert rcyaml("init", "--bare").exit_code == 0
+    assert set(read_tree(tmp_path)) == OWN_FILES
+    assert (tmp_path / "interfaces").is_dir() and (tmp_path / "components").is_dir()
+
+
+def test_a_folder_with_documents_gets_no_example(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"Speech.idsl.yaml": "module: RoboCompSpeech\n"})
+    assert rcyaml("init").exit_code == 0
+    assert set(read_tree(tmp_path)) == OWN_FILES | {"Speech.idsl.yaml"}
+
+
+def test_nothing_is_overwritten(rcyaml: Run, tmp_path: Path) -> None:
+    mine = {"rcyaml.yaml": "# mine\n", ".gitignore": "mine\n", ".vscode/settings.json": '{"mine": true}'}
+    write_tree(tmp_path, mine)
+    said = rcyaml("init")
+    tree = read_tree(tmp_path)
+    assert (tree["rcyaml.yaml"], tree[".gitignore"]) == ("# mine\n", "mine\n")
+    assert tree[".vscode/settings.json"].endswith(',"mine": true}')
+    assert "kept  rcyaml.yaml\n" in said.stdout
+
+
+def test_a_second_time_changes_nothing(rcyaml: Run, tmp_path: Path) -> None:
+    rcyaml("init")
+    before = read_tree(tmp_path)
+    said = rcyaml("init")
+    assert said.exit_code == 0 and "wrote" not in said.stdout
+    assert read_tree(tmp_path) == before
+
+
+def test_settings_that_cannot_be_read_are_reported(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {".vscode/settings.json": "{ nonsense"})
+    said = rcyaml("init")
+    assert said.exit_code == 0
+    assert "note: .vscode/settings.json is left as it is, since it is not JSON" in said.stderr
+    assert read_tree(tmp_path)[".vscode/settings.json"] == "{ nonsense"
+
+
+def test_a_file_is_no_workspace(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"robot": ""})
+    assert rcyaml("init", "robot").exit_code == 2
+
+
+def test_what_cannot_be_written_is_said(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(path: Path, *_: object, **__: object) -> None:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(Path, "open", refuse)
+    said = rcyaml("init")
+    assert (said.exit_code, said.stderr) == (1, "Error: cannot write rcyaml.yaml: Permission denied\n")
+
+
+def test_quiet_says_nothing(rcyaml: Run) -> None:
+    assert rcyaml("-q", "init").output == ""

@@ -1,0 +1,54 @@
+"""The rules of the house: layers, the size of modules, what is imported when, docstrings."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from conftest import ROOT
+
+MODULES = sorted((ROOT / "robocomp_yaml").rglob("*.py"))
+HEAVY = {"jinja2", "jsonschema_rs", "jsonschema", "networkx", "lark", "ruamel", "cerberus", "hypothesis"}
+
+
+def named(path: Path) -> str:
+    return str(path.relative_to(ROOT))
+
+
+def test_layers() -> None:
+    script = "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))"
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("path", MODULES, ids=named)
+def test_a_module_is_small_and_says_its_subject(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert text.count("\n") <= 400
+    assert ast.get_docstring(ast.parse(text)), "a module starts with a docstring"
+    assert max(map(len, text.splitlines()), default=0) <= 120
+
+
+def test_help_imports_nothing_heavy() -> None:
+    script = (
+        "import sys\nfrom robocomp_yaml.cli import group\n"
+        "try: group(['--help'])\nexcept SystemExit: pass\n"
+        "print(*sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert not HEAVY & {name.partition(".")[0] for name in done.stderr.split()}
+
+
+def test_networkx_is_not_imported_by_a_check(tmp_path: Path) -> None:
+    (tmp_path / "Speech.idsl.yaml").write_text("module: RoboCompSpeech\n", encoding="utf-8")
+    script = (
+        "import sys\nfrom robocomp_yaml.cli import group\n"
+        "try: group(['check'])\nexcept SystemExit: pass\n"
+        "print(*sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=tmp_path, check=True)
+    assert not {"networkx", "jinja2", "lark", "difflib"} & set(done.stderr.split())
