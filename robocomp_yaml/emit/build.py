@@ -150,6 +150,10 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
     if linked.broken and component.path not in state.faulty:
         result.diagnostics.append(_unresolved(component.name, component.path, component.path, state))
         return False
+    for file in linked.machine_files:
+        if file in state.faulty:
+            result.diagnostics.append(_unresolved(component.name, component.path, file, state))
+            return False
     return _usable(component.name, component.path, linked.imports, state, result)
 
 
@@ -165,7 +169,7 @@ def _unresolved(name: str, path: str, cause: str, state: _State) -> Diagnostic:
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
-        "parameters": component.parameters, "statemachine": component.statemachine, "gui": component.gui,
+        "parameters": component.parameters, "gui": component.gui,
         "options": component.options, "compatibility": component.compatibility, "uses": component.has_uses,
     }  # fmt: skip
     for key, value in asked.items():

@@ -14,6 +14,7 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
+from robocomp_yaml.model.statemachine import StateMachine
 
 Definition = Constant | TypeDefinition | ExceptionType | Interface
 
@@ -88,7 +89,8 @@ class Port:
 
 @dataclass(eq=False, slots=True)
 class LinkedComponent:
-    """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled)."""
+    """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled). `machine` is
+    its state machine, from `machine_files` where it does not stand in the component's document."""
 
     component: Component
     imports: list[LinkedModule] = field(default_factory=list)
@@ -97,6 +99,8 @@ class LinkedComponent:
     publishes: tuple[Port, ...] = ()
     subscribes: tuple[Port, ...] = ()
     broken: bool = False
+    machine: StateMachine | None = None
+    machine_files: tuple[str, ...] = ()
 
     @property
     def ports(self) -> Iterator[Port]:

@@ -184,7 +184,8 @@ class State:
 @dataclass(frozen=True, slots=True)
 class StateMachine:
     """`root` holds the states. `events` are those that the component's code is said to fire; empty: any. `inline` where
-    the machine stands in the CDSL, the document at `path`."""
+    the machine stands in the CDSL, the document at `path`; `strays` are then names under `transitions:` that no state
+    has."""
 
     name: str
     path: str
@@ -194,6 +195,7 @@ class StateMachine:
     scripts: Block = ()
     events: tuple[Text, ...] = ()
     inline: bool = False
+    strays: tuple[Text, ...] = ()
     span: Span = _span()
 
     @property

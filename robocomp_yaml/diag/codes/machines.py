@@ -341,3 +341,14 @@ NO_PARENT = Code(
     _inline("  initial: closed\n  states: {closed: {}, last: {history: deep}}\n  transitions: {last: closed}\n"),
     _INLINE,
 )
+METHOD_NAME = Code(
+    "RC2237",
+    "error",
+    "'{name}' cannot be the name of a guard or of an action",
+    "Guards and actions are methods of the specific worker, so they have neither the name of something that every worker "
+    "has, nor a word of Python or C++.",
+    _inline("  initial: closed\n  states: {opened: {}}\n"
+            "  transitions: {closed: {to: opened, event: open, if: default}}\n"),
+    _inline("  initial: closed\n  states: {opened: {}}\n"
+            "  transitions: {closed: {to: opened, event: open, if: wanted, do: killYourSelf}}\n"),
+)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import json
 from dataclasses import MISSING, fields, is_dataclass
 
 WIDTH = 110
-
-Leaf = Callable[[object], str]
 
 
 def python(table: object, indent: str = "") -> str:
     """A call of the table's class, without what is as by default; long ones with one argument a line."""
     if isinstance(table, tuple):
         return _sequence([python(item, indent + "    ") for item in table], indent)
+    if isinstance(table, str):
+        return json.dumps(table, ensure_ascii=False)
     if not is_dataclass(table):
         return repr(table)
     name = type(table).__name__

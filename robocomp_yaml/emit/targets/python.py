@@ -15,8 +15,10 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.targets import python_statemachine
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
+from robocomp_yaml.emit.targets.python_statemachine import MachineView
 from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
@@ -56,6 +58,7 @@ class View:
     requires: list[AccessorView]
     publishes: list[AccessorView]
     accessors: list[AccessorView]
+    machine: MachineView | None
     imports: str = ""
 
 
@@ -70,6 +73,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     stubs = [*signatures, *(method.value for method in methods)]
     return [
         *_runtime(),
+        *python_statemachine.files(component),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
         FilePlan("generated/component.py", _rendered("component.py", view, table)),
         FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
@@ -118,6 +122,7 @@ def _view(linked: LinkedComponent) -> View:
         requires=ports.requires,
         publishes=ports.publishes,
         accessors=[*ports.requires, *ports.publishes],
+        machine=python_statemachine.view(linked.machine) if linked.machine else None,
     )
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import heapq
 import itertools
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Optional, Protocol
 
@@ -16,11 +16,11 @@ from generated.machine.model import ModelError
 from generated.machine.sending import PROCESSOR, PROCESSORS, SERVICES, seconds
 from generated.machine.tables import Invoke, Machine, Send, State
 
-Models = Callable[..., Any]
+Models = Mapping[str, Callable[..., Any]]
 
 
 class Host(Protocol):
-    """The world around the machines: the component's worker."""
+    """The world around the machines. What it cannot do, it says by a ModelError."""
 
     def guard(self, name: str) -> bool: ...
 
@@ -45,8 +45,9 @@ class Child:
 class Sessions:
     """A machine and those that it has invoked, with the clock that they share."""
 
-    def __init__(self, host: Host, models: Models, clock: Callable[[], float]) -> None:
+    def __init__(self, host: Host, models: Models, clock: Callable[[], float], worker: object = None) -> None:
         self.host = host
+        self.worker = worker
         self.models = models
         self.clock = clock
         self.all: dict[str, Session] = {}
@@ -100,7 +101,7 @@ class Session:
         self._inbox: deque[Event] = deque()
         self._children: dict[str, Child] = {}
         self._numbers = {state.id: number for number, state in enumerate(machine.states) if state.id}
-        model = sessions.models(machine, id_, self.is_in, sessions.host)
+        model = sessions.models[machine.datamodel](machine, id_, self.is_in, sessions.worker)
         self.interpreter = Interpreter(machine, model, self)
 
     @property
@@ -136,12 +137,18 @@ class Session:
         self._host.complain(message)
 
     def entered(self, state: State) -> None:
-        if self._parent is None and state.id:
-            self._host.entered(state.id)
+        self._tell(self._host.entered, state)
 
     def left(self, state: State) -> None:
+        self._tell(self._host.left, state)
+
+    def _tell(self, method: Callable[[str], None], state: State) -> None:
+        """The worker has methods for the component's own machine, not for those that it invokes."""
         if self._parent is None and state.id:
-            self._host.left(state.id)
+            try:
+                method(state.id)
+            except ModelError as error:
+                self.interpreter.fail("error.execution", str(error))
 
     def forward(self, event: Event, interpreter: Interpreter) -> None:
         """An event on its way to the machine: to invoked ones, too, where they are to get all."""

@@ -53,10 +53,9 @@ class Behavior:
 
     def getParameterList(self, current: Ice.Current) -> dict[str, Any]:
         parameter = self._component.behavior.Parameter
-        return {
-            key: parameter(editable=False, value=value, type="string")
-            for key, value in self._settings.parameters().items()
-        }
+        live = current.adapter.getCommunicator().getProperties().getPropertiesForPrefix("statemachine.")
+        values = {**self._settings.parameters(), **live}
+        return {key: parameter(editable=False, value=value, type="string") for key, value in values.items()}
 
     def setParameterList(self, parameters: dict[str, Any], current: Ice.Current) -> None:
         self._log.warning("setParameterList refused: no parameter is editable (%s)", ", ".join(sorted(parameters)))
