@@ -13,7 +13,6 @@ from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.linking import Neighbours, name_imports, not_searched, resolve_references
-from robocomp_yaml.legacy.outputs import OutputRoot
 from robocomp_yaml.legacy.result import Migration
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.link.workspace import Search
@@ -40,7 +39,7 @@ def migrate(
 
     known = workspaces.Workspaces()
     for folder in found.workspaces():
-        root = run.roots.setdefault(folder, OutputRoot.at(folder))
+        root = run.root(folder)
         if workspaces.wants_file(root) and good:
             known.new.append(folder)
     chosen, said = names([(file, entry.file.rules) for file, entry in good if entry.file.rules is not None])
@@ -88,7 +87,7 @@ def _plan(
         home = known.of(document).root
         body = yaml.text(draft.document, draft.around)
         gap = "\n" if draft.around.head else ""
-        root = run.roots.setdefault(file.root, OutputRoot.at(file.root))
+        root = run.root(file.root)
         output = root.add(
             os.path.relpath(document, file.root), workspaces.modeline(document, home, rules.kind) + gap + body,
             force=force,

@@ -37,6 +37,12 @@ class Migration:
         """Whether a file was refused, or could not be written."""
         return any(d.severity == "error" for d in self.diagnostics) or any(e.status == "refused" for e in self.entries)
 
+    def root(self, path: str) -> OutputRoot:
+        """The output root at a path, as it was found on the disk."""
+        if path not in self.roots:
+            self.roots[path] = OutputRoot.at(path)
+        return self.roots[path]
+
     def changes(self) -> Iterator[tuple[str, Output]]:
         """Every file that is not as this run would have it, with the path to show."""
         for root in self.roots.values():

@@ -8,8 +8,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from snippets import inserted
-from workbench import Workbench
+from editor.snippets import inserted
+from editor.workbench import Workbench
 
 from robocomp_yaml.source import schema, tree
 

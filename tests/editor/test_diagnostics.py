@@ -9,7 +9,7 @@ import json
 from pathlib import Path
 
 import pytest
-from workbench import Workbench
+from editor.workbench import Workbench
 
 from robocomp_yaml.source import schema, tree
 

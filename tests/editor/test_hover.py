@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from workbench import Workbench
+from editor.workbench import Workbench
 
 from robocomp_yaml import resources
 

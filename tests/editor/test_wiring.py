@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from workbench import Workbench
+from editor.workbench import Workbench
 
 WRONG = {
     "idsl": ("module: 1\n", "module: is a name"),

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from yaml_language_server import LanguageServer
+from editor.yaml_language_server import LanguageServer
 
 from robocomp_yaml.source import workspace_files
 

@@ -123,6 +123,8 @@ class LanguageServer:
             while stdout.readline().strip():
                 pass
             self._receive(json.loads(stdout.read(length)))
+        for waiting in list(self._answers.values()):
+            waiting.put({"error": {"message": "yaml-language-server has ended"}})
 
     def _receive(self, message: dict[str, Any]) -> None:
         method = message.get("method")

@@ -20,7 +20,7 @@ class Services;
 
 /// The component's dealings with IceStorm.
 ///
-/// A topic is called as the property of the port's name says, else as its interface; behind a prefix, where there is one.
+/// A topic is called as the property of the port's name says, else as its interface; behind a prefix, if there is one.
 class Topics
 {
 public:
@@ -42,9 +42,11 @@ public:
 private:
     std::shared_ptr<Ice::ObjectPrx> publisher(const std::string& name, const std::string& topic) const;
 
+    /// The topic's name.
+    std::string nameOf(const std::string& name, const std::string& topic, const std::string& prefixKey) const;
+
     /// The topic, created if nobody has yet.
-    std::shared_ptr<IceStorm::TopicPrx>
-    find(const std::string& name, const std::string& topic, const std::string& prefixKey) const;
+    std::shared_ptr<IceStorm::TopicPrx> find(const std::string& fullName) const;
 
     const Connections& connections_;
     const std::shared_ptr<IceStorm::TopicManagerPrx> manager_;

@@ -51,7 +51,7 @@ FAULTS = [
     Fault("DuplicateParameter", "RC1003", "7:31", "two parameters",
           METHODS + "      f: {in: {a: int}, out: {a: int}}\n"),
     Fault("CaseInsensitive", "RC1004", "4:3", "'A' and 'a'", TYPES + "  A: {sequence: int}\n  a: {sequence: int}\n"),
-    Fault("CaseInsensitive member", "RC1004", "3:24", "struct A", TYPES + "  A: {struct: {a: int, A: int}}\n"),
+    Fault("CaseInsensitive member", "RC1004", "3:24", "struct S", TYPES + "  S: {struct: {a: int, A: int}}\n"),
     Fault("OperationRedefinition", "RC1004", "8:7", "methods 'go' and 'Go'", METHODS + "      go:\n      Go:\n"),
     Fault("NameCanNotBeUsed", "RC1005", "7:7", "the method 'Map'", METHODS + "      Map:\n"),
     Fault("name of the module", "RC1005", "3:3", "the sequence 'RobocompMap'",
@@ -152,6 +152,21 @@ def test_what_other_languages_reserve_is_allowed(diagnostics: Callable[..., list
 def test_a_sequence_as_a_key_is_a_warning(diagnostics: Callable[..., list[dict]]) -> None:
     said = diagnostics({"Map.idsl.yaml": TYPES + "  Q: {sequence: int}\n  D: {map: {key: Q, value: int}}\n"})
     assert [(d["code"], d["severity"]) for d in said] == [("RC1017", "warning")]
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        (TYPES + "  Text: {struct: {Text: string}}\n", "call it 'text'"),
+        (METHODS + "      Pose: {returns: Pose}\n", "call it 'pose'"),
+        (METHODS + "      Busy: {throws: [Busy]}\n", "call it 'busy'"),
+    ],
+)
+def test_what_ice_cannot_say_in_cpp_is_a_warning(
+    text: str, hint: str, diagnostics: Callable[..., list[dict]]
+) -> None:
+    said = diagnostics({"Map.idsl.yaml": text})
+    assert [(d["code"], d["severity"], d["hint"]) for d in said] == [("RC1026", "warning", hint)]
 
 
 @pytest.mark.parametrize(

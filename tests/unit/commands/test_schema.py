@@ -10,7 +10,7 @@ import pytest
 from click.testing import Result
 
 from robocomp_yaml import resources
-from tests.conftest import write_tree
+from conftest import write_tree
 
 Run = Callable[..., Result]
 

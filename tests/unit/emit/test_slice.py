@@ -159,6 +159,16 @@ def test_slice_knows_nothing_of_legacy_names(tmp_path: Path) -> None:
     assert "    void f_2(int a);" in lines
 
 
+def test_keys_of_other_tools_are_no_names(tmp_path: Path) -> None:
+    text = (
+        "x-a: 1\nconstants: {x-b: 1}\nexceptions: {x-g: 1}\n"
+        "types: {x-c: 1, S: {x-d: 1, struct: {x-e: 1, a: int}}, E: {enum: {x-f: 1, a: 2}}}\n"
+        "interfaces: {x-h: 1, I: {x-i: 1, methods: {x-j: 1, f: {x-k: 1, in: {x-l: 1, a: int}}}}}\n"
+    )
+    lines = [line for line in body(tmp_path, text) if line.strip(" {};")]
+    assert lines == ["  struct S", "    int a;", "  enum E { a = 2 };", "  interface I", "    void f(int a);"]
+
+
 def test_the_order_of_a_broken_module_ends() -> None:
     """The emitter is not asked for one, but must not hang on it."""
     from robocomp_yaml.link.program import LinkedModule
