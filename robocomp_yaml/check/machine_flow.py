@@ -11,7 +11,7 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.machine_index import MachineIndex, matches
 from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
 
-_PLATFORM = ("done.", "error", "*")
+_PLATFORM = ("done.", "error", "*", ".*")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -13,7 +13,7 @@ from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import Raise, Send, StateMachine, Text
 
-_EVENT = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\.[A-Za-z0-9_]+)*")
+_EVENT = re.compile(r"(?!__)[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
 _CPP = frozenset(
     "alignas alignof and_eq asm auto bitand bitor bool case catch char compl concept const consteval constexpr "
     "constinit const_cast co_await co_return co_yield decltype default delete do double dynamic_cast enum explicit "
@@ -41,7 +41,7 @@ def _events(machine: StateMachine) -> Iterator[Diagnostic]:
     for _, transition in index.transitions():
         for event in transition.events:
             plain = event.text.removesuffix(".*").removesuffix(".")
-            if event.text != "*" and not _EVENT.fullmatch(plain):
+            if event.text not in ("*", ".*") and not _EVENT.fullmatch(plain):
                 yield codes.EVENT_NAME.at(event.span, event=event.text)
     said = list(machine.events)
     for action in index.actions():

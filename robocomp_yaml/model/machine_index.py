@@ -100,4 +100,4 @@ class MachineIndex:
 def matches(descriptor: str, event: str) -> bool:
     """`door` matches `door` and `door.open`; `*` matches everything."""
     plain = descriptor[:-2] if descriptor.endswith(".*") else descriptor.rstrip(".")
-    return descriptor == "*" or event == plain or event.startswith(f"{plain}.")
+    return plain in ("", "*") or event == plain or event.startswith(f"{plain}.")

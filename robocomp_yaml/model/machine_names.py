@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -48,8 +49,8 @@ def events(machine: StateMachine) -> list[Named]:
     listed = [event for _, transition in MachineIndex(machine).transitions() for event in transition.events]
     for event in (*machine.events, *listed):
         name = event.text.removesuffix(".*").rstrip(".")
-        if name not in ("*", "error") and not name.startswith(("done.", "error.")):
-            found.setdefault(name, Named(EVENT, Text(name, event.span), name.replace(".", "_")))
+        if name not in ("", "*", "error") and not name.startswith(("done.", "error.")):
+            found.setdefault(name, Named(EVENT, Text(name, event.span), re.sub(r"[.-]", "_", name)))
     return list(found.values())
 
 

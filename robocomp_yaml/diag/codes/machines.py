@@ -285,8 +285,8 @@ EVENT_NAME = Code(
     "RC2230",
     "error",
     "'{event}' cannot be the name of an event",
-    "Code fires an event by a method of its name: words of letters, digits and underscores with dots between them. A "
-    "transition may also wait for `*`, or for `door.*`.",
+    "Code fires an event by a method of its name: words of letters, digits, `_` and `-` with dots between them, which "
+    "all become `_` in code. A transition may also wait for `*`, or for `door.*`.",
     _file('<state id="closed"><transition event="open!" target="opened"/></state>\n<state id="opened"/>\n'),
     _RIGHT,
 )

@@ -38,7 +38,7 @@ class MachineView:
 class TablesView:
     source: str
     events: list[EventView]
-    machine: str
+    functions: str
 
 
 def view(machine: StateMachine) -> MachineView:
@@ -60,7 +60,7 @@ def files(linked: LinkedComponent) -> list[FilePlan]:
     shown = TablesView(
         source=one_line(machine.path.rpartition("/")[2]),
         events=_events(machine),
-        machine=text.cpp(lower.lower(machine), "    "),
+        functions=text.cpp_functions(lower.lower(machine), "makeTables"),
     )
     return [
         *_runtime(),

@@ -12,10 +12,6 @@ bool matches(const std::vector<std::string>& descriptors, const std::string& nam
         descriptors.begin(), descriptors.end(),
         [&name](std::string descriptor)
         {
-            if (descriptor == "*")
-            {
-                return true;
-            }
             if (descriptor.size() > 1 && descriptor.compare(descriptor.size() - 2, 2, ".*") == 0)
             {
                 descriptor.resize(descriptor.size() - 2);
@@ -24,7 +20,7 @@ bool matches(const std::vector<std::string>& descriptors, const std::string& nam
             {
                 descriptor.pop_back();
             }
-            return name == descriptor || name.compare(0, descriptor.size() + 1, descriptor + ".") == 0;
+            return descriptor.empty() || descriptor == "*" || name == descriptor || name.compare(0, descriptor.size() + 1, descriptor + ".") == 0;
         });
 }
 

@@ -37,6 +37,6 @@ def matches(descriptors: Iterable[str], name: str) -> bool:
     """`door` matches `door` and `door.open`; `*` matches everything."""
     for descriptor in descriptors:
         plain = descriptor[:-2] if descriptor.endswith(".*") else descriptor.rstrip(".")
-        if descriptor == "*" or name == plain or name.startswith(plain + "."):
+        if plain in ("", "*") or name == plain or name.startswith(plain + "."):
             return True
     return False
