@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.diag.codes import cdsl, compiling, idsl
+from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.plan import FilePlan, RootPlan
@@ -98,7 +98,7 @@ class _State:
         for diagnostic in diagnostics:
             if diagnostic.severity == ERROR:
                 state.faulty.add(diagnostic.span.file)
-            elif diagnostic.code in (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id):
+            elif diagnostic.code in (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id, machines.UNREADABLE.id):
                 state.lowered.add(diagnostic.span.file)
         return state
 
@@ -117,13 +117,13 @@ def _usable(name: str, path: str, modules: Iterable[LinkedModule], state: _State
 
 def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> bool:
     component = linked.component
-    if linked.broken and component.path not in state.faulty:
-        result.diagnostics.append(_unresolved(component.name, component.path, component.path, state))
-        return False
     for file in linked.machine_files:
         if file in state.faulty:
             result.diagnostics.append(_unresolved(component.name, component.path, file, state))
             return False
+    if linked.broken and component.path not in state.faulty:
+        result.diagnostics.append(_unresolved(component.name, component.path, component.path, state))
+        return False
     return _usable(component.name, component.path, linked.imports, state, result)
 
 

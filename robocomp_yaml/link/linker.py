@@ -76,6 +76,7 @@ class Linker:
         reader = MachineReader(absent=self.search.absent)
         linked.machine = reader.of(linked.component)
         linked.machine_files = tuple(reader.contents)
+        linked.broken |= bool(linked.component.statemachine) and linked.machine is None
         self.documents.contents.update(reader.contents)
         self.diagnostics += reader.diagnostics
 
