@@ -38,6 +38,7 @@ def build(root: Mapping, path: str) -> Component:
         doc=doc(root),
         machine_span=span_of(root, "statemachine"),
         span=span_of(root, "component"),
+        parameters_span=span_of(root, "parameters"),
     )
 
 

@@ -69,3 +69,4 @@ class Component:
     doc: str = ""
     machine_span: Span = _span()
     span: Span = _span()
+    parameters_span: Span = _span()
