@@ -57,6 +57,11 @@ class MachineDraft:
     span: Span
     entry: Entry
 
+    @property
+    def document(self) -> str:
+        """The path of what it becomes."""
+        return re.sub(r"\.smdsl$", ".scxml", self.path, flags=re.IGNORECASE)
+
 
 @dataclass(slots=True)
 class Draft:

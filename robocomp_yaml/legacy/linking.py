@@ -105,11 +105,8 @@ def name_machine(file: Converted, chosen: Mapping[str, str]) -> Iterable[Diagnos
     if migrated is not None:
         machine.entry.value = os.path.relpath(migrated, home or ".")
         return
-    stem, suffix = os.path.splitext(machine.path)
-    path = f"{stem}.scxml" if suffix.lower() == ".smdsl" else machine.path
-    machine.entry.value = path
-    if not os.path.isfile(os.path.join(home, path)):
-        yield codes.STATE_MACHINE.at(machine.span, legacy=machine.path, path=path)
+    if not os.path.isfile(os.path.join(home, machine.document)):
+        yield codes.STATE_MACHINE.at(machine.span, legacy=machine.path, path=machine.document)
 
 
 def not_searched(

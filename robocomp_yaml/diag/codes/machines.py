@@ -34,7 +34,7 @@ NOT_XML = Code(
     "RC2202",
     "error",
     "this is not well-formed XML: {reason}",
-    "SCXML is XML: every element is closed, attributes are in quotes, and `&` and `<` in a text are `&amp;` and `&lt;`.",
+    "SCXML is XML: every element is closed, attributes are in quotes, and `&` and `<` in a text are `&amp;`, `&lt;`.",
     _file('<state id="closed">\n'),
     _RIGHT,
 )
@@ -67,7 +67,8 @@ NO_NAMESPACE = Code(
     "RC2206",
     "warning",
     "<scxml> has no namespace",
-    "The namespace is what tells SCXML from any other XML: `http://www.w3.org/2005/07/scxml`. Other tools will not take "
+    "The namespace is what tells SCXML from any other XML: `http://www.w3.org/2005/07/scxml`. Other tools will not "
+    "take "
     "the document without it.",
     {**_RIGHT, "door.scxml": f'<scxml version="1.0" initial="closed">{_OPEN}</scxml>\n'},
     _RIGHT,
@@ -76,7 +77,8 @@ UNKNOWN_ELEMENT = Code(
     "RC2207",
     "error",
     "<{name}> cannot stand in <{parent}>",
-    "These are the elements of SCXML 1.0. Elements of other namespaces, such as the notes of an editor, are left alone.",
+    "These are the elements of SCXML 1.0. Elements of other namespaces, such as the notes of an editor, are left "
+    "alone.",
     _file('<state id="closed"><transiton event="open" target="opened"/></state>\n<state id="opened"/>\n'),
     _RIGHT,
 )
@@ -84,7 +86,8 @@ UNKNOWN_ATTRIBUTE = Code(
     "RC2208",
     "warning",
     "<{element}> has no attribute '{name}'",
-    "These are the attributes of SCXML 1.0; what else stands there has no effect. Attributes of other namespaces are left "
+    "These are the attributes of SCXML 1.0; what else stands there has no effect. Attributes of other namespaces are "
+    "left "
     "alone.",
     _file('<state id="closed"><transition event="open" to="opened"/></state>\n'),
     _RIGHT,
@@ -153,7 +156,8 @@ DATAMODEL = Code(
     "RC2216",
     "error",
     "the data model '{name}' is not available in {language}",
-    "A component in Python has the data models `null` and `python`, one in C++ has `null`. With `null` (the one that is "
+    "A component in Python has the data models `null` and `python`, one in C++ has `null`. With `null` (the one that "
+    "is "
     "meant where none is named), conditions are names of guards, which are methods of the specific worker.",
     _file(_OPEN, ' initial="closed" datamodel="ecmascript"'),
     _file(_OPEN, ' initial="closed" datamodel="python"'),
@@ -163,7 +167,8 @@ NOT_IN_LANGUAGE = Code(
     "error",
     "{what} '{text}' is not of the data model null: {reason}",
     "A condition is the name of a guard, or `In('state')`, joined by `and`, `or`, `not` and parentheses. A value is a "
-    "text in quotes, a number, `true` or `false`. A script is a list of names of actions. What is more belongs into the "
+    "text in quotes, a number, `true` or `false`. A script is a list of names of actions. What is more belongs into "
+    "the "
     "methods of the specific worker, or into the data model `python`.",
     _file('<state id="closed"><transition event="open" cond="distance &lt; 3" target="opened"/></state>\n'
           '<state id="opened"/>\n'),
@@ -221,7 +226,8 @@ NO_INITIAL = Code(
     "A state that holds states enters one of them; which, says `initial:`. Only where all are active at once, with "
     "`parallel: true`, there is nothing to choose.",
     _inline("  initial: closed\n  states: {closed: {states: {locked: {}, unlocked: {}}}}\n"),
-    _inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n      states: {locked: {}, unlocked: {}}\n"
+    _inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n"
+            "      states: {locked: {}, unlocked: {}}\n"
             "      transitions: {locked: {to: unlocked, event: turn}}\n"),
 )
 IMPLICIT_INITIAL = Code(
@@ -345,7 +351,8 @@ METHOD_NAME = Code(
     "RC2237",
     "error",
     "'{name}' cannot be the name of a guard or of an action",
-    "Guards and actions are methods of the specific worker, so they have neither the name of something that every worker "
+    "Guards and actions are methods of the specific worker, so they have neither the name of something that every "
+    "worker "
     "has, nor a word of Python or C++.",
     _inline("  initial: closed\n  states: {opened: {}}\n"
             "  transitions: {closed: {to: opened, event: open, if: default}}\n"),

@@ -55,6 +55,7 @@ class View:
     slice_stems: str
     sources: list[str]
     machine: MachineView | None
+    base: str
 
 
 def plan(component: LinkedComponent) -> list[FilePlan]:
@@ -120,4 +121,5 @@ def _view(linked: LinkedComponent, machine: list[FilePlan]) -> View:
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
         sources=["genericworker.cpp", *(path for path in copied if path.endswith(".cpp"))],
         machine=cpp_statemachine.view(linked.machine) if linked.machine else None,
+        base="machine::Worker" if linked.machine else "runtime::Worker",
     )

@@ -65,6 +65,7 @@ class View:
     publishes: list[AccessorView]
     accessors: list[AccessorView]
     machine: MachineView | None
+    base: str
     imports: str = ""
 
 
@@ -133,6 +134,7 @@ def _view(linked: LinkedComponent) -> View:
         publishes=ports.publishes,
         accessors=[*ports.requires, *ports.publishes],
         machine=python_statemachine.view(linked.machine) if linked.machine else None,
+        base="MachineWorker" if linked.machine else "Worker",
     )
 
 

@@ -22,7 +22,8 @@ WORKER_ATTRIBUTES = frozenset(
 
 # Names that stand in the generated files beside the Slice modules.
 _TAKEN = frozenset(
-    "COMPONENT Component Context Events GenericWorker MACHINE MODELS MachineWorker Implemented Method Published Required SpecificWorker Subscribed "
+    "COMPONENT Component Context Events GenericWorker Implemented MACHINE MODELS MachineWorker Method Published "
+    "Required SpecificWorker Subscribed "
     "Worker annotations bool bytes dict float int list load main str super tuple".split()
 )
 

@@ -31,7 +31,7 @@ class EventView:
 
 @dataclass(frozen=True, slots=True)
 class MachineView:
-    """What the worker has of a machine: names of states, guards and actions. `fires` is an example of how to fire an event."""
+    """What the worker has of a machine: names of states, guards and actions. `fires` is an example of an event."""
 
     states: list[str]
     guards: list[str]

@@ -157,6 +157,7 @@ class _Converter:
         legacy = literal[1:-1].strip()
         entry = self._put("statemachine", legacy, self.reader.notes(clause))
         self.machine = MachineDraft(legacy, self.reader.span(literal), entry)
+        entry.value = self.machine.document
         visual = token(clause, "VISUAL")
         if visual is not None:
             self._no_place(clause, "visual", "true")
