@@ -13,6 +13,7 @@ from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.documents import Document, Documents
+from robocomp_yaml.link.machines import MachineReader
 from robocomp_yaml.link.ports import link_ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
@@ -64,6 +65,7 @@ class Linker:
             attachments.join()
         for document, component in sorted(components, key=lambda pair: pair[0].path):
             self.diagnostics += link_ports(component, self._suggest_import(document))
+            self._read_machine(component)
         self.program.documents = len(self.documents.read)
         return self.program
 
@@ -86,6 +88,14 @@ class Linker:
                     self.diagnostics += diagnostics
                 self._by_folder[folder] = self.workspaces[real]
         return self._by_folder[folder]
+
+    def _read_machine(self, linked: LinkedComponent) -> None:
+        reader = MachineReader(absent=self.search.absent)
+        linked.machine = reader.of(linked.component)
+        linked.machine_files = tuple(reader.contents)
+        linked.broken |= bool(linked.component.statemachine) and linked.machine is None
+        self.documents.contents.update(reader.contents)
+        self.diagnostics += reader.diagnostics
 
     def _imports(
         self, document: Document, imports: tuple[Import, ...], unresolved: set[str], codes: ModuleType

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text
+from robocomp_yaml.model.build_statemachine import build as build_machine
 from robocomp_yaml.model.component import WAIT, Component, Gui, Language, Use
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
@@ -28,12 +29,14 @@ def build(root: Mapping, path: str) -> Component:
         subscribes=tuple(_uses(root, "subscribes")),
         parameters=text(root, "parameters"),
         period=None if period is None else round(period * 1000),
-        statemachine="<inline>" if isinstance(machine, Mapping) else text(root, "statemachine"),
+        statemachine=text(root, "statemachine"),
+        machine=build_machine(machine, text(root, "component"), path) if isinstance(machine, Mapping) else None,
         gui=_gui(root.get("gui")),
         options=tuple(item.lexeme for item in items(root, "options") if isinstance(item, Scalar)),
         compatibility=text(root, "compatibility"),
         has_uses=root.get("uses") is not None,
         doc=doc(root),
+        machine_span=span_of(root, "statemachine"),
         span=span_of(root, "component"),
         parameters_span=span_of(root, "parameters"),
     )
