@@ -11,8 +11,8 @@ import pytest
 
 from robocomp_yaml.emit.targets import python_parameters
 from robocomp_yaml.values import evaluate
-from tests import accessors
-from tests.parameters import parameters
+import accessors
+from parameters import parameters
 
 ARM = """\
 doc: What the arm needs.
