@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from robocomp_yaml.link.parameters import of_no_document
 from robocomp_yaml.model.component import Component, Use
 from robocomp_yaml.model.interface import (
     Constant,
@@ -16,9 +15,11 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
-from robocomp_yaml.model.parameters import Parameters
-from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
-from robocomp_yaml.model.statemachine import StateMachine
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.parameters import Parameters
+    from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
+    from robocomp_yaml.model.statemachine import StateMachine
 
 Definition = Constant | TypeDefinition | ExceptionType | Interface
 
@@ -105,6 +106,8 @@ class LinkedParameters:
 
 
 def _only_the_period() -> LinkedParameters:
+    from robocomp_yaml.link.parameters import of_no_document
+
     return LinkedParameters(of_no_document(None))
 
 
