@@ -13,7 +13,6 @@ from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.documents import Document, Documents
-from robocomp_yaml.link.machines import MachineReader
 from robocomp_yaml.link.ports import link_ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
@@ -90,10 +89,15 @@ class Linker:
         return self._by_folder[folder]
 
     def _read_machine(self, linked: LinkedComponent) -> None:
-        reader = MachineReader(absent=self.search.absent)
+        if linked.component.machine is not None or not linked.component.statemachine:
+            linked.machine = linked.component.machine
+            return
+        from robocomp_yaml.link.machines import MachineReader  # with XML, which few need
+
+        reader = MachineReader(self.documents.overlay, absent=self.search.absent)
         linked.machine = reader.of(linked.component)
         linked.machine_files = tuple(reader.contents)
-        linked.broken |= bool(linked.component.statemachine) and linked.machine is None
+        linked.broken |= linked.machine is None
         self.documents.contents.update(reader.contents)
         self.diagnostics += reader.diagnostics
 

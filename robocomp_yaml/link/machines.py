@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import machines as codes
@@ -23,17 +24,17 @@ _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 @dataclass(slots=True)
 class MachineReader:
-    """Reads a machine; `contents` are the bytes of each file read, `absent` are the paths that there are not."""
+    """Reads a machine; `overlay` has contents, by real path, that count instead of the disk's. `contents` are the bytes
+    of each file read, `absent` are the paths that there are not."""
 
+    overlay: Mapping[str, bytes] = field(default_factory=dict)
     contents: dict[str, bytes] = field(default_factory=dict)
     absent: set[str] = field(default_factory=set)
     diagnostics: list[Diagnostic] = field(default_factory=list)
     _open: list[str] = field(default_factory=list)
 
     def of(self, component: Component) -> StateMachine | None:
-        """The machine of a component that has one; None where it cannot be built."""
-        if component.machine is not None or not component.statemachine:
-            return component.machine
+        """The machine that a component's document names; None where it cannot be built."""
         path = os.path.normpath(os.path.join(os.path.dirname(component.path), component.statemachine))
         reason = self._unreadable(path)
         if reason:
@@ -65,8 +66,10 @@ class MachineReader:
         return None if has_errors(self.diagnostics[before:]) else machine
 
     def _text(self, path: str) -> str | None:
-        raw, said = read_bytes(path)
-        self.diagnostics += said
+        raw = self.overlay.get(os.path.realpath(path))
+        if raw is None:
+            raw, said = read_bytes(path)
+            self.diagnostics += said
         if raw is None:
             return None
         self.contents[path] = raw

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Import, _span
-from robocomp_yaml.model.statemachine import StateMachine
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.statemachine import StateMachine
 
 WAIT, FAIL, IGNORE = "wait", "fail", "ignore"
 

@@ -48,6 +48,11 @@ class StateMachine:
 
     # For the worker's thread
 
+    @property
+    def event(self) -> Optional[Event]:
+        """The event that is being handled, with its `name` and `data`; None before the first one."""
+        return self._session.interpreter.event
+
     def start(self) -> None:
         self._session.interpreter.start()
         self.run()

@@ -29,6 +29,7 @@ class Interpreter:
         self.tree = Tree(machine)
         self.configuration: set[int] = set()
         self.is_running = False
+        self.event: Optional[Event] = None
         self._internal: deque[Event] = deque()
         self._history: dict[int, list[int]] = {}
         self._to_invoke: set[int] = set()
@@ -51,7 +52,7 @@ class Interpreter:
 
     def handle(self, event: Event) -> None:
         """An event from outside."""
-        self.model.set_event(event)
+        self._begin(event)
         self.surroundings.forward(event, self)
         self._step(self._select(event))
         self.settle()
@@ -63,7 +64,7 @@ class Interpreter:
             enabled = self._select(None)
             if not enabled and self._internal:
                 event = self._internal.popleft()
-                self.model.set_event(event)
+                self._begin(event)
                 enabled = self._select(event)
             elif not enabled:
                 self._invoke()
@@ -86,6 +87,10 @@ class Interpreter:
             if state.kind == "final" and state.parent == ROOT:
                 self.surroundings.finished(self._done_data(number))
         self.surroundings.ended()
+
+    def _begin(self, event: Event) -> None:
+        self.event = event
+        self.model.set_event(event)
 
     def raise_event(self, event: Event) -> None:
         self._internal.append(event)
