@@ -14,7 +14,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.parameters import of_no_document, resolve
-from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Program
+from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
 from robocomp_yaml.source.discover import kind_of
