@@ -21,7 +21,13 @@ from robocomp_yaml.model.parameters import (
     RecordType,
     Type,
 )
-from robocomp_yaml.values.json_schema import COMPLETE, DOCUMENT, EFFECTIVE, complete_schema, values_schema
+from robocomp_yaml.values.json_schema import (
+    COMPLETE,
+    DOCUMENT,
+    EFFECTIVE,
+    complete_schema,
+    values_schema,
+)
 
 Data = dict[str, Any]
 
