@@ -102,7 +102,7 @@ class LinkedParameters:
     document: ParameterDocument | None = None
     component: LinkedComponent | None = None
     broken: bool = False
-    compiled: dict[str, Any] = field(default_factory=dict)
+    compiled: dict[object, Any] = field(default_factory=dict)
 
 
 def _only_the_period() -> LinkedParameters:

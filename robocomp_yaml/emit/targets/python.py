@@ -15,7 +15,7 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import python_statemachine
+from robocomp_yaml.emit.targets import python_parameters, python_statemachine
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
 from robocomp_yaml.emit.targets.python_statemachine import MachineView
@@ -83,6 +83,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
         *python_statemachine.files(component),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
         FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
+        python_parameters.plan(component),
         FilePlan("generated/component.py", _rendered("component.py", view, table)),
         FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
         FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
