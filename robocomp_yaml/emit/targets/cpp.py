@@ -12,6 +12,7 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.targets import cpp_parameters
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
 from robocomp_yaml.emit.targets.slice import file_name
@@ -22,7 +23,7 @@ LANGUAGE = "cpp"
 DEFAULT_PERIOD = 100
 DEFAULT_STANDARD = 17
 BEHAVIOR = "RoboCompCommonBehavior"
-_TOPICS = ("topics.cpp", "topics.h")  # of the run time, only where a component has topics
+_TOPICS = frozenset(("topics.cpp", "topics.h"))  # of the run time, only where a component has topics
 # Targets that CMake makes by itself.
 _CMAKE_TARGETS = frozenset(
     "all clean depend edit_cache help install package package_source preinstall rebuild_cache test".split()
@@ -58,7 +59,8 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     """The component's files but for `slice/` and `etc/`."""
     view = _view(component)
     return [
-        *_runtime(view.has_topics),
+        *_runtime(_unused(component)),
+        *cpp_parameters.plan(component),
         *(
             FilePlan(f"generated/{name}", render(f"cpp/{name}.j2", view))
             for name in ("interfaces.h", "genericworker.h", "genericworker.cpp", "main.cpp", "component.cmake")
@@ -69,14 +71,20 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     ]
 
 
+def _unused(component: LinkedComponent) -> frozenset[str]:
+    """The files of the run time that the component does not need."""
+    unused = cpp_parameters.unused_runtime(component.parameters.parameters)
+    return unused if component.publishes or component.subscribes else unused | _TOPICS
+
+
 @cache
-def _runtime(has_topics: bool) -> tuple[FilePlan, ...]:
+def _runtime(unused: frozenset[str]) -> tuple[FilePlan, ...]:
     """The files that are the same in every component."""
     folder = resources.folder("templates") / "cpp" / "runtime"
     return tuple(
         FilePlan(f"generated/runtime/{file.name}", file.read_text(encoding="utf-8"))
         for file in sorted(folder.iterdir())
-        if has_topics or file.name not in _TOPICS
+        if file.name not in unused
     )
 
 
@@ -91,7 +99,7 @@ def _view(linked: LinkedComponent) -> View:
     doc = f"{component.name}: {component.doc}" if component.doc else component.name
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if has_services else "/*services*/"
-    runtime = [file.path.removeprefix("generated/") for file in _runtime(has_topics) if file.path.endswith(".cpp")]
+    runtime = [file.path.removeprefix("generated/") for file in _runtime(_unused(linked)) if file.path.endswith(".cpp")]
     ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
@@ -113,5 +121,5 @@ def _view(linked: LinkedComponent) -> View:
         ice_components=" ".join(ice),
         libraries=" ".join(f"Ice::{name}" for name in ice),
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
-        sources=["genericworker.cpp", *runtime],
+        sources=["genericworker.cpp", "parameters.cpp", *runtime],
     )
