@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit import config, parameter_files
+from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
 from robocomp_yaml.emit.ports import assign
 from robocomp_yaml.emit.targets import languages
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.model.pdsl import ValuesDocument
-
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.build import Options
 
 
 def component_plan(
@@ -24,7 +21,7 @@ def component_plan(
     slices: Callable[[Iterable[LinkedModule], str], Iterator[FilePlan]],
     program: Program,
 ) -> RootPlan:
-    """The plan of one component: Slice, the target of its language, and `etc/config`, from its values or a first one."""
+    """The plan of one component: Slice, its language, `etc/config` from its values or a first one, docs."""
     component = linked.component
     root = _component_root(component.path, options)
     plan = RootPlan(root, os.path.relpath(component.path, root), partial=bool(options.targets))
@@ -40,9 +37,9 @@ def component_plan(
         written = os.path.lexists(os.path.join(root, CONFIG))
         table = assign([linked]) if written else options.ports(linked)
         plan.files += parameter_files.schemas(linked)
-        written_from_values = list(parameter_files.configs(linked, parameter_files.documents_of(linked, program), table))
-        plan.files += written_from_values
-        if all(file.path != CONFIG for file in written_from_values):
+        made = list(parameter_files.configs(linked, parameter_files.documents_of(linked, program), table))
+        plan.files += made
+        if all(file.path != CONFIG for file in made):
             plan.files.append(config.plan(linked, table))
     if options.wants("docs"):
         plan.files += parameter_files.docs(linked)

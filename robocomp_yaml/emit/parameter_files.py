@@ -1,4 +1,4 @@
-"""What `compile` makes of a component's parameters and values: `etc/config`, the schemas of values, and reference docs."""
+"""What `compile` makes of parameters and values: `etc/config`, the schemas of values, and reference docs."""
 
 from __future__ import annotations
 

@@ -41,6 +41,8 @@ class Attachments:
         if isinstance(model, Component):
             yield from self._follow_component(document, model)
         elif isinstance(model, ParameterDocument | ValuesDocument):
+            if isinstance(model, ValuesDocument):
+                self.program.values[document.real] = LinkedValues(model)
             yield from self._follow_reference(document, model)
             if isinstance(model, ValuesDocument):
                 yield from self._follow_layers(document, model)
