@@ -1,4 +1,4 @@
-"""Parameters for the people and generators of accessors: what is said of each, and the records that they use."""
+"""What generators of accessors need to know of parameters: what is said of each, and which records they use."""
 
 from __future__ import annotations
 
@@ -62,8 +62,8 @@ def _spelled(data: object) -> str:
 
 
 def records(root: RecordType) -> tuple[list[tuple[str, RecordType]], list[EnumType]]:
-    """The records that parameters use, those inside first, by name (a group by its path in code behind a dot, the root by a
-    dot); and the enums."""
+    """The records that parameters use, those inside first, by name (a group by its path in code behind a dot, the root
+    by a dot); and the enums."""
     found: dict[str, RecordType] = {}
     enums: dict[str, EnumType] = {}
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from robocomp_yaml.check.expressions import Scope, type_of
+from robocomp_yaml.check.pdsl.expressions import Scope, type_of
 from robocomp_yaml.emit.targets.cpp_literals import value
 from robocomp_yaml.emit.targets.cpp_text import quoted
 from robocomp_yaml.model.expression import (

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from robocomp_yaml.check.expressions import Scope, find_member, type_of
+from robocomp_yaml.check.pdsl.expressions import Scope, find_member, type_of
 from robocomp_yaml.emit.targets.python_text import literal
 from robocomp_yaml.model.expression import (
     Attribute,

@@ -16,12 +16,8 @@ void loadParameters(Store& store, const Settings& settings)
         {
             throw StartError(settings.where() + ": " + error.what());
         }
-        auto said = std::to_string(error.problems.size()) + " parameters cannot be as " + settings.where() + " says:";
-        for (const auto& problem : error.problems)
-        {
-            said += "\n  " + problem.message;
-        }
-        throw StartError(said);
+        const auto count = std::to_string(error.problems.size());
+        throw StartError(count + " parameters cannot be as " + settings.where() + " says: " + error.what());
     }
 }
 
