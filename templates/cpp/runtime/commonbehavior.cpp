@@ -79,7 +79,10 @@ void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Curre
     for (const auto& [key, parameter] : parameters)
     {
         const auto other = others.find(key);
-        if (other == others.end() || other->second != parameter.value)
+        const auto entry = before.find(key);
+        const bool isSame = entry != before.end() ? entry->second.text == parameter.value
+                                                  : other != others.end() && other->second == parameter.value;
+        if (!isSame)
         {
             changes[key] = parameter.value;
         }

@@ -66,9 +66,9 @@ class Behavior:
 
     def setParameterList(self, parameters: dict[str, Any], current: Ice.Current) -> None:
         """All of them, or none: then the log says why."""
-        others = self._store.unread
-        changes = {key: given.value for key, given in parameters.items() if others.get(key) != given.value}
         before = self._store.entries()
+        known = {**self._store.unread, **{key: entry.text for key, entry in before.items()}}
+        changes = {key: given.value for key, given in parameters.items() if known.get(key) != given.value}
         try:
             self._store.change_texts(changes)
         except ParameterError as error:
