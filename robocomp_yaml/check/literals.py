@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-import struct
 from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.link import numbers
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.model.interface import Enum, ExceptionType, Literal, Struct, TypeRef
@@ -42,6 +42,21 @@ def _fits(linked: LinkedModule, type_: TypeRef, value: Literal, *, default: bool
     reason, hint = _of_enum(enum, value) if enum else _of_basic(type_.text, value)
     if reason:
         yield codes.MISFIT.at(value.span, value=_shown(value), type=type_.text, reason=reason, hint=hint)
+    elif type_.text in ("float", "double"):
+        yield from _arrives(type_.text, value)
+
+
+def _arrives(type_name: str, value: Literal) -> Iterator[Diagnostic]:
+    number = float(value.value)
+    if numbers.is_integer_literal(number):
+        return
+    if not numbers.compiles(number, type_name):
+        reason, hint = "its C++ for this number does not compile", "use double"
+        yield codes.NUMBER.at(value.span, value=_shown(value), reason=reason, hint=hint)
+    elif not numbers.arrives(number, type_name):
+        kept = numbers.printed(number)
+        reason, hint = f"it becomes {kept}", "where that is not enough, let the programs that use it define it"
+        yield codes.NUMBER.at(value.span, value=_shown(value), reason=reason, hint=hint)
 
 
 def _of_enum(enum: Enum, value: Literal) -> tuple[str, str]:
@@ -85,7 +100,7 @@ def _wider(number: int) -> str:
 def _of_real(type_name: str, number: float, lexeme: str) -> tuple[str, str]:
     try:
         real = float(number)
-        stored = struct.unpack("<f", struct.pack("<f", real))[0] if type_name == "float" else real
+        stored = numbers.as_float32(real) if type_name == "float" else real
     except OverflowError:
         other = "use double, or " if type_name == "float" else ""
         return f"it is too large for a {type_name}", f"{other}write a smaller value"

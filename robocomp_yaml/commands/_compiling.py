@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._outcome import File, Outcome
@@ -13,13 +15,13 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
 from robocomp_yaml.emit import stamp, writer
 from robocomp_yaml.emit.build import Build, Options, build
 from robocomp_yaml.emit.changes import Changes
-from robocomp_yaml.emit.ports import Ports, assign
-from robocomp_yaml.link.linker import Linker
-from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import workspace_files
-from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.discover import documents_below
+
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.ports import Ports
+    from robocomp_yaml.link.program import LinkedComponent
 
 
 @dataclass(slots=True)
@@ -108,25 +110,12 @@ def _outcome_of(
 
 
 def _ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
-    """The ports of a component's workspace, assigned once for each workspace; where a component is in none, those of
-    this run's components."""
-    known: dict[str, Ports] = {}
+    """Where the ports of a component's workspace come from, once some are asked for."""
 
-    def of(linked: LinkedComponent) -> Ports:
-        workspace = analysis.linker.workspace_of(linked.component.path)
-        key = workspace.root if workspace.declared else ""
-        if key not in known:
-            known[key] = assign([*_neighbours(workspace, analysis), *analysis.program.components.values()])
-        return known[key]
+    @cache
+    def table() -> Callable[[LinkedComponent], Ports]:
+        from robocomp_yaml.commands._neighbours import ports
 
-    return of
+        return ports(analysis)
 
-
-def _neighbours(workspace: Workspace, analysis: Analysis) -> Iterable[LinkedComponent]:
-    """All components of a workspace, whether this run is about them or not."""
-    if not workspace.declared:
-        return ()
-    paths = [path for path in documents_below(workspace.root) if kind_of(path) == "cdsl"]
-    around = Linker(analysis.linker.documents, analysis.linker.search)
-    around.link(paths)  # what is wrong with neighbours is for their own `check`
-    return around.program.components.values()
+    return lambda linked: table()(linked)

@@ -60,11 +60,14 @@ class Outcome:
         return any(file.action in CHANGED for file in self.files)
 
     def as_data(self) -> dict[str, Any]:
-        return asdict(self)
+        files = [[file.root, file.path, file.action] for file in self.files]
+        told = [asdict(diagnostic) for diagnostic in self.diagnostics]
+        counts = [self.documents, self.asked, self.compiled]
+        return {"diagnostics": told, "files": files, "counts": counts}
 
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> Outcome:
-        """The inverse of `as_data`."""
+        """The inverse of `as_data`, for an outcome in which nothing was written."""
         told = [
             Diagnostic(
                 d["code"], d["severity"], d["message"], Span(**d["span"]), d["hint"],
@@ -72,8 +75,7 @@ class Outcome:
             )
             for d in data["diagnostics"]
         ]  # fmt: skip
-        files = [File(**file) for file in data["files"]]
-        return cls(told, files, data["documents"], data["asked"], data["compiled"], data["planned"])
+        return cls(told, [File(*file) for file in data["files"]], *data["counts"])
 
     def settled(self, lasting: list[Diagnostic]) -> Outcome:
         """The outcome of the same run made again: nothing left to write, and only the `lasting` diagnostics."""

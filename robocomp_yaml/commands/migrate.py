@@ -11,7 +11,7 @@ import click
 from robocomp_yaml.commands import _options
 
 if TYPE_CHECKING:
-    from robocomp_yaml.legacy.migration import Migration
+    from robocomp_yaml.legacy.result import Migration
     from robocomp_yaml.legacy.sources import LegacyFile
 
 LONG = 50
@@ -41,11 +41,11 @@ def command(
     edited is overwritten, and the sources stay as they are.
     """
     from robocomp_yaml.legacy.ledger import as_json
-    from robocomp_yaml.legacy.migration import forced, migrate
+    from robocomp_yaml.legacy.migration import migrate
     from robocomp_yaml.pipeline import search_folders
 
     run = migrate(paths, output, search_folders(include), force=force, progress=_progress)
-    shown = run.changes() if show_diff else forced(run)
+    shown = run.changes() if show_diff else run.forced()
     for path, change in list(shown):
         click.echo(change.diff(path), nl=False, err=format_ != "text")
     if not dry_run:
@@ -54,12 +54,9 @@ def command(
     if report is not None:
         _save(report, as_json(run.entries))
     _print(ctx, run, format_, dry_run)
-    failed = any(entry.status == "refused" for entry in run.entries) or any(
-        diagnostic.severity == "error" for diagnostic in run.diagnostics
-    )
     if strict and lost:
         click.echo(f"{lost} line{'s are' if lost > 1 else ' is'} lost, and --strict does not allow that", err=True)
-    ctx.exit(1 if failed or (strict and lost) else 0)
+    ctx.exit(1 if run.failed or (strict and lost) else 0)
 
 
 def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
@@ -72,7 +69,7 @@ def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
 
 def _save(path: str, text: str) -> None:
     try:
-        with click.open_file(path, "w", encoding="utf-8") as file:
+        with click.open_file(path, "w", encoding="utf-8", errors="backslashreplace") as file:
             file.write(text)
     except OSError as error:
         raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error

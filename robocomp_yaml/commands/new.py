@@ -86,7 +86,9 @@ def _uses(name: str, meaning: str) -> Callable[[Any], Any]:
 @_uses("subscribes", "topics that it listens to")
 @_options.include
 @click.pass_context
-def component(ctx: click.Context, name: str, language: str, include: tuple[str, ...], **uses: tuple[str, ...]) -> None:
+def component(
+    ctx: click.Context, /, name: str, language: str, include: tuple[str, ...], **uses: tuple[str, ...]
+) -> None:
     """Write components/NAME/NAME.cdsl.yaml (in lower case): a component NAME.
 
     INTERFACE is the name of an interface or topic that a document of the workspace defines, or Module.Interface where

@@ -7,12 +7,21 @@ import re
 from pathlib import Path
 
 import click
+from click.shell_completion import CompletionItem
 
 _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
 
 
+def _kinds(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Shell completion: the kinds, else files."""
+    from robocomp_yaml.source.workspace_files import GLOBS
+
+    kinds = [CompletionItem(kind) for kind in GLOBS if kind.startswith(incomplete)]
+    return kinds or [CompletionItem(incomplete, type="file")]
+
+
 @click.command(short_help="Print the JSON Schema of a kind of document.")
-@click.argument("kind", metavar="[KIND|FILE]", required=False)
+@click.argument("kind", metavar="[KIND|FILE]", required=False, shell_complete=_kinds)
 @click.pass_context
 def command(ctx: click.Context, kind: str | None) -> None:
     """Print the JSON Schema of a KIND of document, or say which one applies to FILE; without either, list the kinds."""

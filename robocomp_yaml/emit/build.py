@@ -9,17 +9,18 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit import config
-from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
-from robocomp_yaml.emit.ports import Ports, assign
-from robocomp_yaml.emit.targets import languages, slice as slice_target
+from robocomp_yaml.emit.plan import FilePlan, RootPlan
+from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
+
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.ports import Ports
 
 TARGETS = ("slice", "python", "cpp", "config")
 
@@ -72,43 +73,12 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
     for real in sorted(program.asked & program.components.keys(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if _usable_component(component, state, result):
-            result.plans.append(_component_plan(component, options, slices))
+            from robocomp_yaml.emit.component import component_plan  # with the targets, which Slice alone needs not
+
+            result.plans.append(component_plan(component, options, slices))
             result.diagnostics += _not_yet(component)
             result.compiled += 1
     return result
-
-
-def _component_plan(
-    linked: LinkedComponent,
-    options: Options,
-    slices: Callable[[Iterable[LinkedModule], str], Iterator[FilePlan]],
-) -> RootPlan:
-    component = linked.component
-    root = _component_root(component.path, options)
-    plan = RootPlan(root, os.path.relpath(component.path, root), partial=bool(options.targets))
-    if options.wants("slice"):
-        modules = linked.modules()
-        plan.files += slices(modules, "slice/")
-        if all(scope.module.name != "RoboCompCommonBehavior" for scope in modules):
-            common = resources.text("templates/slice/CommonBehavior.ice")
-            plan.files.append(FilePlan("slice/CommonBehavior.ice", common))
-    if options.wants(component.language.name):
-        plan.files += languages()[component.language.name].plan(linked)
-    if options.wants("config"):
-        written = os.path.lexists(os.path.join(root, CONFIG))
-        plan.files.append(config.plan(linked, assign([linked]) if written else options.ports(linked)))
-    return plan
-
-
-def _component_root(path: str, options: Options) -> str:
-    folder = os.path.dirname(path) or "."
-    if options.output is None:
-        return folder
-    for asked in options.below:
-        relative = os.path.relpath(folder, asked)
-        if not relative.startswith(os.pardir):
-            return os.path.normpath(os.path.join(options.output, relative))
-    return options.output
 
 
 def _slice_folder(workspace: Workspace) -> str:

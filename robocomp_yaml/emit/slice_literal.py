@@ -1,14 +1,14 @@
-"""Values as Slice spells them: numbers as the author wrote them, where Slice reads them so."""
+"""Values as Slice spells them: numbers as the author wrote them, where they arrive so."""
 
 from __future__ import annotations
 
 import re
 
+from robocomp_yaml.link.numbers import arrives, compiles, is_integer_literal
 from robocomp_yaml.model.interface import Literal
 
 _INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)\Z")
 _REAL = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z")
-_LARGEST_INTEGER = 2**63
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 
 
@@ -20,7 +20,7 @@ def literal(value: Literal, type_name: str) -> str:
         case "bool":
             return "true" if value.value else "false"
         case "float" | "double":
-            return _real(value)
+            return _real(value, type_name)
         case _:
             return value.lexeme if _INTEGER.match(value.lexeme) else str(value.value)
 
@@ -31,7 +31,10 @@ def quoted(text: str) -> str:
     return '"' + escaped.replace("??", "?\\?") + '"'
 
 
-def _real(value: Literal) -> str:
-    lexeme = value.lexeme if _REAL.match(value.lexeme) else repr(value.value)
-    is_integer = _INTEGER.match(lexeme)
-    return f"{lexeme}.0" if is_integer and abs(int(lexeme)) >= _LARGEST_INTEGER else lexeme
+def _real(value: Literal, type_name: str) -> str:
+    number = float(value.value)
+    if _INTEGER.match(value.lexeme):
+        return value.lexeme if is_integer_literal(number) else f"{value.lexeme}.0"
+    if is_integer_literal(number) and not (compiles(number, type_name) and arrives(number, type_name)):
+        return str(int(number))
+    return value.lexeme if _REAL.match(value.lexeme) else repr(number)

@@ -12,7 +12,7 @@ import json
 import os
 import stat
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 
 import robocomp_yaml
 from robocomp_yaml.source.digest import digest
@@ -110,7 +110,7 @@ def save(folder: str, name: str, stamp: Stamp) -> None:
         _ignored_by_git(os.path.dirname(path))
         try:
             with open(part, "w", encoding="utf-8") as file:
-                json.dump(asdict(stamp), file, separators=(",", ":"))
+                file.write(json.dumps({f.name: getattr(stamp, f.name) for f in fields(stamp)}, separators=(",", ":")))
             os.replace(part, path)
         finally:
             with contextlib.suppress(FileNotFoundError):

@@ -49,15 +49,13 @@ def place(tree: Tree[Token], comments: Sequence[Token], source: Source, rules: R
     places: list[_Place] = []
     _collect(tree, None, rules, places, placed)
     starts = [at.start for at in places]
-    previous: _Comment | None = None
-    for token in comments:
-        comment = _Comment(token, source)
+    for comment in _grouped([_Comment(token, source) for token in comments]):
         if comment.bad:
             placed.diagnostics.append(
                 codes.REPAIRED.at(source.span(comment.start, comment.end), what=rules.repairs["lenient_control"])
             )
-        _put(comment, previous, places, starts, placed, source, rules)
-        previous = comment
+        if comment.lines:
+            _put(comment, places, starts, placed, source, rules)
     return placed
 
 
@@ -93,14 +91,43 @@ class _Comment:
     def as_head(self) -> list[str]:
         return [line or " " for line in self.lines]
 
+    def goes_on_in(self, other: _Comment) -> bool:
+        """Whether another one is the next line of the same."""
+        same = (self.block, self.doc, self.behind) == (False, other.doc, other.behind) and not other.block
+        return same and self.alone and other.alone and other.first == self.last + 1
+
+
+def _grouped(comments: Sequence[_Comment]) -> list[_Comment]:
+    """Comments of one line each that stand directly below each other as one, without the indentation they share."""
+    groups: list[_Comment] = []
+    for comment in comments:
+        if groups and groups[-1].goes_on_in(comment):
+            last = groups[-1]
+            last.lines = last.lines + comment.lines
+            last.end, last.last, last.bad = comment.end, comment.last, last.bad or comment.bad
+            last.gap_after = comment.gap_after
+        else:
+            groups.append(comment)
+    for group in groups:
+        if not group.block:
+            group.lines = _dedented(group.lines)
+    return groups
+
+
+def _dedented(lines: list[str]) -> list[str]:
+    margin = min((len(line) - len(line.lstrip()) for line in lines if line), default=0)
+    return [line[margin:] for line in lines]
+
 
 def _one_line(text: str) -> str:
-    body = re.sub(r"^///?<?|^//+", "", text) if _DOC.match(text) else text.lstrip("/")
-    return (body[1:] if body[:1] == " " else body).rstrip()
+    body = re.sub(r"^///?<?", "", text) if _DOC.match(text) else text.lstrip("/")
+    indent = len(body) - len(body.lstrip())
+    return (body[:indent].expandtabs(4) + body[indent:]).rstrip()
 
 
 def _block_lines(text: str) -> list[str]:
-    body = re.sub(r"^/\*+<?", "", re.sub(r"\*+/$", "", text))
+    """The lines of a `/* */`; none of a banner, which has nothing but stars."""
+    body = re.sub(r"^\*+<?", "", re.sub(r"\*+$", "", text[1:-1]))
     lines = [line.expandtabs(4).rstrip() for line in body.split("\n")]
     lines[0] = lines[0].strip()
     rest = [line for line in lines[1:] if line.strip()]
@@ -108,8 +135,7 @@ def _block_lines(text: str) -> list[str]:
     if starred:
         lines[1:] = [re.sub(r"^\s*\*+ ?", "", line) for line in lines[1:]]
     if not (starred and lines[0]):
-        margin = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
-        lines[1:] = [line[margin:] for line in lines[1:]]
+        lines[1:] = _dedented(lines[1:])
     while lines and not lines[0].strip():
         del lines[0]
     while lines and not lines[-1].strip():
@@ -118,9 +144,8 @@ def _block_lines(text: str) -> list[str]:
 
 
 def _put(
-    comment: _Comment, previous: _Comment | None, places: list[_Place], starts: list[int], placed: Placed,
-    source: Source, rules: Rules,
-) -> None:  # fmt: skip
+    comment: _Comment, places: list[_Place], starts: list[int], placed: Placed, source: Source, rules: Rules
+) -> None:
     before, around, after = _neighbours(comment, places, starts)
     behind = before is not None and source.line(before.end) == comment.first and not comment.alone
     touching = before is not None and behind and source.text[before.end : comment.start].strip() in ("", ";")
@@ -134,7 +159,7 @@ def _put(
         _at_end(comment, around, rules)
     elif after is not None:
         first = before is None and around is None
-        _above(comment, previous, after, placed.around if first else after.notes, before is not None, rules)
+        _above(comment, after, placed.around if first else after.notes, before is not None, rules)
     else:
         _below(comment, around.notes if around else placed.around)
 
@@ -154,14 +179,11 @@ def _neighbours(
     return before, around, after
 
 
-def _above(
-    comment: _Comment, previous: _Comment | None, target: _Place, notes: Notes, not_first: bool, rules: Rules
-) -> None:
+def _above(comment: _Comment, target: _Place, notes: Notes, not_first: bool, rules: Rules) -> None:
     """`notes` take plain comments: those of the construct below, or at the top of the file, the file's."""
     if comment.doc and not comment.behind and rules.places[target.rule] == "doc":
         doc = target.notes.doc
-        apart = previous is None or comment.block or previous.block or previous.last + 1 != comment.first
-        doc += [*([""] if doc and apart else []), *comment.lines]
+        doc += [*([""] if doc else []), *comment.lines]
         return
     if comment.gap_before and (notes.head and notes.head[-1] or not notes.head and not_first):
         notes.head.append("")

@@ -73,6 +73,6 @@ def _review(tree: Tree[Token], source: Source, rules: Rules) -> list[Diagnostic]
         said.append(codes.REFUSED.at(source.span(start, end), reason=rules.refusals[str(node.data)]))
     for token in tree.scan_values(lambda value: isinstance(value, Token) and value.type == "NAME"):
         if not rules.names.fullmatch(plain(token)):
-            at = source.span(token.start_pos, token.end_pos)
+            at = source.span(token.start_pos or 0, token.end_pos or 0)
             said.append(codes.BAD_NAME.at(at, name=plain(token)))
     return said

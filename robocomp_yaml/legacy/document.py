@@ -99,13 +99,13 @@ def text(document: Map, around: Notes) -> str:
 
 def _map(node: Map, indent: str) -> Iterator[Line]:
     for entry in node.entries:
-        yield from _comments(entry.notes.head, indent)
+        yield from _head(entry, entry is node.entries[0], indent)
         yield from _entry(entry, indent, f"{indent}{scalar(entry.key)}:")
 
 
 def _list(node: List, indent: str) -> Iterator[Line]:
     for item in node.items:
-        yield from _comments(item.notes.head, indent)
+        yield from _head(item, item is node.items[0], indent)
         yield from _entry(item, indent, f"{indent}-")
 
 
@@ -176,6 +176,13 @@ def _block_text(value: str, indent: str) -> tuple[str, list[str]]:
         value, width + len(indent), initial_indent=indent, subsequent_indent=indent,
         break_long_words=False, break_on_hyphens=False,
     )
+
+
+def _head(entry: Entry, first: bool, indent: str) -> Iterator[Line]:
+    """The comments above an entry; the first one of a block stands close to what opens it."""
+    lines = entry.notes.head
+    start = next((at for at, line in enumerate(lines) if line), 0) if first and indent else 0
+    yield from _comments(lines[start:], indent)
 
 
 def _comments(lines: list[str], indent: str) -> Iterator[Line]:

@@ -90,6 +90,8 @@ class Reader:
     def doc(self, tree: Tree[Token], *names: str) -> str:
         """The doc comments of a construct as Markdown; markup that only names it goes."""
         lines = self.notes(tree).doc
+        if not lines:
+            return ""
         own = "|".join(re.escape(name) for name in names if name)
         drop = re.compile(self.rules.doc_drop.replace("{name}", f"(?:{own})"))
         kept = [line.replace("\t", " ") for line in lines if not drop.match(line.strip())]

@@ -23,17 +23,19 @@ _REPAIRS = {codes.REPAIRED.id: "repaired", codes.OVERLOAD.id: "repaired", codes.
 
 @dataclass(slots=True)
 class Entry:
-    """What became of one file. `skipped`: its document was left as it is, on purpose."""
+    """What became of one file. `skipped`: its document was left as it is, on purpose. `blocked`: it could not be
+    written."""
 
     file: Converted
     outputs: list[str] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
     skipped: bool = False
+    blocked: bool = False
 
     @property
     def status(self) -> str:
         severities = {diagnostic.severity for diagnostic in self.diagnostics}
-        if self.file.refused and not self.skipped or ERROR in severities:
+        if (self.file.refused and not self.skipped) or self.blocked or ERROR in severities:
             return REFUSED
         if self.skipped:
             return SKIPPED

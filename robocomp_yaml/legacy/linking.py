@@ -11,6 +11,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.draft import ImportDraft, ModuleNames, Reference, base_name
 from robocomp_yaml.link.workspace import Search, Workspace
+from robocomp_yaml.source.discover import WORKSPACE_FILE
 
 INTERFACES = "idsl"
 
@@ -41,7 +42,10 @@ class Neighbours:
         """The stems of the interface files in an importer's folder, by their lower case."""
         folder = os.path.dirname(importer.path) or "."
         if folder not in self._listed:
-            names = sorted(os.listdir(folder))
+            try:
+                names = sorted(os.listdir(folder))
+            except OSError:
+                names = []
             known = (base_name(name) for name in names if name.lower().endswith((".idsl", ".ice")))
             self._listed[folder] = {stem.lower(): stem for stem in known}
         return self._listed[folder]
@@ -87,6 +91,22 @@ def _name(
     if found:
         return os.path.basename(found).removesuffix(".idsl.yaml")
     return spelled.get(stem.lower()) or beside.get(stem.lower())
+
+
+def not_searched(
+    file: Converted, workspace: Workspace, chosen: Mapping[str, str], neighbours: Neighbours
+) -> Iterable[tuple[str, Diagnostic]]:
+    """Imports whose documents will stand where this one's workspace does not look, each with its folder."""
+    looked_in = {os.path.dirname(chosen[file.path]), *workspace.interfaces, *neighbours.search.extra}
+    known = {os.path.realpath(folder or ".") for folder in looked_in}
+    for wanted in file.draft.imports if file.draft is not None else ():
+        target = neighbours.imported(file, str(wanted.entry.value))
+        document = chosen.get(target.path) if target is not None else None
+        folder = os.path.dirname(document) or "." if document is not None else ""
+        if folder and os.path.realpath(folder) not in known:
+            inside = os.path.relpath(folder, workspace.root)
+            hint = f"add {inside} to `interfaces:` in {os.path.join(workspace.root, WORKSPACE_FILE)}"
+            yield folder, codes.NOT_SEARCHED.at(wanted.span, name=wanted.entry.value, folder=folder, hint=hint)
 
 
 def resolve_references(file: Converted, neighbours: Neighbours) -> Iterable[Diagnostic]:

@@ -130,4 +130,5 @@ class OutputRoot:
                 known[output.path] = digest(output.text.encode())
         if not known and self.remembered is None:
             return None
-        return (json.dumps({"files": dict(sorted(known.items()))}, indent=2, ensure_ascii=False) + "\n").encode()
+        data = json.dumps({"files": dict(sorted(known.items()))}, indent=2, ensure_ascii=False)
+        return f"{data}\n".encode("utf-8", "backslashreplace")  # a name that is not UTF-8 becomes JSON's escape of it

@@ -6,11 +6,13 @@ import os
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
+from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit.places import in_words
 from robocomp_yaml.legacy.formats import by_name
-from robocomp_yaml.legacy.rules import Rules
+from robocomp_yaml.legacy.rules import Rules, formats
 from robocomp_yaml.link.workspace import root_above
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
@@ -37,6 +39,14 @@ class Found:
     """The output roots of the folders given: each becomes a workspace."""
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
+    def workspaces(self) -> list[str]:
+        """The folders that are not below another one."""
+        real = {folder: os.path.realpath(folder).rstrip("/") + "/" for folder in self.folders}
+        return [
+            folder for folder, own in real.items()
+            if not any(own.startswith(other) and own != other for other in real.values())
+        ]  # fmt: skip
+
 
 def find(paths: Sequence[str], output: str | None) -> Found:
     """The files named, and below the folders named all with a suffix of a legacy format; each once."""
@@ -44,7 +54,7 @@ def find(paths: Sequence[str], output: str | None) -> Found:
     seen: set[str] = set()
     for path in paths:
         is_folder = os.path.isdir(path)
-        below = list(_below(path)) if is_folder else [os.path.normpath(path)]
+        below = list(_below(path, found.diagnostics)) if is_folder else [os.path.normpath(path)]
         root = output or (os.path.normpath(path) if is_folder else _root_of(path))
         if is_folder:
             if root not in found.folders:
@@ -69,15 +79,17 @@ def _root_of(path: str) -> str:
 
 
 def _suffixes() -> set[str]:
-    from robocomp_yaml.legacy.rules import formats
-
     return {suffix for rules in formats() for suffix in rules.suffixes}
 
 
-def _below(folder: str) -> Iterator[str]:
+def _below(folder: str, said: list[Diagnostic]) -> Iterator[str]:
     """Links to folders are followed, but no folder is entered twice."""
+
+    def closed(error: OSError) -> None:
+        said.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=in_words(error)))
+
     entered: set[tuple[int, int]] = set()
-    for where, folders, names in os.walk(folder, followlinks=True):
+    for where, folders, names in os.walk(folder, followlinks=True, onerror=closed):
         status = os.stat(where)
         if (status.st_dev, status.st_ino) in entered:
             folders.clear()

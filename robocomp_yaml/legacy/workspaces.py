@@ -46,17 +46,26 @@ def wants_file(root: OutputRoot) -> bool:
     return os.path.realpath(above) == root.root.real and root.is_ours(WORKSPACE_FILE)
 
 
-def file_text(root: str, interfaces: Iterable[str]) -> str:
-    """The `rcyaml.yaml` of a migrated folder: where its interfaces are; imports that lead nowhere become warnings."""
+def file_text(root: str, documents: Iterable[tuple[str, str]]) -> str:
+    """The `rcyaml.yaml` of a migrated folder, for documents with their kinds: where its interfaces are, and what a
+    legacy repository does that only becomes wrong when it is compiled."""
     document, lint = Map(block=True), Map(block=True)
-    folders = sorted({os.path.relpath(os.path.dirname(path) or ".", root) for path in interfaces})
-    if folders:
+    folders: dict[str, set[str]] = {"idsl": set(), "cdsl": set()}
+    crowded = False
+    for kind, path in documents:
+        folder = os.path.relpath(os.path.dirname(path) or ".", root)
+        crowded = crowded or (kind == "cdsl" and folder in folders[kind])
+        folders[kind].add(folder)
+    if folders["idsl"]:
         listed = List()
-        for folder in folders:
-            listed.put(folder)
+        for folder in sorted(folders["idsl"]):
+            if folder.isprintable():  # what is not UTF-8 cannot be said
+                listed.put(folder)
         document.put("interfaces", listed)
     for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT):
         lint.put(row.id, "warning")
+    if crowded:
+        lint.put(cdsl.SAME_FOLDER.id, "warning", Notes(tail=["compile these to folders of their own"]))
     document.put("lint", lint, Notes(head=["Files that were not there to be migrated are imported still."]))
     return modeline(os.path.join(root, WORKSPACE_FILE), root, "workspace") + text(document, Notes())
 

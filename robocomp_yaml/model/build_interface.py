@@ -48,9 +48,10 @@ def build(root: Mapping, path: str) -> Module:
 
 
 def entries(parent: Node | None, key: str) -> Iterator[tuple[Scalar, Node]]:
-    """Keys and values of the mapping under a key; none where it is missing or null."""
+    """Keys and values of the mapping under a key, without `x-…`; none where it is missing or null."""
     child = parent.get(key) if isinstance(parent, Mapping) else None
-    return child.items() if isinstance(child, Mapping) else iter(())
+    if isinstance(child, Mapping):
+        yield from (entry for name, entry in child.entries.items() if not name.startswith("x-"))
 
 
 def items(parent: Node | None, key: str) -> list[Node]:
@@ -120,7 +121,7 @@ def _enum(key: Scalar, node: Mapping) -> Enum:
     if isinstance(listed, Sequence):
         enumerators = [Enumerator(n.lexeme, span=n.span) for n in listed.items if isinstance(n, Scalar)]
     elif isinstance(listed, Mapping):
-        for name, value in listed.items():
+        for name, value in entries(node, "enum"):
             number = value.data if isinstance(value, Scalar) else value.data.get("value")  # type: ignore[attr-defined]
             enumerators.append(
                 Enumerator(name.lexeme, None if number is None else int(number), doc(value), span=name.span)

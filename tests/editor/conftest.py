@@ -13,8 +13,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from workbench import Workbench
-from yaml_language_server import LanguageServer
+from editor.workbench import Workbench
+from editor.yaml_language_server import LanguageServer
 
 HERE = Path(__file__).resolve().parent
 PACKAGES = ("package.json", "package-lock.json")

@@ -8,8 +8,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from snippets import inserted
-from workbench import Workbench
+from editor.snippets import inserted
+from editor.workbench import Workbench
 
 from robocomp_yaml.source import schema, tree
 
@@ -42,8 +42,10 @@ IDSL = [
     ("module: A\ntypes: |", ["struct", "enum", "sequence", "map"]),
     ("module: A\ntypes:\n  |", ["struct", "enum", "sequence", "map"]),
     ("module: A\ntypes:\n  P: |", ["a struct", "an enum", "a sequence", "a map"]),
-    ("module: A\ntypes:\n  P:\n    |", ["struct: {…}", "enum: […]", "map: {…}", "struct", "enum", "sequence", "map", "doc"]),
-    ("module: A\ntypes:\n  P: {s|}", ["struct: {…}", "enum: […]", "map: {…}", "struct", "enum", "sequence", "map", "doc"]),
+    ("module: A\ntypes:\n  P:\n    |",
+     ["struct: {…}", "enum: […]", "map: {…}", "struct", "enum", "sequence", "map", "doc"]),
+    ("module: A\ntypes:\n  P: {s|}",
+     ["struct: {…}", "enum: […]", "map: {…}", "struct", "enum", "sequence", "map", "doc"]),
     ("module: A\ntypes:\n  P: {struct: |}", ["members"]),
     (STRUCT + "      |", ["member", "documented member"]),
     ("module: A\ntypes:\n  P: {struct: {x|}}", ["member", "documented member"]),
@@ -157,7 +159,8 @@ CDSL = [
     (MACHINE + "  states: {c: |}", ["plain state", "state with states"]),
     (MACHINE + "  states: {c: {i|}}", ["doc", "initial", "final", "states", "transitions"]),
     (MACHINE + "  transitions:\n    |", ["transition", "several transitions"]),
-    (MACHINE + "  transitions:\n    a: |", ["state", "list of transitions"]),
+    (MACHINE + "  transitions:\n    a: |", ["state", "transition on an event", "list of transitions"]),
+    (MACHINE + "  transitions:\n    a:\n      - |", ["to", "event", "if", "do", "doc"]),
     (MACHINE + "  transitions:\n    a: {t|}", ["to", "event", "if", "do", "doc"]),
     (MACHINE + "  transitions:\n    a: [{t|}]", ["to", "event", "if", "do", "doc"]),
     # uses

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from workbench import Workbench
+from editor.workbench import Workbench
 
-WRONG = {"idsl": ("module: 1\n", "module: is a name"), "cdsl": ("component: 1\nlanguage: cpp\n", "component: is a name")}
+WRONG = {
+    "idsl": ("module: 1\n", "module: is a name"),
+    "cdsl": ("component: 1\nlanguage: cpp\n", "component: is a name"),
+}
 
 
 def test_the_modeline_names_the_schema(editor: Workbench) -> None:

@@ -10,8 +10,9 @@ import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from yaml_language_server import LanguageServer
+from editor.yaml_language_server import LanguageServer
 
 from robocomp_yaml.source import workspace_files
 
@@ -62,14 +63,7 @@ class Workbench:
         found = [self._server.diagnostics(path) for path, _ in opened]
         for path, _ in opened:
             self._server.close(path)
-        return [
-            [
-                f"{start['line']}:{start['character'] + 1} {diagnostic['message']}"
-                for diagnostic in sorted(each, key=lambda d: (d["range"]["start"]["line"], d["range"]["start"]["character"]))
-                for start in [diagnostic["range"]["start"]]
-            ]
-            for each in found
-        ]
+        return [[f"{line}:{column} {message}" for line, column, message in sorted(map(_plain, each))] for each in found]
 
     def _document(self, kind: str) -> Path:
         """The path of a document not used before; it exists only in the editor."""
@@ -77,3 +71,8 @@ class Workbench:
 
     def _with_modeline(self, kind: str, path: Path, text: str) -> str:
         return f"{workspace_files.modeline(kind, path, self.folder)}\n{text}"
+
+
+def _plain(diagnostic: dict[str, Any]) -> tuple[int, int, str]:
+    start = diagnostic["range"]["start"]
+    return start["line"], start["character"] + 1, diagnostic["message"]

@@ -40,10 +40,9 @@ class LanguageServer:
 
     def start(self, folder: Path, schemas: Mapping[str, object]) -> None:
         """Begin a session on a folder, with the `yaml.schemas` of its settings and no catalogue from the network."""
-        self._settings = {
-            "yaml": {"validate": True, "hover": True, "completion": True, "schemas": schemas, "schemaStore": {"enable": False}},
-            "[yaml]": {"editor.tabSize": 2},
-        }
+        wanted = {"validate": True, "hover": True, "completion": True}
+        yaml = {**wanted, "schemas": schemas, "schemaStore": {"enable": False}}
+        self._settings = {"yaml": yaml, "[yaml]": {"editor.tabSize": 2}}
         root = {"uri": folder.as_uri(), "name": folder.name}
         self.request(
             "initialize",
@@ -124,6 +123,8 @@ class LanguageServer:
             while stdout.readline().strip():
                 pass
             self._receive(json.loads(stdout.read(length)))
+        for waiting in list(self._answers.values()):
+            waiting.put({"error": {"message": "yaml-language-server has ended"}})
 
     def _receive(self, message: dict[str, Any]) -> None:
         method = message.get("method")

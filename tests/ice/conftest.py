@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 from components import Build, Built, build as build_components
+from cpp_programs import programs  # noqa: F401 (the fixture)
 from processes import Ports, Running, Start, Storm, answers, until
 from scenario import INTERFACES, cdsl
 

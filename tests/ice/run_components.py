@@ -60,6 +60,7 @@ def run(root: Path) -> tuple[list[str], int]:
 
         class Caller(SpecificWorker):
             def compute(self) -> None:
+                self.setPeriod(3_600_000)  # once is enough
                 try:
                     calls.extend(call_all(self, COMPONENT))
                 finally:

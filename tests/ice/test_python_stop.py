@@ -112,3 +112,24 @@ def test_start_and_stop_again_and_again(arm: Built, start: Start) -> None:
         running = start([*arm.command, "--startup-check"])
         assert running.exit_code() == 0
         assert "ArmComp starts as it should" in running.output
+
+
+def test_ice_admin_stops_it(arm: Built, start: Start, ice: Any, free_port: Ports) -> None:
+    """As IceGrid does."""
+    import Ice
+
+    port = free_port()
+    admin = [f"--Ice.Admin.Endpoints=tcp -h 127.0.0.1 -p {port}", "--Ice.Admin.InstanceName=arm"]
+    running = start([*arm.command, *admin]).wait_for("ArmComp is running")
+    process = ice.stringToProxy(f"arm/admin -f Process:tcp -h 127.0.0.1 -p {port}")
+    Ice.ProcessPrx.uncheckedCast(process).shutdown()
+    assert running.exit_code(2) == 0
+
+
+def test_before_it_has_started(arm: Built, start: Start) -> None:
+    """At any moment of its start: never a traceback."""
+    for delay in (0.15, 0.2, 0.25, 0.3, 0.35):
+        running = start(arm.command)
+        time.sleep(delay)
+        assert running.stop() in (0, -signal.SIGTERM), "the latter before Python has begun with our code"
+        assert "Traceback" not in running.output and "ERROR" not in running.output

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from slice_compilers import complaints, needs_compilers
 
 from robocomp_yaml import pipeline, resources
@@ -22,6 +24,17 @@ def test_the_golden_files(tmp_path: Path) -> None:
     for file in GOLDEN.iterdir():
         (tmp_path / file.name).write_bytes(file.read_bytes())
     assert complaints(tmp_path, sorted(file.name for file in GOLDEN.iterdir())) == {}
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("g++") is None, reason="g++ is not installed")
+def test_the_cpp_of_the_golden_files_compiles(tmp_path: Path) -> None:
+    names = sorted(str(file) for file in GOLDEN.iterdir())
+    subprocess.run(["slice2cpp", f"-I{GOLDEN}", "--output-dir", ".", *names], cwd=tmp_path, check=True)
+    command = ["g++", "-std=c++17", "-DICE_CPP11_MAPPING", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I."]
+    for file in tmp_path.glob("*.cpp"):
+        done = subprocess.run([*command, file.name], cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
 
 
 def test_common_behavior(tmp_path: Path) -> None:

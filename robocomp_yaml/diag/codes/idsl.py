@@ -78,6 +78,16 @@ PYTHON_WORD = Code(
     right=_methods("      find: {in: {lambda: string}}\n"),
 )
 
+CPP_NAME = Code(
+    "RC1026",
+    WARNING,
+    "the C++ that Ice makes of the {kind} '{name}' does not compile",
+    why="In C++, a member cannot have the name of the struct or exception that holds it, and a method that of a type "
+    "that its interface uses, spelled exactly so. Slice, and Python, take them.",
+    wrong=_types("  Text: {struct: {Text: string}}\n"),
+    right=_types("  Text: {struct: {text: string}}\n"),
+)
+
 UNKNOWN_TYPE = Code(
     "RC1010",
     ERROR,
@@ -215,6 +225,17 @@ MISFIT = Code(
     "text, in quotes where YAML would read something else; an enum's value is the name of an enumerator.",
     wrong=_types("  Motor: {struct: {speed: {type: byte, default: 300}}}\n"),
     right=_types("  Motor: {struct: {speed: {type: byte, default: 255}}}\n"),
+)
+
+NUMBER = Code(
+    "RC1025",
+    WARNING,
+    "Ice does not carry {value} as it is: {reason}",
+    why="Into the Python and C++ that it generates, Ice 3.7 writes six digits of a constant or default that has a "
+    "fraction, and behind a float without a point it puts `.0F`: 1e-7 becomes 1e-07.0F, which is no C++. On the wire, "
+    "numbers are whole.",
+    wrong=_types("  Circle: {struct: {turn: {type: double, default: 6.283185307179586}}}\n"),
+    right=_types("  Circle: {struct: {turn: {type: double, default: 6.28319}}}\n"),
 )
 
 FILE_NAME = Code(

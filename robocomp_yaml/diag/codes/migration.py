@@ -165,3 +165,11 @@ PREFERRED = Code(
     "A Slice file beside an IDSL file of the same name is what the legacy generator made of it.",
     {**_RIGHT, "Speech.ice": _IDSL}, _RIGHT, _MIGRATE,
 )  # fmt: skip
+NOT_SEARCHED = Code(
+    "RC5026", WARNING, "'{name}' is migrated to {folder}, where the workspace does not look for imports",
+    "A document finds its imports beside itself, and in the folders that `interfaces:` of the workspace's "
+    "`rcyaml.yaml` names. `migrate` writes that file for a folder that is in no workspace, but never changes yours.",
+    {"rcyaml.yaml": "doc: mine\n", "interfaces/Speech.idsl": _IDSL, "speech/speech.cdsl": _CDSL},
+    {"rcyaml.yaml": "interfaces: [interfaces]\n", "interfaces/Speech.idsl": _IDSL, "speech/speech.cdsl": _CDSL},
+    _MIGRATE,
+)  # fmt: skip

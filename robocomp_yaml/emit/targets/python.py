@@ -1,7 +1,7 @@
 """The Python target: a component that runs with Python 3.9 and Ice 3.7 alone.
 
 Most of it is the same for every component and is copied as it stands (`templates/python/runtime/`); what differs are
-three small generated files, the user's skeleton and a launcher.
+a few small generated files, the user's skeleton and a launcher.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
+from robocomp_yaml.emit.targets.python_stubs import ModuleStub, stub
 from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
@@ -38,8 +39,11 @@ class SliceModule:
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """What the templates show: each file is about the same few things. `files` are literals of Python; `imports` names
-    the modules that the file at hand uses."""
+    """What the templates show: each file is about the same few things.
+
+    `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `imports`
+    names the modules that the file at hand uses.
+    """
 
     source: str
     name: str
@@ -50,6 +54,8 @@ class View:
     modules: list[SliceModule]
     escape: bool
     behavior: str
+    has_behavior: bool
+    stubs: list[ModuleStub]
     implements: list[ServedView]
     subscribes: list[ServedView]
     served: list[ServedView]
@@ -71,6 +77,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     return [
         *_runtime(),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
+        FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
         FilePlan("generated/component.py", _rendered("component.py", view, table)),
         FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
         FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
@@ -99,7 +106,8 @@ def _view(linked: LinkedComponent) -> View:
     ports = Ports(linked)
     names = dict.fromkeys([*(scope.module.name for scope in linked.modules()), BEHAVIOR])
     files = [file_name(scope) for scope in linked.imports]
-    if all(scope.module.name != BEHAVIOR for scope in linked.modules()):
+    has_behavior = all(scope.module.name != BEHAVIOR for scope in linked.modules())
+    if has_behavior:
         files.append("CommonBehavior.ice")
     doc = f"{component.name}: {component.doc}" if component.doc else component.name
     return View(
@@ -112,6 +120,8 @@ def _view(linked: LinkedComponent) -> View:
         modules=[SliceModule(ice_name(name), module_variable(name)) for name in names],
         escape=any(is_forgotten(name) for name in _identifiers(linked)),
         behavior=module_variable(BEHAVIOR),
+        has_behavior=has_behavior,
+        stubs=[stub(scope) for scope in linked.modules()],
         implements=ports.implements,
         subscribes=ports.subscribes,
         served=[*ports.implements, *ports.subscribes],

@@ -16,11 +16,11 @@ from robocomp_yaml.emit.targets.python_names import (
     parameters,
     proxy_method,
 )
-from robocomp_yaml.emit.targets.python_text import docstring, one_line, signature
-from robocomp_yaml.emit.targets.python_types import hint, qualified, zero
+from robocomp_yaml.emit.targets.python_text import about, docstring, one_line, signature
+from robocomp_yaml.emit.targets.python_types import hint, qualified, result_hint, results, zero
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import WAIT
-from robocomp_yaml.model.interface import Member, Method, TypeRef
+from robocomp_yaml.model.interface import Method, TypeRef
 
 IN = "    "
 
@@ -127,42 +127,31 @@ class Ports:
         name = self._names.take(f"{port.interface.name}_{method.name}")
         names = list(parameters((member.name for member in method.inputs), self._modules))
         typed = [f"{n}: {hint(member.type, scope)}" for n, member in zip(names, method.inputs, strict=True)]
-        results = list(_results(method))
-        types = [hint(ref, scope) for ref in results]
-        returns = "None" if not types else types[0] if len(types) == 1 else f"tuple[{', '.join(types)}]"
         throws = [_exception(ref, scope) for ref in method.throws]
         doc = method.doc or f"{port.interface.name}.{method.name}"
         details = "\n".join(_details(method, names, throws))
         return MethodView(
             operation=ice_name(method.name),
             name=name,
-            signature=signature(name, typed, returns, IN),
+            signature=signature(name, typed, result_hint(method, scope), IN),
             throws=_throws(throws),
             docstring=docstring(f"{doc}\n\n{details}", IN * 2),
             summary=docstring(one_line(doc.strip().partition("\n")[0]), IN * 2),
-            value=", ".join(zero(ref, scope) for ref in results),
+            value=", ".join(zero(ref, scope) for ref in results(method)),
         )
-
-
-def _results(method: Method) -> Iterator[TypeRef]:
-    """In the order of Ice's Python mapping."""
-    if method.returns is not None:
-        yield method.returns
-    yield from (member.type for member in method.outputs)
 
 
 def _details(method: Method, names: Sequence[str], throws: Sequence[str]) -> Iterator[str]:
     """What the signature does not say."""
     for name, member in zip(names, method.inputs, strict=True):
-        if said := _said(member):
-            yield f"{name}: {said}"
-    results = ["the result"] if method.returns is not None else []
-    results += [member.name for member in method.outputs]
+        if note := about(member):
+            yield f"{name}: {note}"
     if method.outputs:
-        yield f"Returns {', '.join(results)}."
+        result = [] if method.returns is None else ["the result"]
+        yield f"Returns {', '.join([*result, *(member.name for member in method.outputs)])}."
     for member in method.outputs:
-        if said := _said(member):
-            yield f"{member.name}: {said}"
+        if note := about(member):
+            yield f"{member.name}: {note}"
     if throws:
         yield f"Raises {', '.join(throws)}."
 
@@ -171,10 +160,6 @@ def _throws(exceptions: Sequence[str]) -> str:
     """The argument of the method's row in the table."""
     inner = ", ".join(exceptions)
     return f", throws=({inner},)" if len(exceptions) == 1 else f", throws=({inner})" if exceptions else ""
-
-
-def _said(member: Member) -> str:
-    return " ".join(part for part in (one_line(member.doc), f"[{member.unit}]" if member.unit else "") if part)
 
 
 def _published_methods(port: Port) -> list[Method]:

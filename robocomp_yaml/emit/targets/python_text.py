@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from robocomp_yaml.model.interface import Member
+
 WIDTH = 110
 
 
@@ -29,6 +31,12 @@ def signature(name: str, parameters: Sequence[str], returns: str, indent: str) -
 def one_line(text: str) -> str:
     """A document's text as the rest of a line of comment, or of a list."""
     return " ".join(_plain(text).split())
+
+
+def about(member: Member) -> str:
+    """What a document says of a member or parameter, on one line."""
+    unit = f"[{one_line(member.unit)}]" if member.unit else ""
+    return f"{one_line(member.doc)} {unit}".strip()
 
 
 def _plain(line: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robocomp_yaml.emit.targets.python_names import module_variable, python_name
 from robocomp_yaml.link.program import Definition, LinkedModule
-from robocomp_yaml.model.interface import Enum, Map, Sequence, TypeRef
+from robocomp_yaml.model.interface import Enum, Map, Method, Sequence, TypeRef
 
 _BASIC_HINTS = {
     "bool": "bool",
@@ -31,6 +31,18 @@ def hint(ref: TypeRef, scope: LinkedModule) -> str:
             return f"dict[{hint(key, home)}, {hint(value, home)}]"
         case _:
             return qualified(home, definition.name)
+
+
+def results(method: Method) -> list[TypeRef]:
+    """What a method gives back, in the order of Ice's Python mapping."""
+    returned = [] if method.returns is None else [method.returns]
+    return [*returned, *(member.type for member in method.outputs)]
+
+
+def result_hint(method: Method, scope: LinkedModule) -> str:
+    """The annotation for what a method gives back: several values come as a tuple."""
+    types = [hint(ref, scope) for ref in results(method)]
+    return "None" if not types else types[0] if len(types) == 1 else f"tuple[{', '.join(types)}]"
 
 
 def zero(ref: TypeRef, scope: LinkedModule) -> str:

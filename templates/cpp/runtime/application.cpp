@@ -5,8 +5,10 @@
 
 #include <Ice/Communicator.h>
 #include <Ice/LocalException.h>
+#include <Ice/Properties.h>
 
 #include <future>
+#include <utility>
 
 namespace runtime
 {
@@ -16,10 +18,23 @@ using namespace std::chrono_literals;
 namespace
 {
 
+/// What differs from Ice's own defaults, unless the config file says otherwise.
+constexpr std::pair<const char*, const char*> iceDefaults[] = {
+    {"Ice.Warn.UnknownProperties", "0"},     // parameters may begin with an adapter's name: `Laser.Device`
+    {"CommonBehavior.ThreadPool.Size", "1"}, // a thread of its own: it answers while a method is running
+};
+
 Ice::CommunicatorHolder makeCommunicator(const Settings& settings, Gate& gate)
 {
     Ice::InitializationData data;
-    data.properties = settings.properties();
+    data.properties = settings.properties()->clone();
+    for (const auto& [key, value] : iceDefaults)
+    {
+        if (data.properties->getProperty(key).empty())
+        {
+            data.properties->setProperty(key, value);
+        }
+    }
     data.logger = makeIceLogger();
     data.dispatcher = [&gate](const std::function<void()>& request, const auto&) { gate.dispatch(request); };
     try
@@ -28,18 +43,8 @@ Ice::CommunicatorHolder makeCommunicator(const Settings& settings, Gate& gate)
     }
     catch (const Ice::LocalException& problem)
     {
-        throw StartError("Ice cannot be initialized from " + settings.where() + ": " + problem.what());
+        throw StartError("Ice cannot be initialized from " + settings.where() + ": " + reason(problem));
     }
-}
-
-std::string describe(const std::exception& problem)
-{
-    if (dynamic_cast<const StartError*>(&problem) != nullptr)
-    {
-        return problem.what();
-    }
-    const auto ice = dynamic_cast<const Ice::Exception*>(&problem);
-    return "cannot start: " + (ice != nullptr ? reason(*ice) : problem.what());
 }
 
 }
@@ -52,10 +57,12 @@ Application::Application(
       settings_(commandLine),
       communicator_(makeCommunicator(settings_, gate_)),
       worker_(makeWorker()),
+      defaultPeriod_(worker_->getPeriod()),
       connections_(communicator_.communicator(), settings_, log, shutdown),
       services_(communicator_.communicator(), settings_, log, gate_)
 {
-    worker_->setPeriod(settings_.period(worker_->getPeriod()));
+    worker_->communicator = communicator_.communicator();
+    worker_->setPeriod(settings_.period(defaultPeriod_));
     worker_->requestShutdown_ = [this] { shutdown_.request(); };
 }
 
@@ -98,11 +105,16 @@ void Application::work()
     {
         // As asked for.
     }
+    catch (const StartError& problem)
+    {
+        log_.error(problem.what());
+        shutdown_.request(1);
+    }
     catch (const std::exception& problem)
     {
-        if (!shutdown_.isRequested())
+        if (!shutdown_.isRequested()) // what it was doing may fail when it is told to stop
         {
-            log_.error(describe(problem));
+            log_.error("cannot start: " + describe(problem));
             shutdown_.request(1);
         }
     }
@@ -117,7 +129,8 @@ void Application::work()
 /// Serves first and waits for others then, so that two components may require each other.
 void Application::start()
 {
-    const auto behavior = std::make_shared<CommonBehavior>(*worker_, commandLine_, settings_, log_, shutdown_);
+    const auto behavior = std::make_shared<CommonBehavior>(
+        *worker_, defaultPeriod_, commandLine_, settings_, log_, shutdown_);
     services_.implementIfConfigured("CommonBehavior", "commonbehavior", behavior);
     worker_->connect(connections_, services_);
     worker_->initialize();

@@ -15,8 +15,14 @@ using RoboCompCommonBehavior::ParameterList;
 using RoboCompCommonBehavior::State;
 
 CommonBehavior::CommonBehavior(
-    Worker& worker, const CommandLine& commandLine, const Settings& settings, const Log& log, Shutdown& shutdown)
-    : worker_(worker), commandLine_(commandLine), parameters_(settings.parameters()), log_(log), shutdown_(shutdown)
+    Worker& worker, int defaultPeriod, const CommandLine& commandLine, const Settings& settings, const Log& log,
+    Shutdown& shutdown)
+    : worker_(worker),
+      defaultPeriod_(defaultPeriod),
+      commandLine_(commandLine),
+      parameters_(settings.parameters()),
+      log_(log),
+      shutdown_(shutdown)
 {
 }
 
@@ -82,7 +88,7 @@ void CommonBehavior::reloadConfig(const Ice::Current&)
     try
     {
         const Settings settings(commandLine_);
-        worker_.setPeriod(settings.period(worker_.getPeriod()));
+        worker_.setPeriod(settings.period(defaultPeriod_));
         const std::lock_guard lock(parametersMutex_);
         parameters_ = settings.parameters();
         log_.info("the config is read again; the period is " + std::to_string(worker_.getPeriod()) + " ms");

@@ -23,7 +23,8 @@ class CommonBehavior : public RoboCompCommonBehavior::CommonBehavior
 {
 public:
     CommonBehavior(
-        Worker& worker, const CommandLine& commandLine, const Settings& settings, const Log& log, Shutdown& shutdown);
+        Worker& worker, int defaultPeriod, const CommandLine& commandLine, const Settings& settings, const Log& log,
+        Shutdown& shutdown);
 
     void setRunning();
 
@@ -44,6 +45,7 @@ public:
 
 private:
     Worker& worker_;
+    const int defaultPeriod_;
     const CommandLine& commandLine_;
     std::map<std::string, std::string> parameters_;
     std::mutex parametersMutex_;

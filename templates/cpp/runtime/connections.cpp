@@ -4,7 +4,6 @@
 #include <Ice/Communicator.h>
 #include <Ice/LocalException.h>
 
-#include <cstring>
 #include <future>
 #include <sstream>
 
@@ -30,32 +29,6 @@ std::string seconds(std::chrono::milliseconds time)
 
 }
 
-std::string reason(const Ice::Exception& problem)
-{
-    if (dynamic_cast<const Ice::ConnectionRefusedException*>(&problem) != nullptr)
-    {
-        return "connection refused";
-    }
-    if (dynamic_cast<const Ice::TimeoutException*>(&problem) != nullptr)
-    {
-        return "no answer in time";
-    }
-    if (const auto dns = dynamic_cast<const Ice::DNSException*>(&problem))
-    {
-        return "host " + dns->host + " is unknown";
-    }
-    if (dynamic_cast<const Ice::ObjectNotExistException*>(&problem) != nullptr)
-    {
-        return "the process answers, but has no such object";
-    }
-    if (const auto system = dynamic_cast<const Ice::SyscallException*>(&problem))
-    {
-        return std::strerror(system->error);
-    }
-    const auto id = problem.ice_id();
-    return id.substr(id.rfind(':') + 1);
-}
-
 Connections::Connections(
     std::shared_ptr<Ice::Communicator> communicator, const Settings& settings, const Log& log, const Shutdown& shutdown)
     : communicator_(std::move(communicator)), settings_(settings), log_(log), shutdown_(shutdown)
@@ -65,19 +38,20 @@ Connections::Connections(
 std::shared_ptr<Ice::ObjectPrx> Connections::connect(const Requirement& requirement) const
 {
     const auto& [name, absent, timeout] = requirement;
-    const auto what = "the proxy to " + name;
-    const auto text = settings_.required(what, {name + "Proxy", "Proxies." + name});
-    const auto proxy = parse(what, text);
+    const auto sought = "the proxy to " + name;
+    const auto text = settings_.required(sought, {name + "Proxy", "Proxies." + name});
+    const auto what = name + " at " + text;
+    const auto proxy = parse(sought, text);
     if (absent == Absent::wait)
     {
-        waitFor(name, text, proxy, timeout);
+        waitFor(what, proxy, timeout);
     }
     if (absent == Absent::fail)
     {
         const auto why = ping(proxy, timeout.value_or(patience));
         if (!why.empty())
         {
-            throw StartError(name + " is not there, at " + text + ": " + why);
+            throw StartError(what + " is not there (" + why + ")");
         }
     }
     return timeout ? proxy->ice_invocationTimeout(static_cast<int>(timeout->count())) : proxy;
@@ -85,10 +59,10 @@ std::shared_ptr<Ice::ObjectPrx> Connections::connect(const Requirement& requirem
 
 std::shared_ptr<Ice::ObjectPrx> Connections::topicManager() const
 {
-    const auto what = "IceStorm's topic manager";
-    const auto text = settings_.required(what, {"TopicManager.Proxy", "Proxies.TopicManager"});
-    const auto proxy = parse(what, text);
-    waitFor("TopicManager", text, proxy, std::nullopt);
+    const auto sought = "IceStorm's topic manager";
+    const auto text = settings_.required(sought, {"TopicManager.Proxy", "Proxies.TopicManager"});
+    const auto proxy = parse(sought, text);
+    waitFor("TopicManager at " + text, proxy);
     return proxy;
 }
 
@@ -97,9 +71,9 @@ const Settings& Connections::settings() const
     return settings_;
 }
 
-std::shared_ptr<Ice::ObjectPrx> Connections::parse(const std::string& what, const std::string& text) const
+std::shared_ptr<Ice::ObjectPrx> Connections::parse(const std::string& sought, const std::string& text) const
 {
-    const auto problem = what + " is '" + text + "' in " + settings_.where() + ": that is no proxy";
+    const auto problem = sought + " is '" + text + "' in " + settings_.where() + ": that is no proxy";
     try
     {
         if (auto proxy = communicator_->stringToProxy(text))
@@ -123,8 +97,7 @@ std::shared_ptr<Ice::ObjectPrx> Connections::parse(const std::string& what, cons
 }
 
 void Connections::waitFor(
-    const std::string& name, const std::string& text, const std::shared_ptr<Ice::ObjectPrx>& proxy,
-    std::optional<Milliseconds> timeout) const
+    const std::string& what, const std::shared_ptr<Ice::ObjectPrx>& proxy, std::optional<Milliseconds> timeout) const
 {
     const auto begin = Clock::now();
     auto nextLine = begin;
@@ -133,11 +106,11 @@ void Connections::waitFor(
         const auto now = Clock::now();
         if (timeout && now - begin >= *timeout)
         {
-            throw StartError(name + " did not answer within " + seconds(*timeout) + " at " + text + ": " + why);
+            throw StartError(what + " did not answer within " + seconds(*timeout) + " (" + why + ")");
         }
         if (now >= nextLine)
         {
-            log_.info("waiting for " + name + " at " + text + " ... (" + why + ")");
+            log_.info("waiting for " + what + " ... (" + why + ")");
             nextLine = now + remind;
         }
         if (shutdown_.waitFor(pause))

@@ -35,7 +35,7 @@ int run(const std::string& name, int argc, const char* const* argv, const Worker
     }
     catch (const std::exception& problem)
     {
-        log.error(problem.what());
+        log.error(describe(problem));
         return 1;
     }
 }

@@ -4,6 +4,7 @@
 #include <Ice/Initialize.h>
 #include <Ice/LocalException.h>
 #include <Ice/Properties.h>
+#include <Ice/StringConverter.h>
 
 #include <cerrno>
 #include <charconv>
@@ -15,12 +16,6 @@ namespace runtime
 
 namespace
 {
-
-/// What differs from Ice's own defaults, unless the config file says otherwise.
-constexpr std::pair<const char*, const char*> defaults[] = {
-    {"Ice.Warn.UnknownProperties", "0"},     // parameters may begin with an adapter's name: `Laser.Device`
-    {"CommonBehavior.ThreadPool.Size", "1"}, // a thread of its own: it answers while a method is running
-};
 
 /// Without the double quotes around it that TOML wants and Ice does not know.
 std::string unquoted(const std::string& value)
@@ -44,10 +39,6 @@ std::string shown(const std::filesystem::path& file)
 
 Settings::Settings(const CommandLine& commandLine) : files_(commandLine.files), properties_(Ice::createProperties())
 {
-    for (const auto& [key, value] : defaults)
-    {
-        properties_->setProperty(key, value);
-    }
     for (const auto& file : files_)
     {
         load(file);
@@ -71,13 +62,32 @@ void Settings::load(const std::filesystem::path& file)
     {
         fail(std::strerror(errno));
     }
+    checkText(file);
     try
     {
         properties_->load(file.string());
     }
     catch (const Ice::LocalException& problem)
     {
-        fail(problem.what());
+        fail(reason(problem));
+    }
+}
+
+/// Ice takes any bytes, but what is no UTF-8 cannot be sent to others. Old comments may be in any encoding.
+void Settings::checkText(const std::filesystem::path& file)
+{
+    std::ifstream lines(file);
+    int number = 1;
+    for (std::string line; std::getline(lines, line); ++number)
+    {
+        try
+        {
+            Ice::stringToWstring(line.substr(0, line.find('#')));
+        }
+        catch (const Ice::IllegalConversionException&)
+        {
+            throw StartError(shown(file) + ":" + std::to_string(number) + ": this line is not in UTF-8");
+        }
     }
 }
 

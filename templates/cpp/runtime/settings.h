@@ -2,11 +2,11 @@
 #pragma once
 
 #include "commandline.h"
+#include "errors.h"
 
 #include <initializer_list>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 namespace Ice
@@ -16,13 +16,6 @@ class Properties;
 
 namespace runtime
 {
-
-/// Why the component cannot start, in words for the person who started it.
-class StartError : public std::runtime_error
-{
-public:
-    using std::runtime_error::runtime_error;
-};
 
 /// The component's properties: its config file, with the command line on top.
 ///
@@ -53,6 +46,7 @@ public:
 
 private:
     void load(const std::filesystem::path& file);
+    static void checkText(const std::filesystem::path& file);
 
     std::vector<std::filesystem::path> files_;
     std::shared_ptr<Ice::Properties> properties_;

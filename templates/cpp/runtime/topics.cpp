@@ -9,6 +9,25 @@
 namespace runtime
 {
 
+namespace
+{
+
+/// Carries out what Ice's exceptions must not end with a riddle.
+template <typename Question>
+auto ask(const std::string& topic, const Question& question)
+{
+    try
+    {
+        return question();
+    }
+    catch (const Ice::LocalException& problem)
+    {
+        throw StartError("cannot ask IceStorm for the topic " + topic + ": " + reason(problem));
+    }
+}
+
+}
+
 Topics::Topics(const Connections& connections)
     : connections_(connections),
       manager_(Ice::uncheckedCast<IceStorm::TopicManagerPrx>(connections.topicManager()))
@@ -19,10 +38,11 @@ void Topics::subscribe(
     Services& services, const std::string& name, const std::string& topic,
     const std::shared_ptr<Ice::Object>& servant) const
 {
-    const auto source = find(name, topic, "Proxies." + name + "Prefix");
+    const auto fullName = nameOf(name, topic, "Proxies." + name + "Prefix");
+    const auto source = ask(fullName, [&] { return find(fullName); });
     const auto subscriber = services.listen(name, topic, servant)->ice_oneway();
-    const auto begin = [source, subscriber] { source->subscribeAndGetPublisher({}, subscriber); };
-    const auto end = [source, subscriber]
+    const auto begin = [=] { ask(fullName, [&] { source->subscribeAndGetPublisher({}, subscriber); }); };
+    const auto end = [=]
     {
         try
         {
@@ -38,16 +58,20 @@ void Topics::subscribe(
 
 std::shared_ptr<Ice::ObjectPrx> Topics::publisher(const std::string& name, const std::string& topic) const
 {
-    return find(name, topic, "Proxies." + name + "PubPrefix")->getPublisher()->ice_oneway();
+    const auto fullName = nameOf(name, topic, "Proxies." + name + "PubPrefix");
+    return ask(fullName, [&] { return find(fullName)->getPublisher()->ice_oneway(); });
 }
 
-std::shared_ptr<IceStorm::TopicPrx>
-Topics::find(const std::string& name, const std::string& topic, const std::string& prefixKey) const
+std::string Topics::nameOf(const std::string& name, const std::string& topic, const std::string& prefixKey) const
 {
     const auto& settings = connections_.settings();
     const auto renamed = settings.first({name});
     const auto prefix = settings.first({prefixKey});
-    const auto fullName = (prefix.empty() ? "" : prefix + "/") + (renamed.empty() ? topic : renamed);
+    return (prefix.empty() ? "" : prefix + "/") + (renamed.empty() ? topic : renamed);
+}
+
+std::shared_ptr<IceStorm::TopicPrx> Topics::find(const std::string& fullName) const
+{
     // Another component may create or destroy the topic at any moment.
     while (true)
     {

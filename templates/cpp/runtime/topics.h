@@ -42,9 +42,11 @@ public:
 private:
     std::shared_ptr<Ice::ObjectPrx> publisher(const std::string& name, const std::string& topic) const;
 
+    /// The topic's name.
+    std::string nameOf(const std::string& name, const std::string& topic, const std::string& prefixKey) const;
+
     /// The topic, created if nobody has yet.
-    std::shared_ptr<IceStorm::TopicPrx>
-    find(const std::string& name, const std::string& topic, const std::string& prefixKey) const;
+    std::shared_ptr<IceStorm::TopicPrx> find(const std::string& fullName) const;
 
     const Connections& connections_;
     const std::shared_ptr<IceStorm::TopicManagerPrx> manager_;

@@ -6,8 +6,14 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
+
+namespace Ice
+{
+class Communicator;
+}
 
 namespace runtime
 {
@@ -48,6 +54,7 @@ public:
 
 protected:
     std::recursive_mutex mutex;
+    std::shared_ptr<Ice::Communicator> communicator;
     const Log log;
 
 private:

@@ -12,7 +12,7 @@ import Ice
 from generated.runtime import commonbehavior, servants, worker
 from generated.runtime.errors import StartError
 from generated.runtime.log import IceLogger
-from generated.runtime.ports import Component
+from generated.runtime.ports import Component, Subscribed
 from generated.runtime.proxies import connect
 from generated.runtime.schedule import Schedule
 from generated.runtime.settings import Settings
@@ -66,18 +66,21 @@ class Application:
 
     def _watch_ice(self) -> None:
         """Ice.Admin's shutdown (IceGrid uses it) is a request to stop, too."""
-        self._communicator.waitForShutdown()
+        try:
+            self._communicator.waitForShutdown()
+        except Ice.CommunicatorDestroyedException:
+            pass  # it was told to stop before it had started
         self._stopping.request()
 
     def _work(self, only_check: bool) -> None:
         try:
             running = self._start()
-        except StartError as error:
-            self._log.error(error)
-            self._stopping.request(1)
-        except Exception:
+        except Exception as error:
             if not self._stopping.is_requested():  # what it was doing may fail when it is told to stop
-                self._log.exception("cannot start")
+                if isinstance(error, StartError):
+                    self._log.error(error)
+                else:
+                    self._log.exception("cannot start")
                 self._stopping.request(1)
         else:
             if only_check:
@@ -97,11 +100,13 @@ class Application:
             adapter.add(servant, Ice.stringToIdentity(port.identity))
             adapter.activate()
         proxies = self._connect()
+        subscribers = self._listen()
         context = worker.Context(self._component.name, self._communicator, self._schedule, self._stopping, proxies)
         running = self._worker_class(context)
         running.initialize()
         self._gate.open(running)
-        self._subscribe()
+        for port, subscriber in subscribers:
+            self._topics.subscribe(port, subscriber)
         if behavior:
             behavior.is_running = True
         return running
@@ -112,9 +117,7 @@ class Application:
         endpoints = self._settings.first(f"{name}.Endpoints", f"Endpoints.{name}")
         if not endpoints or any(port.name == name for port in self._component.implements):
             return None
-        behavior = commonbehavior.servant(
-            self._component, self._settings, self._schedule, self._stopping, self._log
-        )
+        behavior = commonbehavior.servant(self._component, self._settings, self._schedule, self._stopping, self._log)
         adapter = self._adapter(name, endpoints)
         adapter.add(behavior, Ice.stringToIdentity("commonbehavior"))
         adapter.activate()
@@ -141,13 +144,14 @@ class Application:
             proxies[port.accessor] = self._topics.publisher(port)
         return proxies
 
-    def _subscribe(self) -> None:
+    def _listen(self) -> list[tuple[Subscribed, Ice.ObjectPrx]]:
+        """An object for each subscription. IceStorm knows subscribers by their identity, so it must be unique."""
+        subscribers = []
         for port in self._component.subscribes:
             adapter = self._adapter(f"{port.name}Topic", self._settings.topic_endpoints(port.name))
-            servant = servants.servant(port.interface, port.methods, self._gate)
-            proxy = adapter.addWithUUID(servant)
+            subscribers.append((port, adapter.addWithUUID(servants.servant(port.interface, port.methods, self._gate))))
             adapter.activate()
-            self._topics.subscribe(port, proxy)
+        return subscribers
 
 
 def _initialization(settings: Settings) -> Ice.InitializationData:

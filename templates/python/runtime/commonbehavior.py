@@ -64,11 +64,12 @@ class Behavior:
     def reloadConfig(self, current: Ice.Current) -> None:
         """Reads the config again; what takes effect is the period."""
         try:
-            self._settings = self._settings.reloaded()
-            self._schedule.period = self._settings.period(self._component.period)
+            settings = self._settings.reloaded()
+            self._schedule.period = settings.period(self._component.period)
         except StartError as error:
             self._log.warning("reloadConfig refused: %s", error)
         else:
+            self._settings = settings
             self._log.info("the config is read again; the period is %s ms", self._schedule.period)
 
     def getState(self, current: Ice.Current) -> Any:

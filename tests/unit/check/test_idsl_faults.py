@@ -51,7 +51,7 @@ FAULTS = [
     Fault("DuplicateParameter", "RC1003", "7:31", "two parameters",
           METHODS + "      f: {in: {a: int}, out: {a: int}}\n"),
     Fault("CaseInsensitive", "RC1004", "4:3", "'A' and 'a'", TYPES + "  A: {sequence: int}\n  a: {sequence: int}\n"),
-    Fault("CaseInsensitive member", "RC1004", "3:24", "struct A", TYPES + "  A: {struct: {a: int, A: int}}\n"),
+    Fault("CaseInsensitive member", "RC1004", "3:24", "struct S", TYPES + "  S: {struct: {a: int, A: int}}\n"),
     Fault("OperationRedefinition", "RC1004", "8:7", "methods 'go' and 'Go'", METHODS + "      go:\n      Go:\n"),
     Fault("NameCanNotBeUsed", "RC1005", "7:7", "the method 'Map'", METHODS + "      Map:\n"),
     Fault("name of the module", "RC1005", "3:3", "the sequence 'RobocompMap'",
@@ -152,6 +152,46 @@ def test_what_other_languages_reserve_is_allowed(diagnostics: Callable[..., list
 def test_a_sequence_as_a_key_is_a_warning(diagnostics: Callable[..., list[dict]]) -> None:
     said = diagnostics({"Map.idsl.yaml": TYPES + "  Q: {sequence: int}\n  D: {map: {key: Q, value: int}}\n"})
     assert [(d["code"], d["severity"]) for d in said] == [("RC1017", "warning")]
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        (TYPES + "  Text: {struct: {Text: string}}\n", "call it 'text'"),
+        (METHODS + "      Pose: {returns: Pose}\n", "call it 'pose'"),
+        (METHODS + "      Busy: {throws: [Busy]}\n", "call it 'busy'"),
+    ],
+)
+def test_what_ice_cannot_say_in_cpp_is_a_warning(
+    text: str, hint: str, diagnostics: Callable[..., list[dict]]
+) -> None:
+    said = diagnostics({"Map.idsl.yaml": text})
+    assert [(d["code"], d["severity"], d["hint"]) for d in said] == [("RC1026", "warning", hint)]
+
+
+@pytest.mark.parametrize(
+    ("type_", "value", "hint"),
+    [
+        ("double", "3.141592653589793", "let the programs"),
+        ("float", "3.14159265", "let the programs"),
+        ("float", "1e-7", "use double"),
+        ("float", "1e20", "use double"),
+    ],
+)
+def test_a_number_that_ice_changes_is_a_warning(
+    type_: str, value: str, hint: str, diagnostics: Callable[..., list[dict]]
+) -> None:
+    said = diagnostics({"Map.idsl.yaml": f"module: M\nconstants: {{c: {{type: {type_}, value: {value}}}}}\n"})
+    assert [(d["code"], d["severity"], d["line"]) for d in said] == [("RC1025", "warning", 2)]
+    assert hint in said[0]["hint"]
+
+
+@pytest.mark.parametrize(
+    ("type_", "value"),
+    [("double", "1e-7"), ("float", "1.5e-7"), ("float", ".1"), ("double", "1234567.0"), ("float", "1e6")],
+)
+def test_a_number_that_arrives(type_: str, value: str, diagnostics: Callable[..., list[dict]]) -> None:
+    assert diagnostics({"Map.idsl.yaml": f"module: M\nconstants: {{c: {{type: {type_}, value: {value}}}}}\n"}) == []
 
 
 def test_two_knots_of_types_are_told_apart(diagnostics: Callable[..., list[dict]]) -> None:

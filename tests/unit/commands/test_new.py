@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from tests.conftest import read_tree, write_tree
+from conftest import read_tree, write_tree
 
 Run = Callable[..., Result]
 WORKSPACE = {"rcyaml.yaml": "interfaces: [interfaces]\n", "interfaces": None}

@@ -10,7 +10,7 @@ import pytest
 from click.testing import Result
 
 from robocomp_yaml import resources
-from tests.conftest import write_tree
+from conftest import write_tree
 
 Run = Callable[..., Result]
 
@@ -65,7 +65,11 @@ def test_a_stale_schema_is_told(rcyaml: Run, tmp_path: Path, content: str | None
 
 @pytest.mark.parametrize(
     ("argument", "reason"),
-    [("ids", "did you mean 'idsl'?"), ("robot", "kinds are idsl, cdsl, workspace"), ("a.idsl.yaml", "there is no file")],
+    [
+        ("ids", "did you mean 'idsl'?"),
+        ("robot", "kinds are idsl, cdsl, workspace"),
+        ("a.idsl.yaml", "there is no file"),
+    ],
 )
 def test_what_is_neither_kind_nor_document_is_refused(rcyaml: Run, argument: str, reason: str) -> None:
     said = rcyaml("schema", argument)

@@ -21,7 +21,7 @@ SPEECH = {
     "Types.idsl.yaml": """\
 module: RoboCompTypes
 types:
-  Pose: {struct: {x: float, y: float}}
+  Pose: {struct: {x: {type: float, unit: mm, doc: To the right.}, y: float}}
 """,
     "Speech.idsl.yaml": """\
 module: RoboCompSpeech

@@ -37,7 +37,8 @@ constants:
   limit: {type: int, value: 100, unit: percent}
   greeting: {type: string, value: "\"Hi\",\n\tand \\ went??! é", doc: What it says first.}
   ratio: {type: double, value: .9}
-  huge: {type: float, value: 99999999999999999999}
+  huge: {type: double, value: 99999999999999999999}
+  limit_m: {type: float, value: 1e6, unit: m}
   isOn: {type: bool, value: True}
   mother: {type: Language, value: english}
   side: {type: Types.Side, value: right}
@@ -156,6 +157,16 @@ def test_a_guard_is_no_identifier(tmp_path: Path) -> None:
 def test_slice_knows_nothing_of_legacy_names(tmp_path: Path) -> None:
     lines = body(tmp_path, "interfaces: {I: {methods: {f: , f_2: {in: {a: int}, x-legacy-name: f}}}}\n")
     assert "    void f_2(int a);" in lines
+
+
+def test_keys_of_other_tools_are_no_names(tmp_path: Path) -> None:
+    text = (
+        "x-a: 1\nconstants: {x-b: 1}\nexceptions: {x-g: 1}\n"
+        "types: {x-c: 1, S: {x-d: 1, struct: {x-e: 1, a: int}}, E: {enum: {x-f: 1, a: 2}}}\n"
+        "interfaces: {x-h: 1, I: {x-i: 1, methods: {x-j: 1, f: {x-k: 1, in: {x-l: 1, a: int}}}}}\n"
+    )
+    lines = [line for line in body(tmp_path, text) if line.strip(" {};")]
+    assert lines == ["  struct S", "    int a;", "  enum E { a = 2 };", "  interface I", "    void f(int a);"]
 
 
 def test_the_order_of_a_broken_module_ends() -> None:

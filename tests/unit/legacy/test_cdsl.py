@@ -119,7 +119,8 @@ def test_lists_keep_order_and_multiplicity(tmp_path: Path, listed: str, written:
     ("Component C { language Cpp//Cpp11//python;\n };", ["1:26 a ';' is missing here"]),
     ("Component C { gui Qt(QWidget//QDialog);\n language cpp; };",
      ["1:28 a ')' is missing here", "1:28 a ';' is missing here"]),
-    ("Component C { language cpp; useQt qt4; };", ["1:29 'qt4' means nothing any more; it is kept as `x-legacy-use-qt`"]),
+    ("Component C { language cpp; useQt qt4; };",
+     ["1:29 'qt4' means nothing any more; it is kept as `x-legacy-use-qt`"]),
     ("Component C { Communications { requires A(ros); }; language cpp; };",
      ["1:41 'A' is to speak ROS, but components speak Ice; kept as `x-middleware: ros`"]),
     ('Component C { language cpp; statemachine "c.scxml"; };',
@@ -127,5 +128,5 @@ def test_lists_keep_order_and_multiplicity(tmp_path: Path, listed: str, written:
     ("Component C { language cpp; ; };", ["1:29 a ';' too many is left out"]),
 ])  # fmt: skip
 def test_faults_of_real_files_are_repaired(tmp_path: Path, source: str, said: list[str]) -> None:
-    assert "component: C\nlanguage: cpp\n" in migrated(tmp_path, source, "c.cdsl").replace("cpp  # Cpp11//python;", "cpp")
+    assert migrated(tmp_path, source, "c.cdsl").startswith("component: C\nlanguage: cpp")
     assert warnings(tmp_path, source, "c.cdsl") == said

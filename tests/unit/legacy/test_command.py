@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Callable
@@ -36,7 +37,8 @@ def test_a_folder_becomes_a_workspace(rcyaml: Run, tmp_path: Path) -> None:
     assert _documents(tmp_path / "new") == {
         "components/speech/speech.cdsl.yaml": "# yaml-language-server: $schema=../../.rcyaml/schemas/cdsl.schema.json\n"
         "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n",
-        "interfaces/Speech.idsl.yaml": "# yaml-language-server: $schema=../.rcyaml/schemas/idsl.schema.json\n" + SPEECH_YAML,
+        "interfaces/Speech.idsl.yaml":
+        "# yaml-language-server: $schema=../.rcyaml/schemas/idsl.schema.json\n" + SPEECH_YAML,
         "rcyaml.yaml": "# yaml-language-server: $schema=.rcyaml/schemas/workspace.schema.json\n"
         "interfaces: [interfaces]\n# Files that were not there to be migrated are imported still.\n"
         "lint:\n  RC1101: warning\n  RC2101: warning\n",
@@ -215,6 +217,26 @@ def test_one_output_that_cannot_be_written_does_not_stop_the_others(rcyaml: Run,
     assert result.exit_code == 1 and result.stdout.count("RC5023") == 1
     assert (tmp_path / "out/b/Mouth.idsl.yaml").is_file()
     assert (tmp_path / "out/a").read_text(encoding="utf-8") == "a file\n"
+
+
+def test_a_full_disk_leaves_everything_as_it_was(
+    rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_tree(tmp_path, {"in/A.idsl": "module A { };\n", "in/B.idsl": "module B { };\n"})
+    real = os.write
+
+    def full(file: int, data: bytes) -> int:
+        if b"module" in bytes(data):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return real(file, data)
+
+    monkeypatch.setattr(os, "write", full)
+    result = rcyaml("migrate", "in", "-o", "out")
+    assert result.exit_code == 1
+    assert result.stdout.count("RC5023") == 1 and "2 files below out cannot be written: no space left" in result.stdout
+    assert not list(tmp_path.glob("out/**/*.idsl.yaml")) and not list(tmp_path.glob("out/**/*.new"))
+    monkeypatch.undo()
+    assert rcyaml("migrate", str(tmp_path / "in"), "-o", str(tmp_path / "out")).exit_code == 0
 
 
 def test_names_with_blanks_and_letters_of_the_world(rcyaml: Run, tmp_path: Path) -> None:

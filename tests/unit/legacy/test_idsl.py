@@ -298,4 +298,5 @@ def test_guards_and_includes_of_slice_files(tmp_path: Path) -> None:
 def test_the_format_is_told_by_the_content(tmp_path: Path) -> None:
     assert migrated(tmp_path, "module M { };", "noSuffix") == "module: M\n"
     assert migrated(tmp_path, "Component C { language cpp; };", "c.idsl").startswith("component: C\n")
-    assert warnings(tmp_path, "Component C { language cpp; };", "c.idsl") == ["1:1 the name says IDSL, but this is CDSL"]
+    said = warnings(tmp_path, "Component C { language cpp; };", "c.idsl")
+    assert said == ["1:1 the name says IDSL, but this is CDSL"]

@@ -47,7 +47,9 @@ def test_the_users_settings_stay(tmp_path: Path) -> None:
     assert workspace_files.settings_problem(tmp_path) == ""
 
 
-@pytest.mark.parametrize(("content", "reason"), [(b"{ nonsense", "it is not JSON"), (b"\xff\xfe", "it is not UTF-8 text")])
+@pytest.mark.parametrize(
+    ("content", "reason"), [(b"{ nonsense", "it is not JSON"), (b"\xff\xfe", "it is not UTF-8 text")]
+)
 def test_settings_that_cannot_be_read_are_left(tmp_path: Path, content: bytes, reason: str) -> None:
     settings = tmp_path / ".vscode/settings.json"
     settings.parent.mkdir()

@@ -1,0 +1,104 @@
+"""Every command that the documentation shows is run, and prints what the page says.
+
+In a page, a code block behind `<!-- file: PATH -->` is a file (an existing one is replaced), and a `console` block is a
+session: lines that start with `$ ` are commands, the others what they print. A page's blocks are run from top to
+bottom in one empty folder. `<!-- in: FOLDER -->` starts from a copy of a folder of the project. A line `…` stands for
+any lines. `pytest tests/docs --update-golden` writes what the commands print.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from conftest import ROOT
+
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+_BLOCK = re.compile(
+    r"(?:<!-- (?P<mark>file|in): (?P<name>\S+) -->\n)?```(?P<kind>\w+)\n(?P<body>.*?)^```$|<!-- in: (?P<folder>\S+) -->",
+    re.MULTILINE | re.DOTALL,
+)
+
+
+@dataclass
+class Session:
+    """A command with the output that the page shows, and the place of that output in the page."""
+
+    command: str
+    shown: str
+    start: int
+    end: int
+
+
+def sessions(body: str, offset: int) -> Iterator[Session]:
+    position = 0
+    current: Session | None = None
+    for line in body.splitlines(keepends=True):
+        position += len(line)
+        if line.startswith("$ "):
+            if current:
+                yield current
+            current = Session(line[2:].rstrip("\n"), "", offset + position, offset + position)
+        elif current:
+            current.shown += line
+            current.end = offset + position
+    if current:
+        yield current
+
+
+def run(command: str, folder: Path) -> str:
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    plain = {key: value for key, value in os.environ.items() if not key.startswith("RCYAML")}
+    done = subprocess.run(
+        ["bash", "-c", command], cwd=folder, env={**plain, "PATH": path}, text=True, timeout=60,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    )  # fmt: skip
+    return done.stdout
+
+
+def matches(shown: str, printed: str) -> bool:
+    parts = [re.escape(part) for part in re.split(r"^…\n", shown, flags=re.MULTILINE)]
+    return re.fullmatch("(?:.*\n)*?".join(parts), printed) is not None
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_page(page: Path, tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    text = page.read_text(encoding="utf-8")
+    replaced: list[tuple[Session, str]] = []
+    for block in _BLOCK.finditer(text):
+        folder = block["folder"] or (block["name"] if block["mark"] == "in" else None)
+        if folder:
+            shutil.copytree(ROOT / folder, tmp_path, dirs_exist_ok=True)
+        if block["mark"] == "file":
+            target = tmp_path / block["name"]
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(block["body"], encoding="utf-8")
+        if block["kind"] == "console":
+            for session in sessions(block["body"], block.start("body")):
+                printed = run(session.command, tmp_path)
+                if not matches(session.shown, printed):
+                    replaced.append((session, printed))
+    if request.config.getoption("--update-golden"):
+        for session, printed in reversed(replaced):
+            text = text[: session.start] + printed + text[session.end :]
+        page.write_text(text, encoding="utf-8")
+        return
+    assert [(s.command, s.shown) for s, _ in replaced] == [(s.command, printed) for s, printed in replaced]
+
+
+def test_the_pages_show_commands() -> None:
+    assert sum(page.read_text(encoding="utf-8").count("\n$ ") for page in PAGES) > 20
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path) -> None:
+    for link in re.findall(r"\]\((?!https?:|#|mailto:)([^)#\s]+)", page.read_text(encoding="utf-8")):
+        assert (page.parent / link).exists(), link

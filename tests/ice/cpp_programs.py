@@ -1,0 +1,83 @@
+"""C++ components, built with CMake once for a whole run of the tests: each costs many seconds."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import subprocess
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from components import build
+from cpp_sources import DOCUMENTS, SOURCES
+
+needs_cpp = pytest.mark.skipif(
+    not all(map(shutil.which, ("cmake", "g++", "slice2cpp"))) or not Path("/usr/include/Ice/Ice.h").is_file(),
+    reason="CMake, g++ or Ice for C++ is not installed (Debian: cmake g++ libzeroc-ice-dev zeroc-ice-compilers)",
+)
+
+
+@dataclass(frozen=True)
+class Program:
+    """A built component. Its folder is shared between tests: each brings a config of its own."""
+
+    name: str
+    root: Path
+
+    @property
+    def path(self) -> Path:
+        return self.root / "bin" / self.name
+
+    def command(self, folder: Path, properties: Mapping[str, object]) -> list[str | Path]:
+        """Runs it with a config that holds these."""
+        config = folder / f"{self.name}.config"
+        config.write_text("".join(f"{key} = {value}\n" for key, value in properties.items()))
+        return [self.path, config]
+
+
+Programs = Callable[[str], Program]
+
+
+def cmake(root: Path, *options: str, jobs: int = 2) -> None:
+    """Configures and builds; any warning fails."""
+    folder = str(root / "build")
+    for command in (["cmake", "-S", str(root), "-B", folder, "-DCMAKE_CXX_FLAGS=-Werror", *options],
+                    ["cmake", "--build", folder, "-j", str(jobs)]):
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert done.returncode == 0, f"{' '.join(command)}\n{done.stdout}\n{done.stderr}"
+
+
+@contextmanager
+def locked(file: Path) -> Iterator[None]:
+    """One process at a time."""
+    with file.open("w") as stream:
+        fcntl.flock(stream, fcntl.LOCK_EX)
+        yield
+
+
+@pytest.fixture(scope="session")
+def programs(tmp_path_factory: pytest.TempPathFactory) -> Programs:
+    """`programs("Server")`: built by the first test that asks, in whichever of pytest-xdist's processes."""
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    folder = shared / "c++ ñ"  # with a blank and more
+    folder.mkdir(exist_ok=True)
+    with locked(shared / "documents.lock"):
+        if not (folder / "Arm.idsl.yaml").is_file():
+            for name, component in build(DOCUMENTS, folder).items():
+                if source := SOURCES.get(name):
+                    (component.root / "src" / "specificworker.cpp").write_text(source)
+
+    def program(name: str) -> Program:
+        found = Program(name, folder / name.lower())
+        with locked(shared / f"{name}.lock"):
+            if not found.path.is_file():
+                # The server as users build it, with the optimizer's warnings; the others as fast as can be.
+                cmake(found.root, *([] if name == "Server" else ["-DCMAKE_BUILD_TYPE=Plain"]))
+        return found
+
+    return program

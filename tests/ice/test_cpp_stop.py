@@ -1,0 +1,146 @@
+"""A C++ component stops in order, within two seconds, whatever it is doing; CommonBehavior and the worker's period."""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from cpp_programs import Programs, needs_cpp
+from processes import PATIENCE, Ports, Running, Start, until
+
+pytestmark = [pytest.mark.slow, needs_cpp]
+BOTH = pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["INT", "TERM"])
+Ask = Callable[[int], Any]
+
+
+@pytest.fixture
+def server(programs: Programs, free_port: Ports, tmp_path: Path) -> list[str | Path]:
+    """The command that starts it."""
+    ports = {f"{name}.Endpoints": f"tcp -h 127.0.0.1 -p {free_port()}" for name in ("Arm", "Hand")}
+    return programs("Server").command(tmp_path, ports)
+
+
+@BOTH
+def test_a_signal_stops_it(server: list[str | Path], start: Start, number: int) -> None:
+    running = start(server).wait_for("Server is running")
+    begin = time.monotonic()
+    assert running.stop(number) == 0
+    assert time.monotonic() - begin < 1, "at once: nothing holds it up"
+    assert "terminate" not in running.output
+
+
+@BOTH
+def test_with_a_method_that_is_stuck(
+    server: list[str | Path], start: Start, ice: Any, slices: None, number: int
+) -> None:
+    import RoboCompArm
+
+    running = start(server).wait_for("Server is running")
+    endpoint = Path(server[1]).read_text().partition("= ")[2].splitlines()[0]
+    call = RoboCompArm.ArmPrx.uncheckedCast(ice.stringToProxy(f"arm:{endpoint}")).blockAsync(60)
+    running.wait_for("blocking")
+    assert running.stop(number, within=2.0) == 0
+    assert "WARNING stop: a method is still running after 1.5 s: ending without it" in running.output
+    assert call.exception(5) is not None
+
+
+def test_many_signals(server: list[str | Path], start: Start) -> None:
+    for _ in range(5):
+        running = start(server).wait_for("Server is running")
+        for _ in range(50):
+            running.process.send_signal(signal.SIGTERM)
+        assert running.exit_code(2) == 0
+
+
+def test_start_and_stop_again_and_again(server: list[str | Path], start: Start) -> None:
+    for _ in range(10):
+        running = start([*server, "--startup-check"])
+        assert running.exit_code() == 0
+        assert "Server starts as it should" in running.output
+
+
+@pytest.fixture
+def port(free_port: Ports) -> int:
+    return free_port()
+
+
+@pytest.fixture
+def turns(programs: Programs, port: int, tmp_path: Path) -> list[str | Path]:
+    """The command that starts a component whose worker says when it has a turn."""
+    endpoint = f"tcp -h 127.0.0.1 -p {port}"
+    return programs("Turns").command(tmp_path, {"CommonBehavior.Endpoints": endpoint, "Ice.Warn.Connections": 0, "a": 1})
+
+
+def rows(running: Running) -> list[tuple[int, int]]:
+    """The number and the moment of each turn so far."""
+    lines = [line.split() for line in running.output.splitlines() if line.startswith("turn ")]
+    return [(int(line[1]), int(line[2])) for line in lines if len(line) == 4]
+
+
+def test_a_turn_every_period(turns: list[str | Path], start: Start) -> None:
+    """A failure is logged and survived; after a turn that took long, the next ones come on the old beat."""
+    running = start(turns)
+    until(lambda: len(rows(running)) > 20, "twenty turns")
+    assert "ERROR Turns: compute() failed: the third one fails\n" in running.output
+    moments = dict(rows(running))
+    assert 3 not in moments
+    assert moments[1] >= 39 and moments[6] - moments[5] >= 240
+    assert moments[20] >= 20 * 40 + 5 * 40, "what was missed is left out"
+
+
+def test_what_it_tells(turns: list[str | Path], start: Start, behavior: Ask, port: int) -> None:
+    start(turns).wait_for("Turns is running")
+    asked = behavior(port)
+    assert str(asked.getState()) == "Running"
+    assert asked.getPeriod() == 40
+    first = asked.timeAwake()
+    assert 0 <= first < PATIENCE * 1000
+    until(lambda: asked.timeAwake() > first, "time to pass")
+    parameters = asked.getParameterList()
+    assert set(parameters) == {"CommonBehavior.Endpoints", "a"}
+    assert (parameters["a"].editable, parameters["a"].value, parameters["a"].type) == (False, "1", "string")
+
+
+def test_what_it_is_told(turns: list[str | Path], start: Start, behavior: Ask, port: int) -> None:
+    running = start(turns).wait_for("Turns is running")
+    asked = behavior(port)
+    asked.setPeriod(100_000)
+    running.wait_for("INFO Turns: the period is 100000 ms now")
+    asked.setPeriod(20)
+    assert asked.getPeriod() == 20, "at once, even in the middle of a wait"
+    seen = len(rows(running))
+    until(lambda: len(rows(running)) > seen + 3, "turns")
+    for wrong in (0, -5):
+        asked.setPeriod(wrong)
+        assert asked.getPeriod() == 20
+        running.wait_for(f"WARNING Turns: setPeriod({wrong}) refused: the period must be at least 1 ms, not {wrong}")
+    asked.setParameterList(asked.getParameterList())
+    running.wait_for("WARNING Turns: setParameterList refused: no parameter is editable (CommonBehavior.Endpoints, a)")
+    config = Path(turns[1])
+    config.write_text(config.read_text() + "period.compute = 30\n")
+    asked.reloadConfig()
+    assert asked.getPeriod() == 30
+    running.wait_for("INFO Turns: the config is read again; the period is 30 ms")
+    config.write_text("period.compute = soon\n")
+    asked.reloadConfig()
+    assert asked.getPeriod() == 30
+    running.wait_for("WARNING Turns: reloadConfig refused: period.compute is 'soon'")
+    asked.killYourSelf()
+    assert running.exit_code(2) == 0
+    assert "INFO Turns: asked to stop" in running.output
+
+
+def test_it_answers_while_it_waits(
+    programs: Programs, start: Start, behavior: Ask, port: int, free_port: Ports, tmp_path: Path
+) -> None:
+    nobody = f"hand:tcp -h 127.0.0.1 -p {free_port()}"
+    endpoints = {"Arm.Endpoints": "tcp -h 127.0.0.1", "CommonBehavior.Endpoints": f"tcp -h 127.0.0.1 -p {port}"}
+    waiting = start(programs("Mutual").command(tmp_path, {**endpoints, "HandProxy": nobody}))
+    waiting.wait_for("waiting for Hand")
+    assert str(behavior(port).getState()) == "Starting"
+    behavior(port).killYourSelf()
+    assert waiting.exit_code(2) == 0
