@@ -126,10 +126,11 @@ class Ports:
                 self._methods[key] = self._method(port, method)
                 new.append(self._methods[key])
             calls[method.name] = self._methods[key].name
+        servant = self._servants.take(f"{port.name}Servant")
         return ServiceView(
             name=port.name,
             title=title,
-            servant=self._servants.take(f"{port.name}Servant"),
+            servant=f"{servant}_" if any(m.name == servant for m in port.interface.methods) else servant,
             base=qualified(port.scope, port.interface.name),
             arguments=", ".join(quoted(word) for word in arguments),
             declared=[

@@ -74,6 +74,11 @@ std::string reason(const std::exception& problem)
     {
         return onOneLine(unknown->unknown);
     }
+    const auto protocol = dynamic_cast<const Ice::ProtocolException*>(&problem);
+    if (protocol != nullptr && !protocol->reason.empty())
+    {
+        return onOneLine(protocol->reason);
+    }
     const auto ice = dynamic_cast<const Ice::Exception*>(&problem);
     return ice != nullptr ? shortName(*ice) : onOneLine(problem.what());
 }
