@@ -21,6 +21,7 @@ COMMANDS = {
     "check": "Report everything that is wrong with the documents.",
     "compile": "Write Slice and components; only what changed.",
     "migrate": "Carry legacy files over to YAML, losing nothing.",
+    "config": "Values of parameters: check, show, change, export.",
     "schema": "Print the JSON Schema of a kind of document.",
     "explain": "Say what a diagnostic means, with examples.",
 }

@@ -28,9 +28,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
     """Each entry has a name of its own in its list, and each proxy a name of its own in code."""
-    accessors: dict[str, Port] = {}
     for list_ in LISTS:
         names: dict[str, Port] = {}
+        accessors: dict[str, Port] = {}
         for port in getattr(linked, list_):
             if port.interface.name == "CommonBehavior" and list_ == "implements":
                 yield codes.COMMON_BEHAVIOR.at(port.use.span, hint="leave it out")

@@ -51,10 +51,8 @@ def file_text(root: str, documents: Iterable[tuple[str, str]]) -> str:
     legacy repository does that only becomes wrong when it is compiled."""
     document, lint = Map(block=True), Map(block=True)
     folders: dict[str, set[str]] = {"idsl": set(), "cdsl": set()}
-    crowded = False
     for kind, path in documents:
         folder = os.path.relpath(os.path.dirname(path) or ".", root)
-        crowded = crowded or (kind == "cdsl" and folder in folders[kind])
         folders[kind].add(folder)
     if folders["idsl"]:
         listed = List()
@@ -64,8 +62,6 @@ def file_text(root: str, documents: Iterable[tuple[str, str]]) -> str:
         document.put("interfaces", listed)
     for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT):
         lint.put(row.id, "warning")
-    if crowded:
-        lint.put(cdsl.SAME_FOLDER.id, "warning", Notes(tail=["compile these to folders of their own"]))
     document.put("lint", lint, Notes(head=["Files that were not there to be migrated are imported still."]))
     return modeline(os.path.join(root, WORKSPACE_FILE), root, "workspace") + text(document, Notes())
 

@@ -40,11 +40,13 @@ class Document:
 
 @dataclass(slots=True)
 class Documents:
-    """The documents of a run by real path, with all that is wrong with each by itself."""
+    """The documents of a run by real path, with all that is wrong with each by itself. `overlay` has contents, by
+    real path, that count instead of the disk's."""
 
     on_read: Callable[[str], None] = lambda path: None
     read: dict[str, Document] = field(default_factory=dict)
     contents: dict[str, bytes] = field(default_factory=dict)
+    overlay: dict[str, bytes] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     def get(self, path: str, kind: str = "") -> Document:
@@ -58,8 +60,10 @@ class Documents:
         return document
 
     def _load(self, document: Document) -> Iterator[Diagnostic]:
-        raw, diagnostics = read_bytes(document.path)
-        yield from diagnostics
+        raw = self.overlay.get(document.real)
+        if raw is None:
+            raw, diagnostics = read_bytes(document.path)
+            yield from diagnostics
         if raw is None:
             return
         self.contents[document.path] = raw

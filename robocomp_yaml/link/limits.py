@@ -52,18 +52,18 @@ def _range(type_: Type, node: Node, found: Found) -> Type:
     if not isinstance(type_, BasicType) or not type_.is_number:
         return _misfit("range", type_, node, found)
     ends = list(_ends(node))
-    for end, _, scalar in ends:
+    for _, _, scalar in ends:
         if isinstance(scalar.data, str) or not isfinite(scalar.data):  # type: ignore[arg-type]
-            found.append(codes.LIMIT_MISFIT.at(scalar.span, key="range", problem=f"needs numbers, not '{scalar.lexeme}'"))
+            problem = f"needs numbers, not '{scalar.lexeme}'"
+            found.append(codes.LIMIT_MISFIT.at(scalar.span, key="range", problem=problem))
             return type_
         if type_.is_integer and scalar.data != int(scalar.data):  # type: ignore[call-overload]
             found.append(codes.LIMIT_MISFIT.at(scalar.span, key="range", problem="of whole numbers has whole limits"))
             return type_
         least, most = LIMITS[type_.name]
         if not least <= scalar.data <= most:  # type: ignore[operator]
-            found.append(codes.UNREACHABLE.at(
-                scalar.span, problem=f"{end} {scalar.lexeme} cannot be reached: {type_.name} goes from {least} to {most}"
-            ))
+            problem = f"{scalar.lexeme} cannot be reached: {type_.name} goes from {least} to {most}"
+            found.append(codes.UNREACHABLE.at(scalar.span, problem=problem))
             return type_
     if problem := _both_ends(node):
         found.append(codes.LIMIT_MISFIT.at(node.span, key="range", problem=problem))
@@ -234,13 +234,12 @@ def inside(node: Scalar, index: int) -> Span:
 def _size(type_: Type, node: Node, found: Found) -> Type:
     if not isinstance(type_, ListType | MapType):
         return _misfit("size", type_, node, found)
-    data = node.data
-    least: int = data if isinstance(data, int) else data[0] if isinstance(data, list) else data.get("from", 0)  # type: ignore
-    most = data if isinstance(data, int) else data[1] if isinstance(data, list) else data.get("to")  # type: ignore
-    old = type_.size
-    least = max(int(least), old.least)
-    limits = [int(m) for m in (most, old.most) if m is not None]
-    size = Size(least, min(limits, default=None), span=node.span)
+    data, old = node.data, type_.size
+    ends = data if isinstance(data, list) else [data, data]
+    if isinstance(data, dict):
+        ends = [data.get("from", 0), data.get("to")]
+    limits = [int(most) for most in (ends[1], old.most) if most is not None]
+    size = Size(max(int(ends[0]), old.least), min(limits, default=None), span=node.span)
     if size.most is not None and size.least > size.most:
         found.append(codes.EMPTY_LIMIT.at(node.span, problem=f"at least {size.least} and at most {size.most} entries"))
         return type_

@@ -235,7 +235,8 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
     for name in ("compute", "emergency"):
         member = by_name.get(name)
         if member is not None and not (isinstance(member.type, BasicType) and member.type.name == "int"):
-            found.append(codes.PERIOD.at(member.span, problem=f"'period.{name}' is a whole number of milliseconds: int"))
+            problem = f"'period.{name}' is a whole number of milliseconds: int"
+            found.append(codes.PERIOD.at(member.span, problem=problem))
     compute = by_name.get("compute") or _period("compute", "How often compute() runs.", period or DEFAULT_PERIOD)
     if compute.default is None and not compute.optional:
         compute = replace(compute, default=Default(period or DEFAULT_PERIOD))

@@ -182,7 +182,8 @@ def _without_keywords(source: str) -> str:
     back in plain ones (it normalizes names by NFKC); their length stays the same."""
     bare = _without_texts(source)
     for word in reversed(list(_RESERVED.finditer(bare))):
-        bold = chr(0x1D41A + ord(word[0][0]) - ord("a")) if word[0][0].islower() else chr(0x1D400 + ord(word[0][0]) - 65)
+        first = word[0][0]
+        bold = chr(0x1D41A + ord(first) - ord("a")) if first.islower() else chr(0x1D400 + ord(first) - ord("A"))
         source = source[: word.start()] + bold + source[word.start() + 1 :]
     return source
 
@@ -227,8 +228,8 @@ class _Reader:
             case ast.BoolOp(op=logic, values=operands):
                 spelled = "and" if isinstance(logic, ast.And) else "or"
                 return Logic(spelled, tuple(self.read(operand) for operand in operands), at=at)
-            case ast.Compare(left=first, ops=operators, comparators=others) if all(type(o) in _COMPARE for o in operators):
-                rest = zip(operators, others, strict=True)
+            case ast.Compare(left=first, ops=ops, comparators=others) if all(type(op) in _COMPARE for op in ops):
+                rest = zip(ops, others, strict=True)
                 return Compare(
                     self.read(first), tuple((_COMPARE[type(op)], self.read(other)) for op, other in rest), at=at
                 )

@@ -12,7 +12,9 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
 KINDS = ("idsl", "cdsl", "pdsl", "config")
-_MODELINE = re.compile(rb"#\s*yaml-language-server:\s*\$schema=\S*(?:\.rcyaml/schemas|generated)/config\.schema\.json\s*$")
+_MODELINE = re.compile(
+    rb"#\s*yaml-language-server:\s*\$schema=\S*(?:\.rcyaml/schemas|generated)/config\.schema\.json\s*$"
+)
 WORKSPACE_FILE = "rcyaml.yaml"
 MANIFEST = ".rcyaml/manifest.json"
 _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))

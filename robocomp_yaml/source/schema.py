@@ -81,7 +81,9 @@ def _explain(
             assert isinstance(node, Mapping)
             name = facts["error"].instance
             entry = node.entries.get(name)
-            yield codes.WRONG_NAME.at((entry[0] if entry else node).span, name=name, hint=_name_hint(name))
+            is_name = "A-Za-z_" in str(_subschema(whole, path))
+            hint = _name_hint(name) if is_name else _own_message(whole, path)
+            yield codes.WRONG_NAME.at((entry[0] if entry else node).span, name=name, hint=hint)
         case "required":
             yield codes.MISSING_KEY.at(_head(node, key), key=facts["property"], where=_where(place, root))
         case _:

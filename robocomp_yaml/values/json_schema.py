@@ -45,9 +45,9 @@ _REFERENCE: Schema = {
     },
     "additionalProperties": False,
 }
-_REFERENCE_SNIPPET = {
+_REFERENCE_CHOICE = {"type": "object", "defaultSnippets": [{
     "label": "from the environment", "description": "taken when the component starts", "body": {"env": "${1:NAME}"}
-}
+}]}
 
 
 def values_schema(parameters: Parameters, mode: str) -> Schema:
@@ -68,7 +68,7 @@ def document_schema(parameters: Parameters, component: LinkedComponent | None, m
     made["examples"] = [{"parameters": {}}]
     maker = _Maker(mode)
     head = {key: made["properties"]["parameters"][key] for key in ("title", "description", "markdownDescription")}
-    made["properties"]["parameters"] = {**maker.record(parameters.root), **head}
+    made["properties"]["parameters"] = {**maker.record(parameters.root, nullable=mode == DOCUMENT), **head}
     made["definitions"].update(maker.definitions)
     if mode == EFFECTIVE:
         made["required"] = ["parameters"] if any(m.required for m in parameters.root.members) else []
@@ -146,12 +146,12 @@ class _Maker:
             then = {"enum": limits["enum"]}
             if self.with_words:
                 then["errorMessage"] = wanted
-                made["anyOf"] = [{"enum": limits["enum"]}, {"type": "object", "defaultSnippets": [_REFERENCE_SNIPPET]}, {}]
+                made["anyOf"] = [{"enum": limits["enum"]}, _REFERENCE_CHOICE, {}]
             shapes.append({"if": {"type": ["string", "number"]}, "then": then})
         else:
             made |= limits
             if self.with_words:
-                made["anyOf"] = [{"type": kind}, {"type": "object", "defaultSnippets": [_REFERENCE_SNIPPET]}, {}]
+                made["anyOf"] = [{"type": kind}, _REFERENCE_CHOICE, {}]
         made["allOf"] = shapes
         if self.with_words:
             made["errorMessage"] = wanted
@@ -224,10 +224,9 @@ def in_words(type_: Type) -> str:
             words += f" that matches {type_.pattern.text}"
         words += f" ({type_.unit})" if type_.unit else ""
     elif isinstance(type_, ListType | MapType):
-        kind = "list" if isinstance(type_, ListType) else "map"
-        size = f" of {type_.size.in_words}" if type_.size != Size() else " of"
-        entry = type_.element.name if isinstance(type_.element, RecordType) else in_words(type_.element)
-        words = f"a {kind}{size}: {entry}"
+        kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
+        size = f" of {type_.size.in_words} entries" if type_.size != Size() else ""
+        words = f"a {kind}{size}, each {one} {in_words(type_.element)}"
     elif type_.name:
         words = type_.name
     return words

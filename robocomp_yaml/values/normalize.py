@@ -12,7 +12,16 @@ from typing import Any
 import jsonschema_rs
 
 from robocomp_yaml.link.program import LinkedParameters
-from robocomp_yaml.model.parameters import ListType, Member, RecordType
+from robocomp_yaml.model.parameters import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    Parameters,
+    RecordType,
+    Type,
+)
 from robocomp_yaml.values.json_schema import COMPLETE, DOCUMENT, EFFECTIVE, values_schema
 
 Data = dict[str, Any]
@@ -88,9 +97,7 @@ def _entry_gate(linked: LinkedParameters, key: str, member: Member) -> jsonschem
     return gate
 
 
-def _only(member: Member) -> Any:
-    from robocomp_yaml.model.parameters import Parameters
-
+def _only(member: Member) -> Parameters:
     return Parameters(RecordType("", (member,)))
 
 
@@ -102,10 +109,10 @@ def _by_cerberus(linked: LinkedParameters, key: str, record: RecordType, data: D
         linked.compiled["cerberus", key] = ParameterValidator(rules_of(record))
     validator = linked.compiled["cerberus", key]
     name = record.members[0].name
-    given = {name: with_references(data[name])} if name in data else {}
+    given = {name: with_references(record.members[0].type, data[name])} if name in data else {}
     if not validator.validate(given):
         return None
-    return (without_references(validator.document[name]),)
+    return (as_data(record.members[0].type, validator.document[name]),)
 
 
 def cerberus_verdict(root: RecordType, data: object) -> tuple[bool, Any]:
@@ -115,30 +122,45 @@ def cerberus_verdict(root: RecordType, data: object) -> tuple[bool, Any]:
     if not isinstance(data, dict):
         return False, None
     validator = ParameterValidator(rules_of(root))
-    verdict = validator.validate(with_references(copy.deepcopy(data)))
-    return bool(verdict), without_references(validator.document)
+    verdict = validator.validate(with_references(root, copy.deepcopy(data)))
+    return bool(verdict), as_data(root, validator.document)
 
 
-def with_references(data: Any) -> Any:
-    """`{env: NAME}` as an object of its own, so that Cerberus takes it for a plain value."""
+def with_references(type_: Type, data: Any) -> Any:
+    """`{env: NAME}`, where a plain value stands, as an object of its own, so that Cerberus takes it for one."""
     from robocomp_yaml.values.rules import Reference
 
-    if isinstance(data, dict):
-        if data.keys() == {"env"} and _is_variable(data["env"]):
-            return Reference(data["env"])
-        return {key: with_references(value) for key, value in data.items()}
-    return [with_references(item) for item in data] if isinstance(data, list) else data
+    match type_:
+        case BasicType() | EnumType():
+            is_reference = isinstance(data, dict) and data.keys() == {"env"} and _is_variable(data["env"])
+            return Reference(data["env"]) if is_reference else data
+        case ListType(element=element) if isinstance(data, list):
+            return [with_references(element, item) for item in data]
+        case MapType(element=element) if isinstance(data, dict):
+            return {key: with_references(element, value) for key, value in data.items()}
+        case RecordType() if isinstance(data, dict):
+            types = {member.name: member.type for member in type_.members}
+            return {key: with_references(types[key], value) if key in types else value for key, value in data.items()}
+        case _:
+            return data
 
 
 def _is_variable(name: object) -> bool:
     return isinstance(name, str) and name.isascii() and name.isidentifier()
 
 
-def without_references(data: Any) -> Any:
+def as_data(type_: Type, data: Any) -> Any:
+    """What Cerberus made as plain data: references as `{"env": NAME}`, members in the order of their type."""
     from robocomp_yaml.values.rules import Reference
 
     if isinstance(data, Reference):
         return {"env": data.name}
-    if isinstance(data, dict):
-        return {key: without_references(value) for key, value in data.items()}
-    return [without_references(item) for item in data] if isinstance(data, list) else data
+    match type_:
+        case ListType(element=element) if isinstance(data, list):
+            return [as_data(element, item) for item in data]
+        case MapType(element=element) if isinstance(data, dict):
+            return {key: as_data(element, value) for key, value in data.items()}
+        case RecordType() if isinstance(data, dict):
+            return {m.name: as_data(m.type, data[m.name]) for m in type_.members if m.name in data}
+        case _:
+            return data

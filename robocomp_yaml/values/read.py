@@ -24,7 +24,7 @@ from robocomp_yaml.model.parameters import (
 from robocomp_yaml.model.pdsl import Spelling
 from robocomp_yaml.source.properties import unquoted
 from robocomp_yaml.values import lexemes, rows
-from robocomp_yaml.values.normalize import without_references
+from robocomp_yaml.values.normalize import as_data
 from robocomp_yaml.values.paths import unescaped
 from robocomp_yaml.values.rules import ParameterValidator, Reference, rules_of
 from robocomp_yaml.values.spelling import Template
@@ -41,7 +41,7 @@ def properties_to_values(
     texts = _Reader(properties, parameters, quoted, resolve).record(parameters.root, "", "", top=True)
     validator = ParameterValidator(rules_of(parameters.root, from_text=True))
     validator.validate(texts)
-    return without_references(validator.document), validator.errors
+    return as_data(parameters.root, validator.document), validator.errors
 
 
 class _Reader:

@@ -34,6 +34,7 @@ from robocomp_yaml.values.spelling import Template
 
 Where = Place | Node | None
 Path = tuple[Step, ...]
+_EMPTY_OPTIONAL = "an optional one that is empty cannot be told from one that is left out"
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +95,7 @@ class Writer:
         if not empty:
             return
         if member.optional:
-            self.fault(where, path, "an optional one that is empty cannot be told from one that is left out")
+            self.fault(where, path, _EMPTY_OPTIONAL)
         elif member.default is not None and with_defaults(member.type, member.default.data) != value:
             self.fault(where, path, "it is empty, and its default is not")
 
@@ -229,12 +230,17 @@ class Writer:
             if member.name in item and member.name not in said:
                 default = member.default
                 if default is None or with_defaults(member.type, default.data) != item[member.name]:
-                    self.fault(step(where, member.name) or where, (*path, member.name), "its rows have no column for it")
+                    here = step(where, member.name) or where
+                    self.fault(here, (*path, member.name), "its rows have no column for it")
                     return None
         texts: dict[str, str] = {}
         for name, type_ in rows.columns(record, spelling.columns):
             text = self.text(type_, item[name], self.here(record, where, name), (*path, name)) if name in item else ""
             if text is None:
+                return None
+            member = record.member(name)
+            if name in item and text == "" and member is not None and member.optional:
+                self.fault(step(where, name), (*path, name), _EMPTY_OPTIONAL)
                 return None
             texts[name] = text
         return texts

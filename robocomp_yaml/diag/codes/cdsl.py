@@ -81,8 +81,8 @@ ACCESSOR_CLASH = Code(
     "RC2006",
     "error",
     "'{name}' and '{other}' would both be called '{accessor}' in code",
-    "Code reaches a proxy by its name in lower case and `_proxy`, so two names that differ only in case, or a required "
-    "interface and a published one of the same name, would share an accessor.",
+    "Code reaches a proxy by its name in lower case and `_proxy`, so two names that differ only in case would share an "
+    "accessor.",
     _component("imports: [Mouth]\nrequires: [Mouth, {mouth: Mouth}]\n"),
     _component("imports: [Mouth]\nrequires: [Mouth, {Mouth1: Mouth}]\n"),
 )
@@ -119,10 +119,10 @@ COMMON_BEHAVIOR = Code(
 )
 SAME_FOLDER = Code(
     "RC2010",
-    "error",
+    "warning",
     "{name} and {other} are two components in one folder",
-    "A component's generated and own code live beside its document, in `generated/` and `src/`; two components would "
-    "overwrite each other's.",
+    "A component's generated and own code live beside its document, in `generated/` and `src/`; two components of one "
+    "folder cannot both be compiled there.",
     {**_RIGHT, "other.cdsl.yaml": "component: OtherComp\nlanguage: python\n"},
     {**_RIGHT, "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\n"},
 )

@@ -68,12 +68,11 @@ NAME_OF_OUTER = Code(
 
 PYTHON_WORD = Code(
     "RC1006",
-    ERROR,
-    "no {kind} can be called '{name}': Ice does not escape this word in Python",
+    WARNING,
+    "Ice does not escape the {kind} '{name}' in Python",
     why="Ice's mappings escape the reserved words of their languages: a member `lambda` is `_lambda` in Python. Ice "
-    "3.7 forgets False, True, as, async, await, nonlocal and with, and for methods staticmethod, so that no Python "
-    "program can load the interface. Where everything is written in C++, `lint: {RC1006: off}` in `rcyaml.yaml` allows "
-    "them.",
+    "3.7 forgets False, True, as, async, await, nonlocal and with, and for methods staticmethod. Components that "
+    "rcyaml generates escape them too, by an underscore before; other Python programs cannot load the interface.",
     wrong=_methods("      find: {in: {with: string}}\n"),
     right=_methods("      find: {in: {lambda: string}}\n"),
 )

@@ -8,7 +8,8 @@ from robocomp_yaml.diag.diagnostic import ERROR, WARNING
 _CDSL = "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n"
 _IDSL = "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n      reset:\n"
 _PDSL = (
-    "component: speech.cdsl.yaml\ntypes:\n  Motor: {struct: {name: string, min: {type: float, default: 0}, max: float}}\n"
+    "component: speech.cdsl.yaml\ntypes:\n"
+    "  Motor: {struct: {name: string, min: {type: float, default: 0}, max: float}}\n"
     "parameters:\n  volume: {type: int, range: [0, 100], default: 50, unit: percent}\n"
     "  device: {type: string, pattern: '/dev/.+', optional: true}\n  motors: {list: Motor, size: [0, 4], default: []}\n"
     "  ids: {list: int, unique: true, default: []}\nconstraints:\n"

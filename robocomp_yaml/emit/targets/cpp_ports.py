@@ -14,7 +14,9 @@ from robocomp_yaml.emit.targets.cpp_types import found, input_type, type_name, z
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Member, Method, TypeRef
 
-_NOT_PUBLISHED = "throw Ice::OperationNotExistException(__FILE__, __LINE__, current.id, current.facet, current.operation);"
+_NOT_PUBLISHED = (
+    "throw Ice::OperationNotExistException(__FILE__, __LINE__, current.id, current.facet, current.operation);"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +42,7 @@ class OperationView:
 @dataclass(frozen=True, slots=True)
 class ServiceView:
     """An implemented or subscribed port; `new_methods` are those that no earlier port has brought. `declared` are pairs
-    of an operation and an exception that it declares, in braces."""
+    of an operation and an exception that it declares, in braces; `statement` serves a port that has none."""
 
     name: str
     title: str
@@ -48,19 +50,20 @@ class ServiceView:
     base: str
     arguments: str
     declared: list[str]
+    statement: str
     operations: list[OperationView]
     new_methods: list[MethodView]
 
 
 @dataclass(frozen=True, slots=True)
 class AccessorView:
-    """A proxy that the worker has, with the arguments of the call that makes it."""
+    """A proxy that the worker has, and the statement that makes it."""
 
     name: str
     proxy: str
     comment: str
     summary: str
-    arguments: str
+    statement: str
 
 
 class Ports:
@@ -72,52 +75,63 @@ class Ports:
         self._methods: dict[tuple[int, str, str], MethodView] = {}
         self.requires = [self._required(port) for port in component.requires]
         self.publishes = [self._published(port) for port in component.publishes]
-        self.implements = [
-            self._served(
-                port,
-                f"{port.name}: other components call these.",
-                port.interface.methods,
-                [port.name, port.interface.name.lower(), port.interface.name],
-            )
-            for port in component.implements
-        ]
-        self.subscribes = [
-            self._served(
-                port,
-                f"{port.name}: events that others publish.",
-                _published_methods(port),
-                [port.name, port.interface.name],
-            )
-            for port in component.subscribes
-        ]
+        self.implements = [self._implemented(port) for port in component.implements]
+        self.subscribes = [self._subscribed(port) for port in component.subscribes]
 
     def _required(self, port: Port) -> AccessorView:
         arguments = f"{{{quoted(port.name)}, runtime::Absent::{port.use.absent}}}"
         if port.use.timeout is not None:
             milliseconds = max(1, round(port.use.timeout * 1000))
             arguments = f"{arguments[:-1]}, std::chrono::milliseconds({milliseconds})}}"
+        name, class_ = self._members.take(f"{port.name.lower()}_proxy"), proxy(port.scope, port.interface.name)
         return AccessorView(
-            name=self._members.take(f"{port.name.lower()}_proxy"),
-            proxy=proxy(port.scope, port.interface.name),
+            name=name,
+            proxy=class_,
             comment=_accessor_comment(port, f"{port.name}, at the address that the property {port.name}Proxy gives."),
             summary=f"calls {port.name}",
-            arguments=arguments,
+            statement=_call(f"{name} = connections.require<{class_}>", [arguments], IN),
         )
 
     def _published(self, port: Port) -> AccessorView:
         events = ", ".join(
             f"{ice_name(m.name)}({', '.join(member.name for member in m.inputs)})" for m in _published_methods(port)
         )
+        name, class_ = self._members.take(f"{port.name.lower()}_pubproxy"), proxy(port.scope, port.interface.name)
         return AccessorView(
-            name=self._members.take(f"{port.name.lower()}_pubproxy"),
-            proxy=proxy(port.scope, port.interface.name),
+            name=name,
+            proxy=class_,
             comment=_accessor_comment(port, f"Publishes {port.name}: {events}."),
             summary=f"publishes {port.name}: {events}",
-            arguments=f"{quoted(port.name)}, {quoted(port.interface.name)}",
+            statement=_call(
+                f"{name} = topics.publish<{class_}>", [quoted(port.name), quoted(port.interface.name)], IN
+            ),
+        )
+
+    def _implemented(self, port: Port) -> ServiceView:
+        name = port.interface.name
+        arguments = ", ".join(quoted(word) for word in (port.name, name.lower(), name))
+        return self._served(
+            port,
+            title=f"{port.name}: other components call these.",
+            methods=port.interface.methods,
+            suffix="Servant",
+            arguments=arguments,
+            call=("services.implement", f"{{{arguments}}}"),
+        )
+
+    def _subscribed(self, port: Port) -> ServiceView:
+        arguments = f"{quoted(port.name)}, {quoted(port.interface.name)}"
+        return self._served(
+            port,
+            title=f"{port.name}: events that others publish.",
+            methods=_published_methods(port),
+            suffix="Subscriber",
+            arguments=arguments,
+            call=("topics.subscribe", f"services, {arguments}"),
         )
 
     def _served(
-        self, port: Port, title: str, methods: Sequence[Method], arguments: Sequence[str]
+        self, port: Port, title: str, methods: Sequence[Method], suffix: str, arguments: str, call: tuple[str, str]
     ) -> ServiceView:
         new, calls = [], {}
         for method in methods:
@@ -126,18 +140,21 @@ class Ports:
                 self._methods[key] = self._method(port, method)
                 new.append(self._methods[key])
             calls[method.name] = self._methods[key].name
-        servant = self._servants.take(f"{port.name}Servant")
+        servant = self._servants.take(f"{port.name}{suffix}")
+        if any(method.name == servant for method in port.interface.methods):
+            servant += "_"
         return ServiceView(
             name=port.name,
             title=title,
-            servant=f"{servant}_" if any(m.name == servant for m in port.interface.methods) else servant,
+            servant=servant,
             base=qualified(port.scope, port.interface.name),
-            arguments=", ".join(quoted(word) for word in arguments),
+            arguments=arguments,
             declared=[
                 f"{{{quoted(method.name)}, {quoted('::' + '::'.join(_names(ref, port.scope)))}}}"
                 for method in methods for ref in method.throws
             ],
-            operations=[_operation(method, port.scope, calls.get(method.name, "")) for method in port.interface.methods],
+            statement=_call(call[0], [call[1], f"std::make_shared<{servant}>(*this)"], IN),
+            operations=[_operation(m, port.scope, calls.get(m.name, "")) for m in port.interface.methods],
             new_methods=new,
         )
 
@@ -151,7 +168,7 @@ class Ports:
         unused = [f"{type_} /*{word}*/" for type_, word in inputs] + [f"{type_} {word}" for type_, word in outputs]
         return MethodView(
             name=name,
-            comment=comment(_described(port, method), IN),
+            comment=comment(described, IN) if (described := _described(port, method)) else "",
             declaration=declaration(f"virtual {returns} {name}", typed, " = 0;", IN),
             overriding=declaration(f"{returns} {name}", typed, " override;", IN),
             definition=declaration(f"{returns} SpecificWorker::{name}", unused),
@@ -166,12 +183,17 @@ def _operation(method: Method, scope: LinkedModule, calls: str) -> OperationView
     types += [(f"{type_name(m.type, scope)}&", m.name) for m in method.outputs]
     typed = [f"{type_} {parameter(name)}" if calls else type_ for type_, name in types]
     current = "const Ice::Current&" if calls else "const Ice::Current& current"
-    arguments = ", ".join(parameter(name) for _, name in types)
-    call = f"{'' if method.returns is None else 'return '}worker_.{calls}({arguments});"
+    call = _call(
+        f"{'' if method.returns is None else 'return '}worker_.{calls}", [parameter(name) for _, name in types], IN * 2
+    )
     return OperationView(
         declaration=declaration(f"{returns} {ice_name(method.name)}", [*typed, current], " override", IN),
         body=call if calls else _NOT_PUBLISHED,
     )
+
+
+def _call(function: str, arguments: Sequence[str], indent: str) -> str:
+    return declaration(function, arguments, ";", indent)
 
 
 def _stub(method: Method, name: str, scope: LinkedModule) -> list[str]:
@@ -184,7 +206,7 @@ def _stub(method: Method, name: str, scope: LinkedModule) -> list[str]:
 
 def _described(port: Port, method: Method) -> str:
     """What the signature does not say."""
-    lines = [method.doc.strip() or f"{port.interface.name}.{method.name}"]
+    lines = [method.doc.strip()] if method.doc.strip() else []
     for member in (*method.inputs, *method.outputs):
         if said := _said(member):
             lines.append(f"{parameter(member.name)}: {said}")

@@ -156,7 +156,6 @@ def test_a_component_without_ports(link: Link) -> None:
 def test_names_that_clash(link: Link) -> None:
     """`A_b.c` with `A.b_c`, a method with an accessor, and one interface required and published."""
     documents = {
-        "rcyaml.yaml": "lint: {RC2006: off}\n",  # two accessors of one name
         "X.idsl.yaml": module(
             "X",
             "  A_b: {methods: {c: {returns: int}}}\n  A: {methods: {b_c: {returns: bool}}}\n"
