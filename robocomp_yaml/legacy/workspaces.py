@@ -53,7 +53,7 @@ def file_text(root: str, documents: Iterable[tuple[str, str]]) -> str:
     folders: dict[str, set[str]] = {"idsl": set(), "cdsl": set()}
     for kind, path in documents:
         folder = os.path.relpath(os.path.dirname(path) or ".", root)
-        folders[kind].add(folder)
+        folders.setdefault(kind, set()).add(folder)
     if folders["idsl"]:
         listed = List()
         for folder in sorted(folders["idsl"]):
