@@ -10,7 +10,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedValues
 from robocomp_yaml.model.build_interface import text
-from robocomp_yaml.source.properties import unwritable
+from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 from robocomp_yaml.values.effective import Effective
 from robocomp_yaml.values.write import Property, Writer
@@ -102,9 +102,12 @@ def _given(values: LinkedValues, *keys: str) -> Iterator[tuple[str, Node]]:
 
 
 def _property(key: str, node: Node, quote: bool) -> Property:
+    """`quote`: as in flat TOML, where text stands in quotes, and numbers do not."""
     assert isinstance(node, Scalar)
     value = node.lexeme
-    return Property(key, f'"{value}"' if quote and '"' not in value else value, node.span)
+    if quote and isinstance(node.data, str) and '"' not in value:
+        return Property(key, f'"{value}"', node.span, unquoted)
+    return Property(key, value, node.span)
 
 
 def _endpoints(values: LinkedValues, form: str) -> Iterator[Property]:

@@ -24,7 +24,7 @@ from robocomp_yaml.model.parameters import (
     Type,
 )
 from robocomp_yaml.model.pdsl import Spelling
-from robocomp_yaml.source.properties import unwritable
+from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.values import lexemes, rows
 from robocomp_yaml.values.evaluate import with_defaults
@@ -123,11 +123,10 @@ class Writer:
         if text is None or (text == "" and not self.quote):
             return
         is_text = isinstance(type_, EnumType) or type_.name == "string"
+        read: Callable[[str], Any] | None = None if is_text else lambda other: lexemes.read(type_, other)
         if self.quote and is_text and '"' not in text:
-            text = f'"{text}"'
-        yield from self.checked(Property(
-            key, text, span_of(where), None if is_text else lambda other: lexemes.read(type_, other)
-        ), where, path)
+            text, read = f'"{text}"', unquoted
+        yield from self.checked(Property(key, text, span_of(where), read), where, path)
 
     def checked(self, made: Property, where: Where, path: Path) -> Iterator[Property]:
         if problem := unwritable(made.key, made.value):

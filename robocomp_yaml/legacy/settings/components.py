@@ -63,7 +63,7 @@ def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, e
         assert draft is not None and draft.settings is not None and rules is not None and source is not None
         first = _first_half(file.path)
         after = first if first in by_path else ""
-        config = Config(file.path, source, rules, sort(draft.settings, component.ports, rules), after)
+        config = Config(file.path, source, rules, sort(draft.settings, component.ports, rules))
         entry.diagnostics += config.sorted.diagnostics
         configs.append(config)
         folder = os.path.dirname(chosen[file.path]) or "."

@@ -30,8 +30,7 @@ class _Writer:
         parameters = self.parameters([plan for plan in plans if not plan.built_in])
         if self.types.entries:
             document.put("types", self.types)
-        if parameters.entries:
-            document.put("parameters", parameters)
+        document.put("parameters", parameters)
         legacy = Map(block=True)
         for plan in plans:
             if plan.spelled is not None:

@@ -27,13 +27,12 @@ class Guesses:
 
 @dataclass(slots=True)
 class Config:
-    """One config of a component. `sorted` loses what becomes part of a plan. `after`: the config that it completes."""
+    """One config of a component. `sorted` loses what becomes part of a plan."""
 
     name: str
     source: Source
     rules: Rules
     sorted: Sorted
-    after: str = ""
 
     @property
     def parameters(self) -> list[Setting]:

@@ -27,10 +27,8 @@ def plans(configs: Sequence[Config], guesses: Guesses) -> list[Plan]:
     for path, settings in by_key.items():
         found.append(_plan(path, settings, configs, guesses))
     kept = list(_placed(found, configs))
-    halves = {config.after for config in configs}
-    wholes = [{config.name, config.after} for config in configs if config.name not in halves]
     for plan in kept:
-        plan.optional = not all(whole & plan.given.keys() for whole in wholes)
+        plan.optional = len(plan.given) < len(configs)
         told = guesses.types.get(".".join(plan.path)) or guesses.types.get(plan.spelled.key if plan.spelled else "")
         if told and isinstance(plan.shape, Scalar):
             plan.shape = Scalar(told)
