@@ -99,7 +99,7 @@ def _plan(
         root = run.root(file.root)
         output = root.add(
             os.path.relpath(document, file.root),
-            workspaces.modeline(document, home, kind) + gap + yaml.text(content, around), force=force,
+            _modeline(document, home, kind, content) + gap + yaml.text(content, around), force=force,
         )
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
@@ -108,3 +108,12 @@ def _plan(
     run.tell_failures()
     for folder in known.new:
         run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)
+
+
+def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:
+    """The first line. What values may be is said by the schema that `compile` makes for their component."""
+    component = next((str(entry.value) for entry in content.entries if entry.key == "component"), "")
+    if kind == "config" and component.endswith(".cdsl.yaml"):
+        folder = os.path.join(os.path.dirname(document), os.path.dirname(component))
+        return workspaces.values_modeline(document, folder)
+    return workspaces.modeline(document, home, kind)

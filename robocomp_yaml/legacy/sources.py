@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -10,10 +11,11 @@ from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.places import in_words
+from robocomp_yaml.emit.places import STATE, in_words
 from robocomp_yaml.legacy.formats import by_name, candidate
 from robocomp_yaml.legacy.rules import Rules, formats
 from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.source.discover import MANIFEST
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 
@@ -89,17 +91,30 @@ def _below(folder: str, said: list[Diagnostic]) -> Iterator[str]:
         said.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=in_words(error)))
 
     entered: set[tuple[int, int]] = set()
+    made: set[str] = set()
     for where, folders, names in os.walk(folder, followlinks=True, onerror=closed):
         status = os.stat(where)
         if (status.st_dev, status.st_ino) in entered:
             folders.clear()
             continue
         entered.add((status.st_dev, status.st_ino))
+        made |= _compiled(where) if STATE in folders else set()
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(names):
             path = os.path.normpath(os.path.join(where, name))
-            if not name.startswith(".") and candidate(path):
+            if not name.startswith(".") and candidate(path) and path not in made:
                 yield path
+
+
+def _compiled(root: str) -> set[str]:
+    """The Slice files that `compile` made below a folder: they are no sources. (A config is one all the same.)"""
+    try:
+        with open(os.path.join(root, MANIFEST), encoding="utf-8") as file:
+            listed = json.load(file)["files"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return set()
+    names = (str(name) for name in listed if isinstance(listed, dict))
+    return {os.path.normpath(os.path.join(root, name)) for name in names if name.endswith(".ice")}
 
 
 def _preferences(files: Iterable[LegacyFile]) -> Iterator[LegacyFile]:

@@ -70,6 +70,12 @@ def modeline(document: str, root: str, kind: str) -> str:
     return workspace_files.modeline(kind, Path(document), Path(root)) + "\n"
 
 
+def values_modeline(document: str, folder: str) -> str:
+    """The modeline of values of the component in a folder."""
+    schema = os.path.join(folder, "generated", "config.schema.json")
+    return f"# yaml-language-server: $schema={os.path.relpath(schema, os.path.dirname(document) or '.')}\n"
+
+
 def _is_below(path: str, folder: str) -> bool:
     inner, outer = os.path.realpath(path), os.path.realpath(folder)
     return inner == outer or inner.startswith(outer.rstrip("/") + "/")

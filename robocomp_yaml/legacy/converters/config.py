@@ -9,7 +9,7 @@ from lark import Token, Tree
 from robocomp_yaml.legacy.document import Map, Notes
 from robocomp_yaml.legacy.draft import Draft, Reader
 from robocomp_yaml.legacy.grammar import trees
-from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, STRING, Leaf, Setting, Settings, guess
+from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, STRING, Leaf, Setting, Settings, guess, settle_head
 from robocomp_yaml.source import properties
 
 _CLASSIC_KEY = re.compile(r"\.Endpoints$|Proxy\d*$")
@@ -48,6 +48,7 @@ def convert(reader: Reader) -> Draft | None:
             reader.repaired("overridden", node, entry.key)
         waiting += [*notes.head, *_as_comment(reader, node, notes)]
     around.foot[:0] = waiting
+    settle_head(found, around)
     return Draft(Map(), [], around, settings=found)
 
 

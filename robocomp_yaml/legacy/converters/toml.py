@@ -10,8 +10,9 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Map, Notes
 from robocomp_yaml.legacy.draft import Draft, Reader
 from robocomp_yaml.legacy.grammar import trees
-from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings, guess, whole
+from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings, guess, settle_head
 from robocomp_yaml.legacy.settings.entries import Tree as Value
+from robocomp_yaml.legacy.settings.entries import whole
 
 _Path = tuple[str, ...]
 
@@ -58,6 +59,7 @@ class _Converter:
                 self.found.settings.append(Setting(".".join(full), full, leaf, self.reader.span(node), notes))
                 notes = Notes()
         self.reader.placed.around.foot[:0] = self.waiting
+        settle_head(self.found, self.reader.placed.around)
         return Draft(Map(), [], self.reader.placed.around, settings=self.found)
 
     def flat(self, path: _Path, value: Value) -> list[tuple[_Path, Value]]:

@@ -64,6 +64,14 @@ class Settings:
     settings: list[Setting] = field(default_factory=list)
 
 
+def settle_head(found: Settings, around: Notes) -> None:
+    """Comments at the top of a file that stand close to the first entry are that entry's."""
+    if found.settings:
+        last = max((at for at, line in enumerate(around.head) if not line), default=-1)
+        found.settings[0].notes.head[:0] = around.head[last + 1 :]
+        del around.head[last + 1 :]
+
+
 def guess(text: str) -> Leaf:
     """A plain value as a flat config spells it: numbers and truth values by their looks, all else is text."""
     if _BOOL.match(text):
