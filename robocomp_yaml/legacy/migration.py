@@ -49,7 +49,7 @@ def migrate(
     chosen, said = names([(file, entry.file.rules) for file, entry in good if entry.file.rules is not None])
     _tell(run, said)
     _link(run, good, chosen, known, extra)
-    inferred = settle(good, chosen, guesses, exact=exact)
+    inferred = settle(good, chosen, run.remembers, guesses, exact=exact)
     _plan(run, good, chosen, known, inferred, force)
     return run
 

@@ -194,3 +194,13 @@ UNNAMED = Code(
     {**_SPEECH, "speech/etc/config": "Motor0 = left,1,0.5,7\n"}, {**_SPEECH, "speech/etc/config": "Motors = 2\n"},
     _MIGRATE,
 )  # fmt: skip
+NO_PDSL = Code(
+    "RC5030", WARNING, "there is no parameter file '{name}' among the files migrated",
+    "Values of 2011 (`.pconf`) say whose they are by importing a `.pdsl`. Without it, the document's `component:` names a "
+    "document that is not there.",
+    {"speech.pconf": 'import "speech.pdsl";\nConfigFile Speech{\n  volume = 3\n}\n'},
+    {
+        "speech.pconf": 'import "speech.pdsl";\nConfigFile Speech{\n  volume = 3\n}\n',
+        "speech.pdsl": "ComponentParams Speech{\n  volume int 5 0:10;\n}\n",
+    }, _MIGRATE,
+)  # fmt: skip

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from lark import Token, Tree
 
+from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy import literals
 from robocomp_yaml.legacy.document import List, Map, Notes, Raw, Value
 from robocomp_yaml.legacy.draft import Draft, Reader
@@ -32,7 +33,8 @@ def convert(reader: Reader) -> Draft | None:
         if flag == "T":
             body.put("editable", Raw("true"))
             if not told:
-                reader.repaired("flag", flag)
+                what = reader.rules.repairs["flag"]
+                reader.diagnostics.append(codes.GUESSED.at(reader.span(flag), name=reader.name(component), what=what))
             told = True
         parameters.put(name, body, reader.notes(node))
     document.put("parameters", parameters)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import List, Map
 from robocomp_yaml.legacy.ledger import Entry
+from robocomp_yaml.legacy.settings import declared
 from robocomp_yaml.legacy.settings.pdsl_document import pdsl_document
 from robocomp_yaml.legacy.settings.plan import Config, Guesses, Plan
 from robocomp_yaml.legacy.settings.planning import plans
@@ -24,12 +25,14 @@ _PARTS = ("requires", "publishes", "subscribes")
 
 @dataclass(slots=True)
 class Component:
-    """A component with its configs. `document`: its CDSL; '' where it has none, and is called as its config."""
+    """A component with its configs. `document`: its CDSL; '' where it has none, and is called as its config.
+    `declared`: what the PDSL at `parameters` says already; None where it is to be inferred."""
 
     name: str
     document: str
     parameters: str
     ports: Ports = Ports()
+    declared: declared.Types | None = None
     configs: list[tuple[LegacyFile, Entry]] = field(default_factory=list)
 
 
@@ -46,16 +49,18 @@ class Inferred:
 Good = Sequence[tuple[LegacyFile, Entry]]
 
 
-def settle(good: Good, chosen: Mapping[str, str], guesses: Guesses, *, exact: bool) -> list[Inferred]:
-    """Puts their documents into the drafts of all configs; gives the PDSLs."""
-    found = _Components(good, chosen)
-    inferred = []
-    for component in found.all():
-        inferred.append(_settle(component, chosen, guesses, exact))
-    return inferred
+def settle(
+    good: Good, chosen: Mapping[str, str], is_ours: Callable[[LegacyFile, str], bool], guesses: Guesses, *, exact: bool
+) -> list[Inferred]:
+    """Puts their documents into the drafts of all configs; gives the PDSLs. `is_ours`: whether an earlier run wrote
+    the document at a path."""
+    found = _Components(good, chosen, is_ours)
+    found.declare()
+    inferred = [_settle(component, chosen, guesses, exact) for component in found.all()]
+    return [made for made in inferred if made is not None]
 
 
-def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, exact: bool) -> Inferred:
+def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, exact: bool) -> Inferred | None:
     configs, links = list[Config](), dict[str, Links]()
     by_path = {file.path: file for file, _ in component.configs}
     for file, entry in component.configs:
@@ -72,6 +77,8 @@ def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, e
             os.path.relpath(chosen[after], folder) if after else "",
         )
     planned = plans(configs, guesses)
+    if component.declared is not None:
+        planned = declared.fitted(planned, component.declared, configs)
     entries = {file.path: entry for file, entry in component.configs}
     for plan in planned:
         _tell(plan, entries)
@@ -79,6 +86,8 @@ def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, e
         draft = entries[config.name].file.draft
         assert draft is not None
         draft.document = values_document(config, planned, links[config.name], exact=exact)
+    if component.declared is not None:
+        return None
     document = pdsl_document(os.path.basename(component.document) or component.name, planned)
     file, entry = component.configs[0]
     return Inferred(component.parameters, document, file, entry)
@@ -100,8 +109,10 @@ def _first_half(path: str) -> str:
 
 
 class _Components:
-    def __init__(self, good: Good, chosen: Mapping[str, str]) -> None:
-        self.good, self.chosen = good, chosen
+    def __init__(
+        self, good: Good, chosen: Mapping[str, str], is_ours: Callable[[LegacyFile, str], bool]
+    ) -> None:  # fmt: skip
+        self.good, self.chosen, self.is_ours = good, chosen, is_ours
         self.by_folder: dict[str, list[tuple[str, Component]]] = {}
         self.taken = set(chosen.values())
         self.listed: dict[str, list[str]] = {}
@@ -110,6 +121,33 @@ class _Components:
             if entry.file.rules is not None and entry.file.rules.kind == "cdsl" and entry.file.draft is not None:
                 made = self._declared(chosen[file.path], entry.file.draft.document)
                 self.by_folder.setdefault(_folder(file.path), []).append((_stem(file.path), made))
+
+    def declare(self) -> None:
+        """Joins the PDSLs of 2011 with their components, and the values of 2011 with their PDSLs."""
+        named: dict[str, str] = {}
+        for file, entry in self.good:
+            if entry.file.rules is not None and entry.file.rules.kind == "pdsl" and entry.file.draft is not None:
+                draft, path = entry.file.draft.document, self.chosen[file.path]
+                named.setdefault(str(draft.entries[0].value), path)
+                named[os.path.basename(file.path)] = path
+                component = self._of(file)
+                if component is None:
+                    name = str(draft.entries[0].value)
+                    component = Component(name, "", path)
+                    self.by_folder.setdefault(_folder(file.path), []).append((_stem(file.path), component))
+                elif component.document:
+                    draft.entries[0].value = os.path.relpath(component.document, os.path.dirname(path) or ".")
+                component.declared, component.parameters = declared.of_draft(draft), path
+        for file, entry in self.good:
+            draft_ = entry.file.draft
+            if draft_ is not None and draft_.settings is None and entry.file.rules and entry.file.rules.kind == "config":
+                wanted = os.path.basename(str(draft_.document.entries[0].value)).removesuffix(".yaml")
+                path = named.get(wanted) or named.get(wanted.removesuffix(".pdsl"), "")
+                if path:
+                    folder = os.path.dirname(self.chosen[file.path]) or "."
+                    draft_.document.entries[0].value = os.path.relpath(path, folder)
+                else:
+                    entry.diagnostics.append(codes.NO_PDSL.at(Span(file.path), name=wanted))
 
     def all(self) -> list[Component]:
         """The components that have configs."""
@@ -128,6 +166,10 @@ class _Components:
                 component = own[name]
                 what = codes.OWN_COMPONENT.at(Span(file.path), name=component.name)
                 entry.diagnostics.append(what)
+            if not component.configs and component.declared is None and component.document:
+                for path in declared.beside(component.document):
+                    if not self.is_ours(file, path):
+                        component.declared = declared.of_document(path)
             component.configs.append((file, entry))
             found[id(component)] = component
         return list(found.values())

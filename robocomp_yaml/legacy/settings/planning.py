@@ -84,7 +84,7 @@ def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
         if plan.shape is not None and plan.spelled is not None and plan.path in taken | groups:
             plan.path = (*plan.path[:-1], unique([*(p[-1] for p in taken | groups), f"{plan.path[-1]}_list"])[-1])
         if plan.shape is None or plan.path in taken or (plan.path in groups and not plan.built_in):
-            _give_back(plan, configs)
+            give_back(plan, configs)
             continue
         taken.add(plan.path)
         if plan.path != original and plan.spelled is None:
@@ -108,7 +108,8 @@ def _legal(part: str) -> str:
     return sanitized(part)
 
 
-def _give_back(plan: Plan, configs: Sequence[Config]) -> None:
+def give_back(plan: Plan, configs: Sequence[Config]) -> None:
+    """What a plan holds becomes properties, as they are."""
     plan.shape = None
     for config in configs:
         given = plan.given.pop(config.name, None)
