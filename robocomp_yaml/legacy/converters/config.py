@@ -6,6 +6,7 @@ import re
 
 from lark import Token, Tree
 
+from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Map, Notes
 from robocomp_yaml.legacy.draft import Draft, Reader
 from robocomp_yaml.legacy.grammar import trees
@@ -82,6 +83,10 @@ def _setting(
         if text == raw and '"' in raw:
             reader.repaired("half_quoted", node, entry.key)
     is_quoted = text != raw
+    if "\r" in raw:
+        what = reader.rules.repairs["line_end"]
+        reader.diagnostics.append(codes.LOST.at(reader.span(node), what=what))
+        raw, text = raw.replace("\r", " "), text.replace("\r", " ")
     value = Leaf(text, STRING) if is_quoted else guess(text)
     return Setting(entry.key, tuple(entry.key.split(".")), value, reader.span(node), notes, raw, is_quoted)
 

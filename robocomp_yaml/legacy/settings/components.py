@@ -20,7 +20,7 @@ from robocomp_yaml.legacy.settings.values_document import Links, values_document
 from robocomp_yaml.legacy.sources import LegacyFile
 
 _NAME = re.compile(rb"^component:[ \t]*[\"']?([\w-]+)", re.MULTILINE)
-_PARTS = ("requires", "publishes", "subscribes")
+_PARTS = ("implements", "requires", "publishes", "subscribes")
 
 
 @dataclass(slots=True)
@@ -224,7 +224,7 @@ class _Components:
                 value = item.value
                 names[part].append(value.entries[0].key if isinstance(value, Map) else str(value))
         topics = [*names["publishes"], *names["subscribes"]]
-        ports = Ports(frozenset(names["requires"]), frozenset((*topics, *(f"{topic}Topic" for topic in topics))))
+        ports = Ports(frozenset(names["implements"]), frozenset(names["requires"]), frozenset(topics))
         name = str(entries["component"])
         return Component(name, document, os.path.join(os.path.dirname(document), f"{name}.pdsl.yaml"), ports)
 

@@ -78,7 +78,7 @@ def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Conf
     top = min(groups[0], key=lambda row: row.setting.span.line)
     arity = len(cells(top.setting.text))
     names, origin = columns(stem, arity, top.config.source, top.setting.span.line, top.config.rules, guesses.names)
-    plan = Plan(_path(stem), docs=tuple(names), guessed="" if origin == "names" else _why(stem, origin, names))
+    plan = Plan(_path(stem), docs=tuple(names), guessed=_why(stem, origin, names, guesses))
     plan.is_unnamed = not origin
     texts = [row.setting.text for group in groups for row in group]
     keyed = first is None
@@ -111,8 +111,14 @@ def _take(row: _Row) -> None:
         row.config.parameters.remove(row.setting)
 
 
-def _why(stem: str, origin: str, names: Sequence[Column]) -> str:
+def _why(stem: str, origin: str, names: Sequence[Column], guesses: Guesses) -> str:
+    """What was guessed; nothing where the user said it."""
     told = ", ".join(column.name for column in names)
+    wrong = guesses.names.get(stem) or guesses.names.get(stem.rstrip("_.-"))
+    if origin == "names":
+        return ""
+    if wrong:
+        return f"{stem}… has {len(names)} columns, and --names gives {len(wrong)}; they are called {told}"
     where = {
         "header": f"the columns of {stem}… are taken from the comment above them: {told}",
         "known": f"the columns of {stem}… are called as such rows mostly are: {told}",

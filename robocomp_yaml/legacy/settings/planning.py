@@ -10,7 +10,7 @@ from robocomp_yaml.legacy.settings.families import families
 from robocomp_yaml.legacy.settings.headers import sanitized, unique
 from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan, Spelled
 from robocomp_yaml.legacy.settings.rows import could_be_list, is_list, joiner, separators, split
-from robocomp_yaml.legacy.settings.shapes import Scalar, shape_of
+from robocomp_yaml.legacy.settings.shapes import retyped, shape_of
 
 _PERIODS = {("period",): "compute", ("Period", "Compute"): "compute", ("Period", "Emergency"): "emergency",
             ("period", "compute"): "compute", ("period", "emergency"): "emergency"}
@@ -29,9 +29,8 @@ def plans(configs: Sequence[Config], guesses: Guesses) -> list[Plan]:
     kept = list(_placed(found, configs))
     for plan in kept:
         plan.optional = len(plan.given) < len(configs)
-        told = guesses.types.get(".".join(plan.path)) or guesses.types.get(plan.spelled.key if plan.spelled else "")
-        if told and isinstance(plan.shape, Scalar):
-            plan.shape = Scalar(told)
+        assert plan.shape is not None
+        plan.shape = retyped(plan.shape, ".".join(plan.path), guesses.types)
     return kept
 
 

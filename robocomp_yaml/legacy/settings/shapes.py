@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from robocomp_yaml.legacy.document import List, Map, Raw, Value
 from robocomp_yaml.legacy.settings.entries import DOUBLE, FLOAT, INT, LONG, STRING, Item, Leaf, Tree
@@ -65,6 +65,16 @@ def shape_of(trees: Sequence[Tree]) -> Shape | None:
             return None
         fields.append(Field(name, shape, len(given) < len(records)))
     return Record(tuple(fields)) if fields else None
+
+
+def retyped(shape: Shape, path: str, types: Mapping[str, str]) -> Shape:
+    """A shape with the wider types that the user gives, by path: `Motors.zero`."""
+    if isinstance(shape, ListOf):
+        return ListOf(retyped(shape.element, path, types))
+    if isinstance(shape, Record):
+        return Record(tuple(replace(f, shape=retyped(f.shape, f"{path}.{f.name}", types)) for f in shape.fields))
+    told = types.get(path)
+    return Scalar(told) if told is not None and least((told, shape.kind)) == told else shape
 
 
 def written(shape: Shape, tree: Tree) -> Value:

@@ -9,18 +9,24 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import CLASSIC, Leaf, Setting, Settings
+from robocomp_yaml.legacy.settings.headers import unique
 
 _WORD = re.compile(r"[A-Za-z_]\w*\Z")
-_SERVICES = ("IceStorm", "IceBox", "IceGrid", "IceSSL", "IceDiscovery", "IceLocatorDiscovery", "Glacier2", "Endpoints",
-             "Proxies", "TopicManager")
 
 
 @dataclass(frozen=True, slots=True)
 class Ports:
     """The interfaces that a component names, as far as its document is known."""
 
+    implements: frozenset[str] = frozenset()
     requires: frozenset[str] = frozenset()
     topics: frozenset[str] = frozenset()
+
+    def takes(self, key: str) -> bool:
+        """Whether a property of this name is the connection's, and no parameter's."""
+        return key in self.implements | self.topics or key.removesuffix("Topic") in self.topics or (
+            key.endswith("Proxy") and key[:-5] in self.requires
+        ) or key == "CommonBehavior"
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +53,14 @@ class Sorted:
     properties: list[Named] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
+    def connect(self, name: str, setting: Setting) -> None:
+        """A proxy. Without a name of its own it is called as its property."""
+        taken = {named.name for named in self.proxies}
+        if name and name not in taken:
+            self.proxies.append(Named(name, setting))
+        else:
+            self.proxies.append(Named(unique([*taken, setting.key])[-1], setting, setting.key))
+
     def keep(self, setting: Setting) -> None:
         """A property that no section has a place for."""
         self.properties.append(Named(setting.key, setting))
@@ -56,17 +70,21 @@ def sort(settings: Settings, ports: Ports, rules: Rules) -> Sorted:
     found = Sorted(settings.dialect)
     for setting in settings.settings:
         if not isinstance(setting.value, Leaf):
-            found.parameters.append(setting)
+            if rules.sections["service"].match(f"{setting.key}."):
+                what = f"only texts and numbers can stand here, so '{setting.key}' is left out"
+                found.diagnostics.append(codes.LOST.at(setting.span, what=what))
+            else:
+                found.parameters.append(setting)
         elif settings.dialect == CLASSIC:
             _classic(found, setting, ports, rules)
         else:
-            _toml(found, setting, rules)
+            _toml(found, setting, ports, rules)
     return found
 
 
 def _classic(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
     key, text = setting.key, setting.text
-    if key.startswith("Ice."):
+    if key.startswith("Ice.") and len(key) > 4:
         found.ice.append(Named(key[4:], setting))
     elif key.endswith(".Endpoints") and len(key) > 10:
         found.endpoints.append(Named(key[:-10], setting))
@@ -74,16 +92,16 @@ def _classic(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> Non
         found.manager.append(Named("manager", setting))
     elif rules.sections["proxy"].match(text) or (key.removesuffix("Proxy") in ports.requires and key[-5:] == "Proxy"):
         name = key.removesuffix("Proxy")
-        found.proxies.append(Named(name, setting) if name != key and name else Named(key, setting, key))
+        found.connect(name if name != key else "", setting)
     elif key.startswith("Proxies.") and key.endswith("Prefix") and len(key) > 14:
         found.prefixes.append(Named(key[8:-6], setting))
-    elif (key == text or key in ports.topics) and _WORD.match(key) and _WORD.match(text):
+    elif (key == text or key.removesuffix("Topic") in ports.topics) and _WORD.match(key) and _WORD.match(text):
         found.names.append(Named(key, setting))
     else:
-        _rest(found, setting, rules)
+        _rest(found, setting, ports, rules)
 
 
-def _toml(found: Sorted, setting: Setting, rules: Rules) -> None:
+def _toml(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
     key, path, text = setting.key, setting.path, setting.text
     if path[0] == "Ice" and len(path) > 1:
         found.ice.append(Named(key[4:], setting))
@@ -94,20 +112,20 @@ def _toml(found: Sorted, setting: Setting, rules: Rules) -> None:
     elif path[0] == "Proxies" and len(path) == 2 and not rules.sections["proxy"].match(text) and key[-6:] == "Prefix":
         found.prefixes.append(Named(path[1][:-6], setting))
     elif path[0] == "Proxies" and len(path) == 2 and text:
-        found.proxies.append(Named(path[1], setting))
+        found.connect(path[1], setting)
     elif rules.sections["proxy"].match(text):
-        found.proxies.append(Named(key, setting, key))
+        found.connect("", setting)
     else:
-        _rest(found, setting, rules)
+        _rest(found, setting, ports, rules)
 
 
-def _rest(found: Sorted, setting: Setting, rules: Rules) -> None:
+def _rest(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
     """A parameter, unless its name could not be one's."""
     if rules.sections["suspicious"].search(setting.key):
         what = rules.repairs["suspicious"].format(text=setting.key)
         found.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
         found.keep(setting)
-    elif (setting.path[0] in _SERVICES and len(setting.path) > 1) or "${env:" in setting.text:
+    elif rules.sections["service"].match(setting.key) or ports.takes(setting.key) or "${env:" in setting.text:
         found.keep(setting)
     else:
         found.parameters.append(setting)
