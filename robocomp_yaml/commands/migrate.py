@@ -29,7 +29,8 @@ LONG = 50
 @click.option("--strict", is_flag=True, help="Fail when a line of a source is lost.")
 @click.option("--force", is_flag=True, help="Overwrite documents that were edited since, showing the difference first.")
 @click.option("--exact", is_flag=True, help="Keep the blanks around the separators of records and lists.")
-@click.option("--names", multiple=True, metavar="KEY=a,b,c", help="What the columns of the rows KEY0, KEY1, … are called.")
+@click.option("--names", multiple=True, metavar="KEY=a,b,c",
+              help="What the columns of the rows KEY0, KEY1… are called.")
 @click.option("--rules", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
               help="Corrections of what is guessed: `names:` and `types:` by key, `text:` for keys that are no lists.")
 @_options.include

@@ -54,7 +54,8 @@ def _unless_foreign(rules: Rules, source: Source) -> tuple[Rules | None, list[Di
         if all_ and (count / all_ > rules.invalid["share"] or not entries.entries):
             line = entries.invalid[0]
             reason = rules.invalid["reason"].format(count=count, all=all_, line=line)
-            return None, [codes.REFUSED.at(Span(source.path, line, 1, line, len(source.line_text(line)) + 1), reason=reason)]
+            place = Span(source.path, line, 1, line, len(source.line_text(line)) + 1)
+            return None, [codes.REFUSED.at(place, reason=reason)]
     return rules, []
 
 

@@ -176,7 +176,8 @@ NOT_SEARCHED = Code(
 _SPEECH: dict[str, str | bytes | None] = {**_RIGHT, "speech/speech.cdsl": _CDSL}
 _COLUMNS = "# Motor: name, id, zero\nMotor0 = left,1,0.5\nMotor1 = right,2,0.4\n"
 OWN_COMPONENT = Code(
-    "RC5027", WARNING, "there is no component in this folder or the one above, so this config is one of its own, {name}",
+    "RC5027", WARNING,
+    "there is no component in this folder or the one above, so this config is one of its own, {name}",
     "A config belongs to the component (`.cdsl`) in its folder, or in the folder above. Where there is none, its "
     "parameters (`.pdsl.yaml`) stand beside it, and nobody knows which of its connections are used.",
     {"speech.conf": "Device = /dev/ttyUSB0\n"}, {**_SPEECH, "speech/etc/config": "Device = /dev/ttyUSB0\n"}, _MIGRATE,
@@ -196,8 +197,8 @@ UNNAMED = Code(
 )  # fmt: skip
 NO_PDSL = Code(
     "RC5030", WARNING, "there is no parameter file '{name}' among the files migrated",
-    "Values of 2011 (`.pconf`) say whose they are by importing a `.pdsl`. Without it, the document's `component:` names a "
-    "document that is not there.",
+    "Values of 2011 (`.pconf`) say whose they are by importing a `.pdsl`. Without it, the document's `component:` names "
+    "a document that is not there.",
     {"speech.pconf": 'import "speech.pdsl";\nConfigFile Speech{\n  volume = 3\n}\n'},
     {
         "speech.pconf": 'import "speech.pdsl";\nConfigFile Speech{\n  volume = 3\n}\n',

@@ -10,7 +10,16 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Map, Notes
 from robocomp_yaml.legacy.draft import Draft, Reader
 from robocomp_yaml.legacy.grammar import trees
-from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, STRING, Leaf, Setting, Settings, guess, settle_head
+from robocomp_yaml.legacy.settings.entries import (
+    CLASSIC,
+    FLAT_TOML,
+    STRING,
+    Leaf,
+    Setting,
+    Settings,
+    guess,
+    settle_head,
+)
 from robocomp_yaml.source import properties
 
 _CLASSIC_KEY = re.compile(r"\.Endpoints$|Proxy\d*$")

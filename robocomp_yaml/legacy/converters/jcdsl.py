@@ -52,13 +52,13 @@ class _Converter:
             for option in dict.fromkeys(self.options):
                 listed.put(option)
             self.put("options", listed)
-        name = self.entries.get("component")
-        if name is None or not isinstance(name.value, str):
+        named = self.entries.get("component")
+        if named is None or not named.value:
             at = self.reader.span(top)
             self.reader.diagnostics.append(codes.SYNTAX.at(at, problem='the component has no "name"', hint=""))
             return None
         if "language" not in self.entries:
-            self.reader.diagnostics.append(codes.NO_LANGUAGE.at(self.reader.span(top), name=name.value))
+            self.reader.diagnostics.append(codes.NO_LANGUAGE.at(self.reader.span(top), name=named.value))
         order = [*self.reader.rules.order, *(key for key in self.entries if key not in self.reader.rules.order)]
         entries = [self.entries[key] for key in order if key in self.entries]
         return Draft(Map(entries, block=True), self.imports, Notes())

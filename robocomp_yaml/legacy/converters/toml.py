@@ -10,9 +10,8 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Map, Notes
 from robocomp_yaml.legacy.draft import Draft, Reader
 from robocomp_yaml.legacy.grammar import trees
-from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings, guess, settle_head
-from robocomp_yaml.legacy.settings.entries import Tree as Value
-from robocomp_yaml.legacy.settings.entries import whole
+from robocomp_yaml.legacy.settings import entries
+from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings
 
 _Path = tuple[str, ...]
 
@@ -24,7 +23,8 @@ def convert(reader: Reader) -> Draft | None:
     try:
         tomllib.loads(reader.source.text)  # what the grammar does not judge: keys that stand twice
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        reader.diagnostics.append(codes.SYNTAX.at(reader.source.span(0, 1), problem=f"this is no TOML: {error}", hint=""))
+        at = reader.source.span(0, 1)
+        reader.diagnostics.append(codes.SYNTAX.at(at, problem=f"this is no TOML: {error}", hint=""))
         return None
     return _Converter(reader).draft(tree)
 
@@ -59,10 +59,10 @@ class _Converter:
                 self.found.settings.append(Setting(".".join(full), full, leaf, self.reader.span(node), notes))
                 notes = Notes()
         self.reader.placed.around.foot[:0] = self.waiting
-        settle_head(self.found, self.reader.placed.around)
+        entries.settle_head(self.found, self.reader.placed.around)
         return Draft(Map(), [], self.reader.placed.around, settings=self.found)
 
-    def flat(self, path: _Path, value: Value) -> list[tuple[_Path, Value]]:
+    def flat(self, path: _Path, value: entries.Tree) -> list[tuple[_Path, entries.Tree]]:
         """An inline table is as good as a table."""
         if not isinstance(value, dict):
             return [(path, value)]
@@ -92,7 +92,7 @@ class _Converter:
         return tuple(_text(str(part)) if part.type == "QUOTED_KEY" else str(part)
                      for part in key.children if isinstance(part, Token))  # fmt: skip
 
-    def value(self, node: Tree[Token]) -> Value:
+    def value(self, node: Tree[Token]) -> entries.Tree:
         if node.data == "array":
             return [Item(self.value(trees(item)[0]), self.reader.notes(item)) for item in trees(node, "item")]
         if node.data == "inline":
@@ -121,6 +121,6 @@ def _number(lexeme: str) -> Leaf:
     """As it is spelled, where YAML reads the same."""
     data = tomllib.loads(f"x = {lexeme}")["x"]
     if isinstance(data, int):
-        return Leaf(str(data), whole(data))
+        return Leaf(str(data), entries.whole(data))
     plain = lexeme.replace("_", "")
-    return Leaf(plain, guess(plain).kind)
+    return Leaf(plain, entries.guess(plain).kind)

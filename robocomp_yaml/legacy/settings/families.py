@@ -27,6 +27,7 @@ class _Row:
     """The proxy that the setting is, too."""
 
 
+_Numbers = tuple[tuple[str, tuple[int, ...]], ...]
 Stems = dict[str, dict[str, list[_Row]]]
 
 
@@ -154,7 +155,7 @@ def _ranges(configs: Sequence[Config]) -> Iterator[Plan]:
         name = unique(["from", "to", _value_name(by_config)])[-1]
         plan = Plan(_path(re.sub(r"\W+\Z", "", stem)), guessed=f"what the ranges {stem}… are for is called {name}")
         plan.spelled = Spelled(f"{stem}{{from}}-{{to}}", columns=[name])
-        for config, group in by_config.items():
+        for title, group in by_config.items():
             given = Given(Item([]))
             for row in group:
                 match = _RANGE.match(row.setting.key)
@@ -163,7 +164,7 @@ def _ranges(configs: Sequence[Config]) -> Iterator[Plan]:
                     "from": Item(guess(match["from"])), "to": Item(guess(match["to"])),
                     name: Item(guess(row.setting.text)),
                 })
-            plan.given[config] = given
+            plan.given[title] = given
         yield plan
 
 
@@ -176,14 +177,13 @@ def _value_name(by_config: dict[str, list[_Row]]) -> str:
 
 def _parallel(configs: Sequence[Config]) -> Iterator[Plan]:
     """Several keys with the same numbers, one for each field: `rx_0`, `ry_0`, `rx_1`, `ry_1`."""
-    alike: dict[tuple[object, ...], list[str]] = {}
+    alike: dict[tuple[str, _Numbers], list[str]] = {}
     stems = _stems(configs, proxies=True)
     for stem, by_config in stems.items():
         if _numbering(list(by_config.values())) is not None:
             numbers = tuple((name, tuple(sorted(int(r.index) for r in rows))) for name, rows in by_config.items())
             alike.setdefault((stem.rpartition(".")[0], numbers), []).append(stem)
     for (group, numbers), names in alike.items():
-        assert isinstance(group, str) and isinstance(numbers, tuple)
         rows = max(len(indices) for _, indices in numbers)
         if len(names) < 2 or all(row.named for name in names for each in stems[name].values() for row in each):
             continue

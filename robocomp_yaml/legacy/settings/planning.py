@@ -74,9 +74,7 @@ def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
         plan.built_in = _is_period(plan)
         if plan.built_in:
             plan.path = ("period", _PERIODS[original])
-        elif original[0] == "period":
-            plan.shape = None
-        elif plan.spelled is None and not all(original):
+        elif original[0] == "period" or (plan.spelled is None and not all(original)):
             plan.shape = None
         else:
             plan.path = tuple(_legal(part) for part in original)

@@ -86,5 +86,5 @@ def squeezed(text: str, separators: Iterable[str]) -> str:
     """A text without the blanks around its separators."""
     for separator in separators:
         bare = separator.strip(BLANKS)
-        text = re.sub(rf"[ \t]*{re.escape(bare)}[ \t]*", lambda _: bare, text)
+        text = bare.join(part.strip(BLANKS) for part in text.split(bare))
     return text

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from robocomp_yaml.legacy.document import List, Map, Raw, Value
-from robocomp_yaml.legacy.settings.entries import DOUBLE, FLOAT, INT, LONG, STRING, Item, Leaf, Tree
+from robocomp_yaml.legacy.settings.entries import DOUBLE, FLOAT, INT, LONG, STRING, Leaf, Tree
 
 _NUMBERS = (INT, LONG, FLOAT, DOUBLE)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from robocomp_yaml.legacy.document import Entry, Map, Notes, Value
+from robocomp_yaml.legacy.document import Entry, Map, Value
 from robocomp_yaml.legacy.settings import rows
 from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, STRING, TOML, Leaf
 from robocomp_yaml.legacy.settings.plan import Config, Path, Plan
