@@ -45,6 +45,9 @@ def convert(reader: Reader) -> Draft | None:
             reader.repaired("invalid", node)
         elif not entry.value and protected is None:
             reader.repaired("empty", node, entry.key)
+        elif reason := properties.unwritable(entry.key, entry.value):
+            what = reader.rules.losses["unwritable"].format(text=entry.key, reason=reason)
+            reader.diagnostics.append(codes.LOST.at(reader.span(node), what=what))
         elif entry.key in last and last[entry.key].line > line:
             reader.repaired("overridden", node, entry.key)
         elif entry.key in last or protected is not None:
@@ -92,10 +95,6 @@ def _setting(
         if text == raw and '"' in raw:
             reader.repaired("half_quoted", node, entry.key)
     is_quoted = text != raw
-    if "\r" in raw:
-        what = reader.rules.repairs["line_end"]
-        reader.diagnostics.append(codes.LOST.at(reader.span(node), what=what))
-        raw, text = raw.replace("\r", " "), text.replace("\r", " ")
     value = Leaf(text, STRING) if is_quoted else guess(text)
     return Setting(entry.key, tuple(entry.key.split(".")), value, reader.span(node), notes, raw, is_quoted)
 

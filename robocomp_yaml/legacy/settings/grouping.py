@@ -72,7 +72,8 @@ class Components:
                 component.declared, component.parameters = declared.of_draft(draft), path
         for file, entry in self.good:
             draft_ = entry.file.draft
-            if draft_ is not None and draft_.settings is None and entry.file.rules and entry.file.rules.kind == "config":
+            kind = entry.file.rules.kind if entry.file.rules is not None else ""
+            if draft_ is not None and draft_.settings is None and kind == "config":
                 wanted = os.path.basename(str(draft_.document.entries[0].value)).removesuffix(".yaml")
                 path = named.get(wanted) or named.get(wanted.removesuffix(".pdsl"), "")
                 if path:

@@ -41,7 +41,10 @@ class Split:
 
 
 def could_be_list(text: str) -> bool:
-    return not _NO_LIST.search(text) and not _PATH_WITH_BLANK.search(text)
+    """Whether no part is missing, but for the last one, and none looks like something else."""
+    if _NO_LIST.search(text) or _PATH_WITH_BLANK.search(text) or text != text.strip(BLANKS):
+        return False
+    return all(part.strip(BLANKS) for part in re.split("[,;]", re.sub(r"[;,]\Z", "", text)))
 
 
 def is_list(text: str) -> bool:
@@ -49,11 +52,11 @@ def is_list(text: str) -> bool:
     if not could_be_list(text):
         return False
     if ";" in text:
-        return bool(text.strip("; \t,"))
+        return True
     parts = cells(text)
     if len(parts) == 2:
         return all(parts) and not any(_NUMBER.match(part) for part in parts)
-    return len(parts) > 2 and any(parts)
+    return len(parts) > 2
 
 
 def split(text: str, separators: tuple[str, ...]) -> Split:
@@ -86,5 +89,7 @@ def squeezed(text: str, separators: Iterable[str]) -> str:
     """A text without the blanks around its separators."""
     for separator in separators:
         bare = separator.strip(BLANKS)
-        text = bare.join(part.strip(BLANKS) for part in text.split(bare))
+        first, *rest = text.split(bare)
+        inner = [part.strip(BLANKS) for part in rest[:-1]]
+        text = bare.join([first.rstrip(BLANKS), *inner, rest[-1].lstrip(BLANKS)]) if rest else text
     return text
