@@ -121,7 +121,7 @@ def _dedented(lines: list[str]) -> list[str]:
 
 def _one_line(text: str) -> str:
     if text[0] == "#":  # of which each may be meant: `#~`, `##`
-        body = text[1:]
+        body = text[1:].removeprefix(" ")
     else:
         body = re.sub(r"^///?<?", "", text) if _DOC.match(text) else text.lstrip("/")
     indent = len(body) - len(body.lstrip())

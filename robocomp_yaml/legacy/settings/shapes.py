@@ -83,7 +83,7 @@ def written(shape: Shape, tree: Tree) -> Value:
         return plain(tree, shape.kind if isinstance(shape, Scalar) else STRING)
     if isinstance(tree, list):
         assert isinstance(shape, ListOf)
-        listed = List()
+        listed = List(block=isinstance(shape.element, Record))
         for item in tree:
             listed.put(written(shape.element, item.value), item.notes)
         return listed
