@@ -28,7 +28,7 @@ def recognize(source: Source) -> tuple[Rules | None, list[Diagnostic]]:
         return None, [codes.EMPTY.at(Span(source.path), what=what)]
     fitting = [
         rules for rules in formats()
-        if (not rules.weak or said is None or said.kind == rules.kind) and rules.signature.search(content)
+        if (not rules.weak or _may_be(rules, said)) and rules.signature.search(content)
     ]  # fmt: skip
     if said is not None and (said in fitting or not fitting):
         return _unless_foreign(said, source)
@@ -39,6 +39,11 @@ def recognize(source: Source) -> tuple[Rules | None, list[Diagnostic]]:
     if said is None or said.weak:
         return _unless_foreign(found, source)
     return found, [codes.OTHER_FORMAT.at(Span(source.path), said=said.title, found=found.title)]
+
+
+def _may_be(rules: Rules, said: Rules | None) -> bool:
+    """Whether a signature that much else fits counts against what the name says: a `.conf` may be TOML."""
+    return said is None or said is rules or (said.kind == rules.kind and rules.rank < said.rank)
 
 
 def _unless_foreign(rules: Rules, source: Source) -> tuple[Rules | None, list[Diagnostic]]:

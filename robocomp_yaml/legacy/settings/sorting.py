@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.rules import Rules
-from robocomp_yaml.legacy.settings.entries import CLASSIC, Leaf, Setting, Settings
+from robocomp_yaml.legacy.settings.entries import CLASSIC, TOML, Leaf, Setting, Settings
 from robocomp_yaml.legacy.settings.headers import unique
 
 _WORD = re.compile(r"[A-Za-z_]\w*\Z")
@@ -121,7 +121,7 @@ def _toml(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
 
 def _rest(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
     """A parameter, unless its name could not be one's."""
-    if rules.sections["suspicious"].search(setting.key):
+    if found.dialect != TOML and rules.sections["suspicious"].search(setting.key):
         what = rules.repairs["suspicious"].format(text=setting.key)
         found.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
         found.keep(setting)
