@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections import Counter
 from collections.abc import Iterator
@@ -14,19 +13,21 @@ import click
 from robocomp_yaml.commands import _options
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related, has_errors
 from robocomp_yaml.diag.render import render
+from robocomp_yaml.diag.render.json import dumps, run_as_data
 from robocomp_yaml.diag.span import Span
 
 SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
 
-WRITTEN = ("create", "update", "adopt", "edited")
+WRITTEN = ("create", "update", "adopt", "edited", "merge")
 CHANGED = (*WRITTEN, "remove", "refused")
 _DONE = {
     "create": "wrote", "update": "updated", "adopt": "took over", "edited": "rewrote", "remove": "removed",
-    "kept": "kept", "left": "left", "unchanged": "unchanged",
+    "merge": "merged", "kept": "kept", "left": "left", "unchanged": "unchanged",
 }  # fmt: skip
 _WOULD = {
     "create": "would write", "update": "would update", "adopt": "would take over", "edited": "would rewrite",
-    "remove": "would remove", "kept": "would keep", "left": "would leave", "unchanged": "unchanged",
+    "remove": "would remove", "merge": "would merge", "kept": "would keep", "left": "would leave",
+    "unchanged": "unchanged",
 }  # fmt: skip
 
 
@@ -95,8 +96,7 @@ def report(ctx: click.Context, outcome: Outcome, format_: str, *, diff: bool = F
             {"path": file.path, "action": file.action, **({"orig": file.orig} if file.orig else {})}
             for file in outcome.files
         ]
-        data = json.loads(render("json", told, outcome.documents))
-        click.echo(json.dumps({**data, "files": files}, indent=2, ensure_ascii=False))
+        click.echo(dumps({**run_as_data(told, outcome.documents), "files": files}), nl=False)
     elif format_ == "sarif":
         click.echo(render("sarif", told, outcome.documents), nl=False)
     else:

@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 
 import click
 
-from robocomp_yaml.check import values as check
+from robocomp_yaml.check.pdsl import values as check
 from robocomp_yaml.commands import _options
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import values as codes
@@ -281,7 +281,8 @@ def _component_near(file: str) -> str:
     folder = os.path.dirname(file)
     for where in (folder or ".", os.path.join(folder or ".", os.pardir)):
         for suffix in (".cdsl.yaml", ".pdsl.yaml"):
-            names = [name for name in sorted(os.listdir(where)) if name.endswith(suffix)] if os.path.isdir(where) else []
+            listed = sorted(os.listdir(where)) if os.path.isdir(where) else []
+            names = [name for name in listed if name.endswith(suffix)]
             if len(names) == 1:
                 return os.path.normpath(os.path.join(where, names[0]))
             if names:

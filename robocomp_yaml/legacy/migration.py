@@ -13,7 +13,7 @@ from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.ledger import Entry
-from robocomp_yaml.legacy.linking import Neighbours, name_imports, not_searched, resolve_references
+from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
 from robocomp_yaml.legacy.result import Migration
 from robocomp_yaml.legacy.settings.components import Inferred, settle
 from robocomp_yaml.legacy.settings.plan import Guesses
@@ -69,6 +69,7 @@ def _link(
     for file, entry in good:
         document = chosen[file.path]
         entry.diagnostics += name_imports(entry.file, document, known.of(document), neighbours)
+        entry.diagnostics += name_machine(entry.file, chosen)
     told: set[tuple[str, str]] = set()
     for file, entry in good:
         entry.diagnostics += resolve_references(entry.file, neighbours)
@@ -86,24 +87,22 @@ def _plan(
     inferred: Sequence[Inferred], force: bool,
 ) -> None:  # fmt: skip
     written: dict[str, list[tuple[str, str]]] = {folder: [] for folder in known.new}
-    planned: list[tuple[LegacyFile, Entry, str, str, yaml.Map, Notes]] = []
+    planned: list[tuple[LegacyFile, Entry, str, str, yaml.Map, Notes, str]] = []
     for file, entry in good:
         rules, draft = entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
         document = chosen[file.path]
-        planned.append((file, entry, rules.kind, document, draft.document, draft.around))
-    planned += [(made.file, made.entry, "pdsl", made.path, made.document, Notes()) for made in inferred]
-    for file, entry, kind, document, content, around in planned:
+        planned.append((file, entry, rules.kind, document, draft.document, draft.around, draft.text))
+    planned += [(made.file, made.entry, "pdsl", made.path, made.document, Notes(), "") for made in inferred]
+    for file, entry, kind, document, content, around, raw in planned:
         home = known.of(document).root
         gap = "\n" if around.head else ""
         root = run.root(file.root)
-        output = root.add(
-            os.path.relpath(document, file.root),
-            _modeline(document, home, kind, content) + gap + yaml.text(content, around), force=force,
-        )
+        text = raw or _modeline(document, home, kind, content) + gap + yaml.text(content, around)
+        output = root.add(os.path.relpath(document, file.root), text, force=force)
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
-        if home in written:
+        if home in written and not raw:
             written[home].append((kind, document))
     run.tell_failures()
     for folder in known.new:

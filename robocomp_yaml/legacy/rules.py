@@ -40,6 +40,7 @@ class Rules:
     name: str
     title: str
     kind: str
+    document: str
     suffixes: tuple[str, ...]
     rank: int
     signature: re.Pattern[str]
@@ -88,6 +89,7 @@ def _rules(name: str) -> Rules:
         doc_drop=doc["drop"],
         order=tuple(data.pop("order", ())),
         **_of_lines(data),
+        document=data.pop("document", f".{data['kind']}.yaml"),
         **data,
     )
 

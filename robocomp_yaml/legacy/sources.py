@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -11,11 +10,11 @@ from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.places import STATE, in_words
+from robocomp_yaml.emit import manifest
+from robocomp_yaml.emit.places import contents, in_words
 from robocomp_yaml.legacy.formats import by_name, candidate
 from robocomp_yaml.legacy.rules import Rules, formats
 from robocomp_yaml.link.workspace import root_above
-from robocomp_yaml.source.discover import MANIFEST
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 
@@ -85,36 +84,35 @@ def _suffixes() -> set[str]:
 
 
 def _below(folder: str, said: list[Diagnostic]) -> Iterator[str]:
-    """Links to folders are followed, but no folder is entered twice."""
+    """Links to folders are followed, but no folder is entered twice. What `compile` wrote is no source."""
 
     def closed(error: OSError) -> None:
         said.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=in_words(error)))
 
     entered: set[tuple[int, int]] = set()
-    made: set[str] = set()
+    compiled: set[str] = set()
     for where, folders, names in os.walk(folder, followlinks=True, onerror=closed):
         status = os.stat(where)
         if (status.st_dev, status.st_ino) in entered:
             folders.clear()
             continue
         entered.add((status.st_dev, status.st_ino))
-        made |= _compiled(where) if STATE in folders else set()
+        compiled |= _compiled(where)
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(names):
             path = os.path.normpath(os.path.join(where, name))
-            if not name.startswith(".") and candidate(path) and path not in made:
+            made = path in compiled and by_name(name) is not None  # a config that was compiled again is still one
+            if not name.startswith(".") and not made and candidate(path):
                 yield path
 
 
-def _compiled(root: str) -> set[str]:
-    """The Slice files that `compile` made below a folder: they are no sources. (A config is one all the same.)"""
+def _compiled(folder: str) -> set[str]:
+    """The files that `compile` wrote into an output root."""
     try:
-        with open(os.path.join(root, MANIFEST), encoding="utf-8") as file:
-            listed = json.load(file)["files"]
-    except (OSError, ValueError, KeyError, TypeError):
+        files = manifest.read(contents(os.path.join(folder, manifest.PATH))).files
+    except (OSError, manifest.Unusable):
         return set()
-    names = (str(name) for name in listed if isinstance(listed, dict))
-    return {os.path.normpath(os.path.join(root, name)) for name in names if name.endswith(".ice")}
+    return {os.path.normpath(os.path.join(folder, path)) for path, entry in files.items() if not entry.once}
 
 
 def _preferences(files: Iterable[LegacyFile]) -> Iterator[LegacyFile]:
@@ -145,11 +143,11 @@ def names(
         stem, suffix = os.path.splitext(base)
         drops = suffix.lower() in rules.suffixes and not rules.keep_suffix
         bare = base == rules.kind  # `config` becomes `config.yaml`
-        short = file.document(f"{base}.yaml" if bare else f"{stem if drops else base}.{rules.kind}.yaml")
-        own = short if short not in taken else file.document(f"{base}.{rules.kind}.yaml")
+        short = file.document(f"{base}.yaml" if bare else f"{stem if drops else base}{rules.document}")
+        own = short if short not in taken else file.document(f"{base}{rules.document}")
         number = 2
         while own in taken:
-            own = file.document(f"{base}.{number}.{rules.kind}.yaml")
+            own = file.document(f"{base}.{number}{rules.document}")
             number += 1
         if own != short:
             said.append(codes.MEETING.at(Span(file.path), other=taken[short], path=short, own=own))

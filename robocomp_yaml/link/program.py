@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from robocomp_yaml.link.parameters import of_no_document
 from robocomp_yaml.model.component import Component, Use
 from robocomp_yaml.model.interface import (
     Constant,
@@ -16,8 +15,11 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
-from robocomp_yaml.model.parameters import Parameters
-from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.parameters import Parameters
+    from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
+    from robocomp_yaml.model.statemachine import StateMachine
 
 Definition = Constant | TypeDefinition | ExceptionType | Interface
 
@@ -100,10 +102,12 @@ class LinkedParameters:
     document: ParameterDocument | None = None
     component: LinkedComponent | None = None
     broken: bool = False
-    compiled: dict[str, Any] = field(default_factory=dict)
+    compiled: dict[object, Any] = field(default_factory=dict)
 
 
 def _only_the_period() -> LinkedParameters:
+    from robocomp_yaml.link.parameters import of_no_document
+
     return LinkedParameters(of_no_document(None))
 
 
@@ -131,7 +135,8 @@ class LinkedValues:
 
 @dataclass(eq=False, slots=True)
 class LinkedComponent:
-    """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled)."""
+    """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled). `machine` is
+    its state machine, from `machine_files` where it does not stand in the component's document."""
 
     component: Component
     imports: list[LinkedModule] = field(default_factory=list)
@@ -141,6 +146,8 @@ class LinkedComponent:
     subscribes: tuple[Port, ...] = ()
     broken: bool = False
     parameters: LinkedParameters = field(default_factory=_only_the_period)
+    machine: StateMachine | None = None
+    machine_files: tuple[str, ...] = ()
 
     @property
     def ports(self) -> Iterator[Port]:
@@ -168,6 +175,14 @@ class Program:
     values: dict[str, LinkedValues] = field(default_factory=dict)
     asked: set[str] = field(default_factory=set)
     documents: int = 0
+
+    def asked_components(self) -> set[str]:
+        """The components that the user named, be it by their parameters or values."""
+        documents = {real: linked.component for real, linked in self.parameters.items()}
+        documents |= {real: linked.parameters.component for real, linked in self.values.items() if linked.parameters}
+        wanted = {id(documents[real]) for real in self.asked & documents.keys()}
+        named = {real for real, linked in self.components.items() if id(linked) in wanted}
+        return (self.asked & self.components.keys()) | named
 
     def parameter_documents(self) -> Iterator[LinkedParameters]:
         """Every document of parameters, once for each component that has it."""

@@ -23,7 +23,7 @@ def _lines(
     yield modeline
     yield f"component: {scalar(component)}"
     yield ""
-    yield "# What stands without a # needs a value: set it. A line with # shows a default: take the # away to change it."
+    yield "# What stands without a # needs a value. A line with # shows a default: take the # away to change it."
     yield "parameters:"
     yield from _record(parameters.root, "  ")
     for name, entries in connections:

@@ -126,6 +126,9 @@ class Writer:
         read: Callable[[str], Any] | None = None if is_text else lambda other: lexemes.read(type_, other)
         if self.quote and is_text and '"' not in text:
             text, read = f'"{text}"', unquoted
+        elif self.quote and is_text and unquoted(text) != text:
+            self.fault(where, path, "in quotes, it would be read without them")
+            return
         yield from self.checked(Property(key, text, span_of(where), read), where, path)
 
     def checked(self, made: Property, where: Where, path: Path) -> Iterator[Property]:
@@ -237,8 +240,8 @@ class Writer:
             text = self.text(type_, item[name], self.here(record, where, name), (*path, name)) if name in item else ""
             if text is None:
                 return None
-            member = record.member(name)
-            if name in item and text == "" and member is not None and member.optional:
+            column = record.member(name)
+            if name in item and text == "" and column is not None and column.optional:
                 self.fault(step(where, name), (*path, name), _EMPTY_OPTIONAL)
                 return None
             texts[name] = text

@@ -1,4 +1,4 @@
-"""A component's ports as C++ spells them: accessors, the worker's methods, and the servants that call them.
+"""A component's ports as C++ spells them: accessors, and the servants with the worker's methods that they call.
 
 All that is here goes to the templates as it is.
 """
@@ -8,35 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from robocomp_yaml.emit.targets.cpp_names import Names, ice_name, parameter, proxy, qualified
-from robocomp_yaml.emit.targets.cpp_text import IN, comment, declaration, one_line, quoted
-from robocomp_yaml.emit.targets.cpp_types import found, input_type, type_name, zero
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
-from robocomp_yaml.model.interface import Member, Method, TypeRef
-
-_NOT_PUBLISHED = (
-    "throw Ice::OperationNotExistException(__FILE__, __LINE__, current.id, current.facet, current.operation);"
-)
-
-
-@dataclass(frozen=True, slots=True)
-class MethodView:
-    """A method of the worker: in GenericWorker, and in the user's class."""
-
-    name: str
-    comment: str
-    declaration: str
-    overriding: str
-    definition: str
-    stub: list[str]
-
-
-@dataclass(frozen=True, slots=True)
-class OperationView:
-    """An operation of a servant."""
-
-    declaration: str
-    body: str
+from robocomp_yaml.emit.targets.cpp_methods import MethodView, OperationView, call, method_view, operation_view, scoped
+from robocomp_yaml.emit.targets.cpp_names import Names, ice_name, proxy, qualified
+from robocomp_yaml.emit.targets.cpp_text import IN, comment, quoted
+from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.model.interface import Method
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +65,7 @@ class Ports:
             proxy=class_,
             comment=_accessor_comment(port, f"{port.name}, at the address that the property {port.name}Proxy gives."),
             summary=f"calls {port.name}",
-            statement=_call(f"{name} = connections.require<{class_}>", [arguments], IN),
+            statement=call(f"{name} = connections.require<{class_}>", [arguments], IN),
         )
 
     def _published(self, port: Port) -> AccessorView:
@@ -102,7 +78,7 @@ class Ports:
             proxy=class_,
             comment=_accessor_comment(port, f"Publishes {port.name}: {events}."),
             summary=f"publishes {port.name}: {events}",
-            statement=_call(
+            statement=call(
                 f"{name} = topics.publish<{class_}>", [quoted(port.name), quoted(port.interface.name)], IN
             ),
         )
@@ -116,7 +92,7 @@ class Ports:
             methods=port.interface.methods,
             suffix="Servant",
             arguments=arguments,
-            call=("services.implement", f"{{{arguments}}}"),
+            function=("services.implement", f"{{{arguments}}}"),
         )
 
     def _subscribed(self, port: Port) -> ServiceView:
@@ -127,17 +103,18 @@ class Ports:
             methods=_published_methods(port),
             suffix="Subscriber",
             arguments=arguments,
-            call=("topics.subscribe", f"services, {arguments}"),
+            function=("topics.subscribe", f"services, {arguments}"),
         )
 
     def _served(
-        self, port: Port, title: str, methods: Sequence[Method], suffix: str, arguments: str, call: tuple[str, str]
+        self, port: Port, title: str, methods: Sequence[Method], suffix: str, arguments: str, function: tuple[str, str]
     ) -> ServiceView:
         new, calls = [], {}
         for method in methods:
             key = (id(port.scope), port.interface.name, method.name)
             if key not in self._methods:
-                self._methods[key] = self._method(port, method)
+                name = self._members.take(f"{port.interface.name}_{method.name}")
+                self._methods[key] = method_view(port, method, name)
                 new.append(self._methods[key])
             calls[method.name] = self._methods[key].name
         servant = self._servants.take(f"{port.name}{suffix}")
@@ -150,79 +127,13 @@ class Ports:
             base=qualified(port.scope, port.interface.name),
             arguments=arguments,
             declared=[
-                f"{{{quoted(method.name)}, {quoted('::' + '::'.join(_names(ref, port.scope)))}}}"
+                f"{{{quoted(method.name)}, {quoted('::' + '::'.join(scoped(ref, port.scope)))}}}"
                 for method in methods for ref in method.throws
             ],
-            statement=_call(call[0], [call[1], f"std::make_shared<{servant}>(*this)"], IN),
-            operations=[_operation(m, port.scope, calls.get(m.name, "")) for m in port.interface.methods],
+            statement=call(function[0], [function[1], f"std::make_shared<{servant}>(*this)"], IN),
+            operations=[operation_view(m, port.scope, calls.get(m.name, "")) for m in port.interface.methods],
             new_methods=new,
         )
-
-    def _method(self, port: Port, method: Method) -> MethodView:
-        scope = port.scope
-        name = self._members.take(f"{port.interface.name}_{method.name}")
-        returns = "void" if method.returns is None else type_name(method.returns, scope)
-        inputs = [(input_type(m.type, scope), parameter(m.name)) for m in method.inputs]
-        outputs = [(f"{type_name(m.type, scope)}&", parameter(m.name)) for m in method.outputs]
-        typed = [f"{type_} {word}" for type_, word in (*inputs, *outputs)]
-        unused = [f"{type_} /*{word}*/" for type_, word in inputs] + [f"{type_} {word}" for type_, word in outputs]
-        return MethodView(
-            name=name,
-            comment=comment(described, IN) if (described := _described(port, method)) else "",
-            declaration=declaration(f"virtual {returns} {name}", typed, " = 0;", IN),
-            overriding=declaration(f"{returns} {name}", typed, " override;", IN),
-            definition=declaration(f"{returns} SpecificWorker::{name}", unused),
-            stub=_stub(method, name, scope),
-        )
-
-
-def _operation(method: Method, scope: LinkedModule, calls: str) -> OperationView:
-    """Calls the method of the worker called so; '' where it has none, because it is not published."""
-    returns = "void" if method.returns is None else type_name(method.returns, scope)
-    types = [(type_name(m.type, scope), m.name) for m in method.inputs]
-    types += [(f"{type_name(m.type, scope)}&", m.name) for m in method.outputs]
-    typed = [f"{type_} {parameter(name)}" if calls else type_ for type_, name in types]
-    current = "const Ice::Current&" if calls else "const Ice::Current& current"
-    call = _call(
-        f"{'' if method.returns is None else 'return '}worker_.{calls}", [parameter(name) for _, name in types], IN * 2
-    )
-    return OperationView(
-        declaration=declaration(f"{returns} {ice_name(method.name)}", [*typed, current], " override", IN),
-        body=call if calls else _NOT_PUBLISHED,
-    )
-
-
-def _call(function: str, arguments: Sequence[str], indent: str) -> str:
-    return declaration(function, arguments, ";", indent)
-
-
-def _stub(method: Method, name: str, scope: LinkedModule) -> list[str]:
-    """What a method does until the user writes it."""
-    hidden = "this->" if any(member.name == "log" for member in method.outputs) else ""
-    lines = [f'{hidden}log.info("{name}() is still to be written");']
-    lines += [f"{parameter(member.name)} = {zero(member.type, scope)};" for member in method.outputs]
-    return lines if method.returns is None else [*lines, f"return {zero(method.returns, scope)};"]
-
-
-def _described(port: Port, method: Method) -> str:
-    """What the signature does not say."""
-    lines = [method.doc.strip()] if method.doc.strip() else []
-    for member in (*method.inputs, *method.outputs):
-        if said := _said(member):
-            lines.append(f"{parameter(member.name)}: {said}")
-    if method.throws:
-        names = ("::".join(_names(ref, port.scope)) for ref in method.throws)
-        lines.append(f"Throws {', '.join(names)}.")
-    return "\n".join(lines)
-
-
-def _said(member: Member) -> str:
-    return " ".join(part for part in (one_line(member.doc), f"[{member.unit}]" if member.unit else "") if part)
-
-
-def _names(ref: TypeRef, scope: LinkedModule) -> tuple[str, str]:
-    home, definition = found(ref, scope)
-    return home.module.name, definition.name
 
 
 def _accessor_comment(port: Port, what: str) -> str:
