@@ -213,7 +213,10 @@ class Writer:
         texts = self.columns(spelling, record, item, where, path)
         if texts is None:
             return
-        text = spelling.separator.join(texts.values())
+        filled = list(texts.values())
+        while filled and not filled[-1] and rows.is_optional(record, spelling.columns[len(filled) - 1]):
+            del filled[-1]  # what is optional at the end of a row may be left out
+        text = spelling.separator.join(filled)
         if not self.reads_back(rows.read_row(record, spelling.columns, text, spelling.separator), texts, record):
             self.fault(where, path, f"its row, '{text}', would be read differently")
             return

@@ -10,7 +10,7 @@ from lark import Token, Tree
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Value
-from robocomp_yaml.legacy.draft import Draft, ImportDraft, Reader, base_name
+from robocomp_yaml.legacy.draft import Draft, ImportDraft, MachineDraft, Reader, base_name
 from robocomp_yaml.legacy.grammar import token, trees
 
 _LISTS = {"implements": "implements", "requires": "requires", "publishes": "publishes", "subscribesto": "subscribes"}
@@ -33,6 +33,7 @@ class _Converter:
         self.entries: dict[str, Entry] = {}
         self.imports: list[ImportDraft] = []
         self.options: list[str] = []
+        self.machine: MachineDraft | None = None
 
     def document(self, top: Node) -> Draft | None:
         for key, name, value in _pairs(top):
@@ -61,7 +62,7 @@ class _Converter:
             self.reader.diagnostics.append(codes.NO_LANGUAGE.at(self.reader.span(top), name=named.value))
         order = [*self.reader.rules.order, *(key for key in self.entries if key not in self.reader.rules.order)]
         entries = [self.entries[key] for key in order if key in self.entries]
-        return Draft(Map(entries, block=True), self.imports, Notes())
+        return Draft(Map(entries, block=True), self.imports, Notes(), machine=self.machine)
 
     def put(self, key: str, value: Value) -> None:
         if not (isinstance(value, List) and not value.items):
@@ -145,10 +146,10 @@ class _Converter:
         parts = self.texts(node) if _word(node) != "null" else []
         if not parts or not parts[0]:
             return
-        legacy = parts[0]
-        path = legacy[: -len(".smdsl")] + ".scxml" if legacy.lower().endswith(".smdsl") else legacy
-        self.put("statemachine", path)
-        self.reader.diagnostics.append(codes.STATE_MACHINE.at(self.reader.span(node), legacy=legacy, path=path))
+        self.put("statemachine", parts[0])
+        entry = self.entries["statemachine"]
+        self.machine = MachineDraft(parts[0], self.reader.span(node), entry)
+        entry.value = self.machine.document
         if "visual" in parts[1:]:
             self.put(self.reader.rules.keys["visual"], "true")
 

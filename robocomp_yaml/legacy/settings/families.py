@@ -37,7 +37,7 @@ def families(configs: Sequence[Config], guesses: Guesses) -> Iterator[Plan]:
     stems = _stems(configs)
     for stem, by_config in stems.items():
         rows = [row for group in by_config.values() for row in group]
-        if not any(row.named for row in rows) and are_rows([row.setting.text for row in rows]):
+        if are_rows([row.setting.text for row in rows]):
             plan = _records(stem, by_config, configs, guesses)
             if plan is not None:
                 yield plan
@@ -76,9 +76,10 @@ def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Conf
     first = _numbering(groups)
     if first is None and not _is_alone(stem, by_config, configs):
         return None
-    top = min(groups[0], key=lambda row: row.setting.span.line)
-    arity = len(cells(top.setting.text))
-    names, origin = columns(stem, arity, top.config.source, top.setting.span.line, top.config.rules, guesses.names)
+    titles = _titles(stem, groups, guesses)
+    if titles is None:
+        return None if first is None else _texts(stem, by_config, first)
+    names, origin = titles
     plan = Plan(_path(stem), docs=tuple(names), guessed=_why(stem, origin, names, guesses))
     plan.is_unnamed = not origin
     texts = [row.setting.text for group in groups for row in group]
@@ -92,8 +93,42 @@ def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Conf
         given = Given(Item([]))
         for row in sorted(group, key=lambda row: int(row.index)):
             record = {index: Item(guess(row.index))} if keyed else {}
-            record |= {c.name: Item(guess(cell)) for c, cell in zip(names, cells(row.setting.text), strict=True)}
+            record |= {c.name: Item(guess(cell)) for c, cell in zip(names, cells(row.setting.text), strict=False)}
             _add(given, row, record)
+        plan.given[name] = given
+    return plan
+
+
+def _titles(stem: str, groups: Sequence[list[_Row]], guesses: Guesses) -> tuple[list[Column], str] | None:
+    """The columns of all rows. Configs of several versions of a component differ: where those of one are the first ones
+    of the other, the rest is optional. None where nothing fits all."""
+    found: dict[int, tuple[list[Column], str]] = {}
+    for group in groups:
+        top = min(group, key=lambda row: row.setting.span.line)
+        arity = len(cells(top.setting.text))
+        if any(len(cells(row.setting.text)) != arity for row in group):
+            return None
+        made = columns(stem, arity, top.config.source, top.setting.span.line, top.config.rules, guesses.names)
+        if arity not in found or (made[1] and not found[arity][1]):
+            found[arity] = made
+    names, origin = found[max(found)]
+    told = [column.name for column in names]
+    if any([column.name for column in others] != told[: len(others)] for others, _ in found.values()):
+        return None
+    return names, origin
+
+
+def _texts(stem: str, by_config: dict[str, list[_Row]], first: int) -> Plan:
+    """Rows that differ in their columns, as a list of texts."""
+    plan = Plan(_path(stem), spelled=Spelled(f"{stem}{{i}}", first=first), is_unnamed=True)
+    plan.guessed = f"the rows {stem}… have different columns, so they are kept as texts"
+    for name, group in by_config.items():
+        given = Given(Item([]))
+        for row in sorted(group, key=lambda row: int(row.index)):
+            assert isinstance(given.item.value, list)
+            given.item.value.append(Item(Leaf(row.setting.text), row.setting.notes))
+            given.settings.append(row.setting)
+            _take(row)
         plan.given[name] = given
     return plan
 

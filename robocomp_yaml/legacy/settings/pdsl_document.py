@@ -120,7 +120,7 @@ def _is_sometimes_empty(plan: Plan) -> bool:
 
 
 def _spelling(spelled: Spelled) -> Value:
-    if not (spelled.columns or spelled.separators or spelled.fields):
+    if not (spelled.columns or spelled.separators or spelled.fields or spelled.first or "{i}" in spelled.key):
         return spelled.key
     body = Map()
     if spelled.fields:

@@ -21,14 +21,10 @@ def cells(text: str) -> list[str]:
 
 
 def are_rows(texts: Sequence[str]) -> bool:
-    """Whether all texts are rows of as many columns, and no numbers with a decimal comma."""
+    """Whether all texts are rows of columns, and no numbers with a decimal comma."""
     if not texts or any("," not in text or _NO_ROW.search(text) for text in texts):
         return False
-    rows = [cells(text) for text in texts]
-    arity = len(rows[0])
-    if any(len(row) != arity for row in rows):
-        return False
-    return not (arity == 2 and all(_WHOLE.match(cell) for row in rows for cell in row))
+    return not all(len(row) == 2 and all(map(_WHOLE.match, row)) for row in map(cells, texts))
 
 
 @dataclass(frozen=True, slots=True)

@@ -130,6 +130,8 @@ def _originals(config: Config, plans: Sequence[Plan], exact: bool) -> Iterator[t
             made = setting.raw
             if spelled and spelled.columns:
                 made = spelled.separator.join(rows.cells(setting.raw))
+            elif spelled and spelled.key.endswith("{i}"):
+                made = setting.raw
             elif spelled and spelled.separators:
                 made = _joined(setting.raw, spelled.separators, spelled.trailing)
             elif config.sorted.dialect == FLAT_TOML:
