@@ -101,7 +101,8 @@ def _below(folder: str, said: list[Diagnostic]) -> Iterator[str]:
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(names):
             path = os.path.normpath(os.path.join(where, name))
-            made = path in compiled and by_name(name) is not None  # a config that was compiled again is still one
+            # A config that became a document is a source still, though `compile` now writes it.
+            made = path in compiled and (by_name(name) is not None or not os.path.exists(f"{path}.yaml"))
             if not name.startswith(".") and not made and candidate(path):
                 yield path
 
@@ -112,7 +113,7 @@ def _compiled(folder: str) -> set[str]:
         files = manifest.read(contents(os.path.join(folder, manifest.PATH))).files
     except (OSError, manifest.Unusable):
         return set()
-    return {os.path.normpath(os.path.join(folder, path)) for path, entry in files.items() if not entry.once}
+    return {os.path.normpath(os.path.join(folder, path)) for path in files}
 
 
 def _preferences(files: Iterable[LegacyFile]) -> Iterator[LegacyFile]:

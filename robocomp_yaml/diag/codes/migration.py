@@ -198,8 +198,8 @@ UNNAMED = Code(
 )  # fmt: skip
 NO_PDSL = Code(
     "RC5030", WARNING, "there is no parameter file '{name}' among the files migrated",
-    "Values of 2011 (`.pconf`) say whose they are by importing a `.pdsl`. Without it, the document's `component:` names "
-    "a document that is not there.",
+    "Values of 2011 (`.pconf`) say whose they are by importing a `.pdsl`. Without it, the document's `component:` "
+    "names a document that is not there.",
     {"speech.pconf": 'import "speech.pdsl";\nConfigFile Speech{\n  volume = 3\n}\n'},
     {
         "speech.pconf": 'import "speech.pdsl";\nConfigFile Speech{\n  volume = 3\n}\n',
