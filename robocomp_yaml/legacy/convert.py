@@ -10,10 +10,11 @@ from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import comments, directives
 from robocomp_yaml.legacy.draft import Draft, Reader, plain
 from robocomp_yaml.legacy.formats import by_name, recognize
-from robocomp_yaml.legacy.grammar import Parsed, marked, parse, words
+from robocomp_yaml.legacy.grammar import MAX_DEPTH, Parsed, depth, marked, parse, words
 from robocomp_yaml.legacy.reading import Source, read
 from robocomp_yaml.legacy.rules import Rules
 
@@ -50,6 +51,10 @@ def _convert(result: Converted, source: Source, rules: Rules) -> None:
     result.parsed = parsed = parse(source, rules)
     said += parsed.diagnostics
     if parsed.tree is None:
+        return
+    if depth(parsed.tree) > MAX_DEPTH:
+        parsed.tree = None
+        said.append(codes.SYNTAX.at(Span(result.path), problem="this file nests things too deeply", hint=""))
         return
     said += _review(parsed.tree, source, rules)
     placed = comments.place(parsed.tree, parsed.comments, source, rules)
