@@ -9,10 +9,13 @@ from robocomp_yaml.commands import _options
 
 @click.command(short_help="Report everything that is wrong with the documents.")
 @_options.paths
+@click.option("--environment", is_flag=True, help="Also say which of the libraries they name are not installed.")
 @_options.include
 @_options.format_
 @click.pass_context
-def command(ctx: click.Context, paths: tuple[str, ...], include: tuple[str, ...], format_: str) -> None:
+def command(
+    ctx: click.Context, paths: tuple[str, ...], environment: bool, include: tuple[str, ...], format_: str
+) -> None:  # fmt: skip
     """Report everything that is wrong with the documents at PATHS (by default, below this folder).
 
     A folder means all documents below it. Documents that they import are looked at too.
@@ -23,5 +26,10 @@ def command(ctx: click.Context, paths: tuple[str, ...], include: tuple[str, ...]
     paths = paths or (".",)
     with _options.progress("reading", paths) as on_read:
         analysis = analyse(paths, include, on_read)
-    told = analysis.with_more(ports.clashes(analysis.program.components.values()))
+    more = [*ports.clashes(analysis.program.components.values())]
+    if environment:
+        from robocomp_yaml.emit.environment import missing
+
+        more += missing(analysis.program.components.values(), analysis.linker.workspace_of)
+    told = analysis.with_more(more)
     _options.report(ctx, format_, told, analysis.program.documents)

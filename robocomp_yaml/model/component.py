@@ -44,6 +44,30 @@ class Gui:
     span: Span = _span()
 
 
+CMAKE, PKG_CONFIG, LINK, PIP = "cmake", "pkg-config", "link", "pip"
+
+
+@dataclass(frozen=True, slots=True)
+class Library:
+    """A library that the component's own code needs. `kind` is CMAKE, PKG_CONFIG, LINK or PIP; `version` is as
+    written, '' for any; `entry` counts the entries of the document."""
+
+    kind: str
+    name: str
+    version: str = ""
+    entry: int = 0
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file of the user's repository, or (`is_class`) a folder of shared classes; by a relative path."""
+
+    path: str
+    is_class: bool = False
+    span: Span = _span()
+
+
 @dataclass(frozen=True, slots=True)
 class Component:
     """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written
@@ -63,6 +87,7 @@ class Component:
     gui: Gui | None = None
     options: tuple[str, ...] = ()
     compatibility: str = ""
-    has_uses: bool = False
+    sources: tuple[Source, ...] = ()
+    libraries: tuple[Library, ...] = ()
     doc: str = ""
     span: Span = _span()

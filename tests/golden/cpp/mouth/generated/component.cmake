@@ -70,3 +70,6 @@ target_compile_options(MouthComp PRIVATE -Wall -Wextra)
 target_include_directories(MouthComp PRIVATE "${component_root}/generated" "${component_root}/src")
 target_include_directories(MouthComp SYSTEM PRIVATE "${component_slice}")
 target_link_libraries(MouthComp PRIVATE Ice::Ice++11 Ice::IceStorm++11 Threads::Threads)
+
+set(component_target MouthComp)
+include("${CMAKE_CURRENT_LIST_DIR}/uses.cmake" OPTIONAL)
