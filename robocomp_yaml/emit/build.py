@@ -148,7 +148,7 @@ def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
         "parameters": component.parameters, "statemachine": component.statemachine, "gui": component.gui,
-        "options": component.options, "compatibility": component.compatibility,
+        "compatibility": component.compatibility,
     }  # fmt: skip
     for key, value in asked.items():
         if value:

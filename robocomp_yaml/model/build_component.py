@@ -16,6 +16,7 @@ from robocomp_yaml.model.component import (
     Gui,
     Language,
     Library,
+    Option,
     Source,
     Use,
 )
@@ -42,7 +43,7 @@ def build(root: Mapping, path: str) -> Component:
         period=None if period is None else round(period * 1000),
         statemachine="<inline>" if isinstance(machine, Mapping) else text(root, "statemachine"),
         gui=_gui(root.get("gui")),
-        options=tuple(item.lexeme for item in items(root, "options") if isinstance(item, Scalar)),
+        options=tuple(Option(item.lexeme, span=item.span) for item in items(root, "options") if isinstance(item, Scalar)),
         compatibility=text(root, "compatibility"),
         sources=tuple(_sources(root.get("uses"))),
         libraries=tuple(_libraries(root.get("uses"))),

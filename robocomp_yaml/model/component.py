@@ -44,6 +44,14 @@ class Gui:
     span: Span = _span()
 
 
+@dataclass(frozen=True, slots=True)
+class Option:
+    """An option of the legacy component generator."""
+
+    name: str
+    span: Span = _span()
+
+
 CMAKE, PKG_CONFIG, LINK, PIP = "cmake", "pkg-config", "link", "pip"
 
 
@@ -85,7 +93,7 @@ class Component:
     period: int | None = None
     statemachine: str = ""
     gui: Gui | None = None
-    options: tuple[str, ...] = ()
+    options: tuple[Option, ...] = ()
     compatibility: str = ""
     sources: tuple[Source, ...] = ()
     libraries: tuple[Library, ...] = ()
