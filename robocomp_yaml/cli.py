@@ -18,10 +18,11 @@ from robocomp_yaml import __version__
 
 COMMANDS = {
     "init": "Make a folder a workspace that already checks.",
-    "new": "Write a new interface or component that already compiles.",
+    "new": "Write a new interface, component or parameters document.",
     "check": "Report everything that is wrong with the documents.",
     "compile": "Write Slice and components; only what changed.",
     "migrate": "Carry legacy files over to YAML, losing nothing.",
+    "config": "Values of parameters: check, show, change, export.",
     "schema": "Print the JSON Schema of a kind of document.",
     "explain": "Say what a diagnostic means, with examples.",
 }

@@ -6,21 +6,17 @@ goes on from the program that it gives.
 
 from __future__ import annotations
 
-import importlib
 import os
-import pkgutil
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from robocomp_yaml import check
+from robocomp_yaml.check import checks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
 from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
-
-Check = Callable[[Program], Iterator[Diagnostic]]
 
 
 @dataclass(slots=True)
@@ -40,28 +36,25 @@ class Analysis:
         return in_order([*self.diagnostics, *_with_lint(diagnostics, self.linker)])
 
 
-def checks() -> list[Check]:
-    """Every check, in the order of their modules' names."""
-    modules = sorted(module.name for module in pkgutil.iter_modules(check.__path__))
-    return [importlib.import_module(f"{check.__name__}.{name}").check for name in modules]
-
-
 def search_folders(given: Iterable[str]) -> tuple[str, ...]:
     """The folders of `-I` and, behind them, of RCYAML_PATH."""
     return (*given, *(folder for folder in os.environ.get("RCYAML_PATH", "").split(os.pathsep) if folder))
 
 
 def analyse(
-    paths: Iterable[str], extra: Iterable[str] = (), on_read: Callable[[str], None] = lambda path: None
+    paths: Iterable[str],
+    extra: Iterable[str] = (),
+    on_read: Callable[[str], None] = lambda path: None,
+    overlay: Mapping[str, bytes] | None = None,
 ) -> Analysis:
     """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
-    document that is read."""
+    document that is read. `overlay` has contents, by real path, that count instead of the disk's."""
     found = discover(list(paths))
-    documents = Documents(on_read)
+    documents = Documents(on_read, overlay=dict(overlay or {}))
     linker = Linker(documents, Search(search_folders(extra)))
     program = linker.link(found.documents)
     said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]
-    for run in checks():
+    for run in checks(program):
         said += run(program)
     contents = documents.contents
     for workspace in linker.workspaces.values():

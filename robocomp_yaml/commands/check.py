@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
 import click
 
 from robocomp_yaml.commands import _options
+
+if TYPE_CHECKING:
+    from robocomp_yaml.diag.diagnostic import Diagnostic
+    from robocomp_yaml.pipeline import Analysis
 
 
 @click.command(short_help="Report everything that is wrong with the documents.")
@@ -20,16 +27,20 @@ def command(
 
     A folder means all documents below it. Documents that they import are looked at too.
     """
-    from robocomp_yaml.emit import ports
     from robocomp_yaml.pipeline import analyse
 
     paths = paths or (".",)
     with _options.progress("reading", paths) as on_read:
         analysis = analyse(paths, include, on_read)
-    more = [*ports.clashes(analysis.program.components.values())]
-    if environment:
-        from robocomp_yaml.emit.environment import missing
+    told, components = analysis.diagnostics, analysis.program.components.values()
+    if components:
+        from robocomp_yaml.emit import ports
 
-        more += missing(analysis.program.components.values(), analysis.linker.workspace_of)
-    told = analysis.with_more(more)
+        told = analysis.with_more([*ports.clashes(components), *(_missing(analysis) if environment else ())])
     _options.report(ctx, format_, told, analysis.program.documents)
+
+
+def _missing(analysis: Analysis) -> Iterator[Diagnostic]:
+    from robocomp_yaml.emit.environment import missing
+
+    return missing(analysis.program.components.values(), analysis.linker.workspace_of)

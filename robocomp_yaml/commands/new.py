@@ -1,7 +1,8 @@
-"""`rcyaml new interface|component`: a document that already checks and compiles, where the workspace keeps its kind.
+"""`rcyaml new interface|component|parameters`: a document that already checks and compiles, where its kind belongs.
 
 An interface goes to the workspace's first folder of interfaces, a component to `components/` and a folder of its own,
-which bears its name in lower case. Where there is no workspace yet, this folder becomes one.
+which bears its name in lower case; parameters go beside their component. Where there is no workspace yet, this folder
+becomes one.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ class NewDocument:
     text: str
 
 
-@click.group(short_help="Write a new interface or component that already compiles.")
+@click.group(short_help="Write a new interface, component or parameters document.")
 def command() -> None:
     """Write a new document that already checks and compiles, commented as a tutorial.
 
@@ -95,6 +96,22 @@ def component(
     several do.
     """
     _create(ctx, lambda root: component_document(root, name, language, uses, include))
+
+
+@command.command(short_help="A new document of a component's parameters.")
+@click.argument("name")
+@click.pass_context
+def parameters(ctx: click.Context, name: str) -> None:
+    """Write the parameters' document of the component NAME, beside the component's."""
+    _create(ctx, lambda root: parameters_document(root, name))
+
+
+def parameters_document(root: Path, name: str) -> NewDocument:
+    from robocomp_yaml.commands import new_parameters
+
+    _refuse_odd(name)
+    path, text = new_parameters.parameters_document(root, name)
+    return NewDocument(_free(path), text)
 
 
 def interface_document(root: Path, name: str) -> NewDocument:

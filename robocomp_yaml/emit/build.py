@@ -10,7 +10,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
-from robocomp_yaml.diag.codes import cdsl, compiling, idsl
+from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.options import Options
@@ -53,12 +53,18 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             needed = [linked, *_imports(linked, lambda other, root=root: other in asked and slice_root(other) == root)]
             result.plans.append(RootPlan(root, owner, list(slices(needed))))
             result.compiled += 1
-    for real in sorted(program.asked & program.components.keys(), key=lambda r: program.components[r].component.path):
+    for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if _usable_component(component, state, result):
-            from robocomp_yaml.emit.component import component_plan  # with the targets, which Slice alone needs not
+            # with the targets, which Slice alone needs not
+            from robocomp_yaml.emit.component import component_plan, values_of
 
-            result.plans.append(component_plan(component, options, slices))
+            plan = component_plan(component, options, slices, program)
+            if any(document.path in state.faulty for document in values_of(component, program)):
+                # What is wrong has been said; what the values wrote before stays until they are right again.
+                files = [file for file in plan.files if not file.path.startswith("etc/")]
+                plan = RootPlan(plan.root, plan.owner, files, partial=True)
+            result.plans.append(plan)
             result.diagnostics += _not_yet(component)
             result.compiled += 1
     return result
@@ -82,7 +88,7 @@ class _State:
         for diagnostic in diagnostics:
             if diagnostic.severity == ERROR:
                 state.faulty.add(diagnostic.span.file)
-            elif diagnostic.code in (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id):
+            elif diagnostic.code in (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id, machines.UNREADABLE.id):
                 state.lowered.add(diagnostic.span.file)
         return state
 
@@ -129,8 +135,17 @@ def _usable(name: str, path: str, modules: Iterable[LinkedModule], state: _State
 
 def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> bool:
     component = linked.component
+    for file in linked.machine_files:
+        if file in state.faulty:
+            result.diagnostics.append(_unresolved(component.name, component.path, file, state))
+            return False
     if linked.broken and component.path not in state.faulty:
         result.diagnostics.append(_unresolved(component.name, component.path, component.path, state))
+        return False
+    document = linked.parameters.document
+    if document is not None and document.path in state.faulty:
+        if component.path not in state.faulty:
+            result.diagnostics.append(_unresolved(component.name, component.path, document.path, state))
         return False
     return _usable(component.name, component.path, linked.imports, state, result)
 
@@ -147,8 +162,7 @@ def _unresolved(name: str, path: str, cause: str, state: _State) -> Diagnostic:
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
-        "parameters": component.parameters, "statemachine": component.statemachine, "gui": component.gui,
-        "compatibility": component.compatibility,
+        "gui": component.gui, "compatibility": component.compatibility,
     }  # fmt: skip
     for key, value in asked.items():
         if value:

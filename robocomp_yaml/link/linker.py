@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -18,6 +19,9 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Import, Module
+
+if TYPE_CHECKING:
+    from robocomp_yaml.link.attachments import Attachments
 
 
 @dataclass(slots=True)
@@ -37,14 +41,18 @@ class Linker:
         todo = [self.documents.get(path) for path in paths]
         self.program.asked = {document.real for document in todo}
         components: list[tuple[Document, LinkedComponent]] = []
+        attachments: Attachments | None = None
+        seen: set[str] = set()
         while todo:
             document = todo.pop()
-            if document.real in self.program.modules or document.real in self.program.components:
+            if document.real in seen:
                 continue
+            seen.add(document.real)
             if isinstance(document.model, Module):
                 linked = self.program.modules[document.real] = LinkedModule(document.model)
                 todo += self._imports(document, document.model.imports, linked.unresolved, idsl)
-            elif isinstance(document.model, Component):
+                continue
+            if isinstance(document.model, Component):
                 model, diagnostics = options.expanded(document.model)
                 self.diagnostics += diagnostics
                 component = self.program.components[document.real] = LinkedComponent(model)
@@ -52,11 +60,21 @@ class Linker:
                 unresolved: set[str] = set()
                 todo += self._imports(document, model.imports, unresolved, cdsl)
                 component.broken = bool(unresolved)
+            attachments = attachments or self._attachments()
+            todo += attachments.follow(document)
         self._join()
+        if attachments is not None:
+            attachments.join()
         for document, component in sorted(components, key=lambda pair: pair[0].path):
             self.diagnostics += link_ports(component, self._suggest_import(document))
+            self._read_machine(component)
         self.program.documents = len(self.documents.read)
         return self.program
+
+    def _attachments(self) -> Attachments:
+        from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
+
+        return Attachments(self.documents, self.program, self.search.absent, self.diagnostics)
 
     def workspace_of(self, path: str) -> Workspace:
         """The workspace that a document belongs to; without a declared one, its own folder."""
@@ -72,6 +90,19 @@ class Linker:
                     self.diagnostics += diagnostics
                 self._by_folder[folder] = self.workspaces[real]
         return self._by_folder[folder]
+
+    def _read_machine(self, linked: LinkedComponent) -> None:
+        if linked.component.machine is not None or not linked.component.statemachine:
+            linked.machine = linked.component.machine
+            return
+        from robocomp_yaml.link.machines import MachineReader  # with XML, which few need
+
+        reader = MachineReader(self.documents.overlay, absent=self.search.absent)
+        linked.machine = reader.of(linked.component)
+        linked.machine_files = tuple(reader.contents)
+        linked.broken |= linked.machine is None
+        self.documents.contents.update(reader.contents)
+        self.diagnostics += reader.diagnostics
 
     def _imports(
         self, document: Document, imports: tuple[Import, ...], unresolved: set[str], codes: ModuleType

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Import, _span
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.statemachine import StateMachine
 
 WAIT, FAIL, IGNORE = "wait", "fail", "ignore"
 
@@ -78,8 +82,8 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class Component:
-    """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written
-    (`statemachine` is '<inline>' where the machine stands in the document), or ''."""
+    """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written,
+    or ''; `machine` is the state machine that stands in the document."""
 
     name: str
     path: str
@@ -92,10 +96,13 @@ class Component:
     parameters: str = ""
     period: int | None = None
     statemachine: str = ""
+    machine: StateMachine | None = None
     gui: Gui | None = None
     options: tuple[Option, ...] = ()
     compatibility: str = ""
     sources: tuple[Source, ...] = ()
     libraries: tuple[Library, ...] = ()
     doc: str = ""
+    machine_span: Span = _span()
     span: Span = _span()
+    parameters_span: Span = _span()

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
-KINDS = ("idsl", "cdsl")
+KINDS = ("idsl", "cdsl", "pdsl", "config")
+_MODELINE = re.compile(
+    rb"#\s*yaml-language-server:\s*\$schema=\S*(?:\.rcyaml/schemas|generated)/config\.schema\.json\s*$"
+)
 WORKSPACE_FILE = "rcyaml.yaml"
 MANIFEST = ".rcyaml/manifest.json"
 _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
@@ -21,8 +25,25 @@ def kind_of(path: str) -> str | None:
     name = os.path.basename(path)
     for kind in KINDS:
         if name == f"{kind}.yaml" or name.endswith(f".{kind}.yaml"):
-            return kind
+            return kind if name != "config.yaml" or _is_ours(path) else None
     return None
+
+
+def _is_ours(path: str) -> bool:
+    """Many programs have a `config.yaml`: ours stands in `etc/` beside a component, or names our schema."""
+    folder = os.path.dirname(path)
+    if os.path.basename(os.path.abspath(folder)) == "etc":
+        try:
+            names = os.listdir(os.path.join(folder, os.pardir))
+        except OSError:
+            names = []
+        if any(name == "cdsl.yaml" or name.endswith(".cdsl.yaml") for name in names):
+            return True
+    try:
+        with open(path, "rb") as file:
+            return _MODELINE.match(file.readline(1 << 12)) is not None
+    except OSError:
+        return False
 
 
 @dataclass(slots=True)
@@ -43,8 +64,15 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
     for path in paths:
         if os.path.isdir(path):
             found.folders.append(path)
-            below = list(documents_below(path, found.roots))
-            if not below:
+            closed: list[OSError] = []
+            below = list(documents_below(path, found.roots, closed.append))
+            found.diagnostics += [
+                codes.UNREADABLE.at(
+                    Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower()
+                )
+                for error in closed
+            ]
+            if not below and not closed:
                 found.diagnostics.append(codes.NOTHING_FOUND.at(
                     Span(path), hint="`rcyaml new interface NAME` writes a first one, `rcyaml migrate` carries over "
                     "what you have",
@@ -65,10 +93,12 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
     return found
 
 
-def documents_below(folder: str, roots: list[str] | None = None) -> Iterator[str]:
+def documents_below(
+    folder: str, roots: list[str] | None = None, on_error: Callable[[OSError], None] | None = None
+) -> Iterator[str]:
     """Every document below a folder, sorted within each folder; a link to a folder is not followed. The folders that
-    have a manifest are added to `roots`."""
-    for where, folders, names in os.walk(folder):
+    have a manifest are added to `roots`, and `on_error` is told of those that cannot be read."""
+    for where, folders, names in os.walk(folder, onerror=on_error):
         if roots is not None and ".rcyaml" in folders and os.path.isfile(os.path.join(where, MANIFEST)):
             roots.append(os.path.normpath(where))
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))

@@ -12,7 +12,9 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.targets import cpp_statemachine
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.emit.targets.cpp_statemachine import MachineView
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
@@ -52,13 +54,17 @@ class View:
     libraries: str
     slice_stems: str
     sources: list[str]
+    machine: MachineView | None
+    base: str
 
 
 def plan(component: LinkedComponent) -> list[FilePlan]:
     """The component's files but for `slice/` and `etc/`."""
-    view = _view(component)
+    machine = cpp_statemachine.files(component)
+    view = _view(component, machine)
     return [
         *_runtime(view.has_topics),
+        *machine,
         *(
             FilePlan(f"generated/{name}", render(f"cpp/{name}.j2", view))
             for name in ("interfaces.h", "genericworker.h", "genericworker.cpp", "main.cpp", "component.cmake")
@@ -80,7 +86,7 @@ def _runtime(has_topics: bool) -> tuple[FilePlan, ...]:
     )
 
 
-def _view(linked: LinkedComponent) -> View:
+def _view(linked: LinkedComponent, machine: list[FilePlan]) -> View:
     component = linked.component
     ports = Ports(linked)
     has_topics = bool(ports.publishes or ports.subscribes)
@@ -91,7 +97,7 @@ def _view(linked: LinkedComponent) -> View:
     doc = f"{component.name}: {component.doc}" if component.doc else component.name
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if has_services else "/*services*/"
-    runtime = [file.path.removeprefix("generated/") for file in _runtime(has_topics) if file.path.endswith(".cpp")]
+    copied = [file.path.removeprefix("generated/") for file in (*_runtime(has_topics), *machine)]
     ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
@@ -113,5 +119,7 @@ def _view(linked: LinkedComponent) -> View:
         ice_components=" ".join(ice),
         libraries=" ".join(f"Ice::{name}" for name in ice),
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
-        sources=["genericworker.cpp", *runtime],
+        sources=["genericworker.cpp", *(path for path in copied if path.endswith(".cpp"))],
+        machine=cpp_statemachine.view(linked.machine) if linked.machine else None,
+        base="machine::Worker" if linked.machine else "runtime::Worker",
     )

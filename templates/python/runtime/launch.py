@@ -23,10 +23,11 @@ def launch(name: str, files: Sequence[Path], properties: Sequence[str], only_che
     try:
         settings = Settings(files, properties)
         from generated.component import COMPONENT
+        from generated.parameters import TABLE, Parameters
         from generated.runtime.application import Application
         from specificworker import SpecificWorker
 
-        application = Application(COMPONENT, SpecificWorker, settings, stopping)
+        application = Application(COMPONENT, SpecificWorker, (TABLE, Parameters), settings, stopping)
     except StartError as error:
         logging.getLogger(name).error(error)
         return 1
