@@ -5,8 +5,6 @@
 #include "runtime/services.h"
 #include "runtime/topics.h"
 
-#include <stdexcept>
-
 #include <Ice/LocalException.h>
 
 namespace

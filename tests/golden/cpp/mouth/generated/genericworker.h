@@ -5,6 +5,7 @@
 #include "runtime/worker.h"
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 /// MouthComp: Moves the lips.
