@@ -27,7 +27,7 @@ from robocomp_yaml.model.pdsl import Spelling
 from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.values import lexemes, rows
-from robocomp_yaml.values.evaluate import with_defaults
+from robocomp_yaml.values.defaults import with_defaults
 from robocomp_yaml.values.layers import Place, child
 from robocomp_yaml.values.paths import Step, escaped, in_words
 from robocomp_yaml.values.spelling import Template

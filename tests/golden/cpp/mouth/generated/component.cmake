@@ -37,17 +37,24 @@ add_custom_command(
 set(component_generated ${component_slice_sources})
 foreach(file IN ITEMS
     genericworker.cpp
+    parameters.cpp
     runtime/application.cpp
     runtime/commandline.cpp
     runtime/commonbehavior.cpp
+    runtime/configuration.cpp
     runtime/connections.cpp
+    runtime/editing.cpp
     runtime/errors.cpp
     runtime/gate.cpp
+    runtime/kinds.cpp
     runtime/log.cpp
     runtime/program.cpp
+    runtime/reading.cpp
     runtime/services.cpp
     runtime/settings.cpp
     runtime/shutdown.cpp
+    runtime/store.cpp
+    runtime/texts.cpp
     runtime/topics.cpp
     runtime/worker.cpp
 )

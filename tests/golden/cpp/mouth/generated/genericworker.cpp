@@ -120,7 +120,8 @@ private:
 
 }
 
-GenericWorker::GenericWorker() : runtime::Worker("MouthComp", 50)
+GenericWorker::GenericWorker()
+    : runtime::Worker("MouthComp", 50, parameters::table()), parameters(parameterStore())
 {
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "interfaces.h"
+#include "parameters.h"
 #include "runtime/worker.h"
 
 #include <memory>
@@ -42,6 +43,9 @@ public:
     virtual void MouthEvents_moved(RoboCompMouth::Shape shape, const RoboCompTypes::Pose& at);
 
 protected:
+    /// What etc/config and the command line say: they are read before initialize() is called.
+    Parameters parameters;
+
     /// Twin, at the address that the property TwinProxy gives.
     /// Lips that move.
     std::shared_ptr<RoboCompMouth::MouthPrx> twin_proxy;

@@ -9,6 +9,7 @@
 /// - twin_proxy: calls Twin
 /// - backup_proxy: calls Backup
 /// - mouthevents_pubproxy: publishes MouthEvents: moved(shape, at)
+/// - parameters: what etc/config and generated/parameters.h say
 /// - log, mutex, communicator, getPeriod(), setPeriod(ms), killYourSelf()
 class SpecificWorker : public GenericWorker
 {
