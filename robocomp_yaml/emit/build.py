@@ -165,8 +165,7 @@ def _unresolved(document: Module | Component, cause: str, state: _State) -> Diag
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
-        "gui": component.gui,
-        "options": component.options, "compatibility": component.compatibility, "uses": component.has_uses,
+        "gui": component.gui, "compatibility": component.compatibility,
     }  # fmt: skip
     for key, value in asked.items():
         if value:
