@@ -135,8 +135,8 @@ def _unresolved(name: str, path: str, cause: str, state: _State) -> Diagnostic:
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
-        "parameters": component.parameters, "statemachine": component.statemachine, "gui": component.gui,
-        "options": component.options, "compatibility": component.compatibility, "uses": component.has_uses,
+        "parameters": component.parameters, "statemachine": component.statemachine,
+        "options": component.options, "uses": component.has_uses,
     }  # fmt: skip
     for key, value in asked.items():
         if value:

@@ -15,6 +15,7 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.targets import python_qt
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
 from robocomp_yaml.emit.targets.python_stubs import ModuleStub, stub
@@ -41,8 +42,9 @@ class SliceModule:
 class View:
     """What the templates show: each file is about the same few things.
 
-    `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `imports`
-    names the modules that the file at hand uses.
+    `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `stage`,
+    `window`, `qt_base`, `sequences` and `spread` are for components in Qt's event loop; `imports` names the modules
+    that the file at hand uses.
     """
 
     source: str
@@ -62,7 +64,12 @@ class View:
     requires: list[AccessorView]
     publishes: list[AccessorView]
     accessors: list[AccessorView]
+    stage: str
+    window: str
+    qt_base: str
+    sequences: list[str]
     imports: str = ""
+    spread: tuple[str, ...] = ()
 
 
 def plan(component: LinkedComponent) -> list[FilePlan]:
@@ -79,9 +86,23 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
         FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
         FilePlan("generated/component.py", _rendered("component.py", view, table)),
-        FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
-        FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
+        *python_qt.files(component),
+        *(_robocomp(view) if component.component.compatibility else [
+            FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
+            FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
+        ]),
         FilePlan(f"bin/{view.name}", _rendered("launcher", view), ONCE, executable=True),
+    ]
+
+
+def _robocomp(view: View) -> list[FilePlan]:
+    """What code written for RoboComp's own tool imports, and a skeleton like its own."""
+    every = tuple(module.variable for module in view.modules)
+    view = replace(view, imports=", ".join(every), spread=every)
+    return [
+        FilePlan("generated/robocomp/genericworker.py", render("python/robocomp_genericworker.py.j2", view)),
+        FilePlan("generated/robocomp/interfaces.py", render("python/robocomp_interfaces.py.j2", view)),
+        FilePlan("src/specificworker.py", render("python/robocomp_specificworker.py.j2", view), ONCE),
     ]
 
 
@@ -128,6 +149,10 @@ def _view(linked: LinkedComponent) -> View:
         requires=ports.requires,
         publishes=ports.publishes,
         accessors=[*ports.requires, *ports.publishes],
+        stage=python_qt.stage(linked),
+        window=component.gui.base if component.gui else "",
+        qt_base=python_qt.qt_base(linked),
+        sequences=python_qt.sequences(linked),
     )
 
 
