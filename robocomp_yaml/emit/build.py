@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from robocomp_yaml.check.forms import FORM
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
@@ -119,6 +120,10 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
     component = linked.component
     if linked.broken and component.path not in state.faulty:
         result.diagnostics.append(_unresolved(component.name, component.path, component.path, state))
+        return False
+    form = os.path.normpath(os.path.join(os.path.dirname(component.path), FORM))
+    if component.gui and form in state.faulty:
+        result.diagnostics.append(_unresolved(component.name, component.path, form, state))
         return False
     return _usable(component.name, component.path, linked.imports, state, result)
 
