@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import gc
 import importlib
+import io
 import os
 import sys
 from dataclasses import dataclass
@@ -17,10 +18,11 @@ from robocomp_yaml import __version__
 
 COMMANDS = {
     "init": "Make a folder a workspace that already checks.",
-    "new": "Write a new interface or component that already compiles.",
+    "new": "Write a new interface, component or parameters document.",
     "check": "Report everything that is wrong with the documents.",
     "compile": "Write Slice and components; only what changed.",
     "migrate": "Carry legacy files over to YAML, losing nothing.",
+    "config": "Values of parameters: check, show, change, export.",
     "schema": "Print the JSON Schema of a kind of document.",
     "explain": "Say what a diagnostic means, with examples.",
 }
@@ -84,8 +86,22 @@ def group(ctx: click.Context, color: str, quiet: bool, verbose: bool) -> None:
 def main() -> None:
     """Run rcyaml; the exit code is 0 (fine), 1 (the documents have errors) or 2 (wrong usage)."""
     gc.set_threshold(200_000, 20, 100)  # a run is short, and most of what it makes lives to its end
+    _make_streams_usable()
     try:
         group(prog_name="rcyaml")
-    except BrokenPipeError:  # `rcyaml check | head`: the reader has enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(0)
+    except OSError as error:  # commands tell of files that fail them: this is the output itself
+        reason = (error.strerror or str(error)).lower()
+        print(f"Error: cannot write what there is to say: {reason}", file=sys.stderr)
+        sys.exit(1)
+
+
+def _make_streams_usable() -> None:
+    """Standard streams that are closed swallow what they are given, and no character is refused: a name that is not
+    text leaves as the bytes that it has on the disk, and what an old encoding lacks as a question mark."""
+    if sys.stdout is None:
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (for the whole run)
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        is_utf8 = sys.stdout.encoding.lower().replace("-", "") == "utf8"
+        sys.stdout.reconfigure(errors="surrogateescape" if is_utf8 else "replace")

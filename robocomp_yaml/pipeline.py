@@ -9,7 +9,7 @@ from __future__ import annotations
 import importlib
 import os
 import pkgutil
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from robocomp_yaml import check
@@ -52,12 +52,15 @@ def search_folders(given: Iterable[str]) -> tuple[str, ...]:
 
 
 def analyse(
-    paths: Iterable[str], extra: Iterable[str] = (), on_read: Callable[[str], None] = lambda path: None
+    paths: Iterable[str],
+    extra: Iterable[str] = (),
+    on_read: Callable[[str], None] = lambda path: None,
+    overlay: Mapping[str, bytes] | None = None,
 ) -> Analysis:
     """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
-    document that is read."""
+    document that is read. `overlay` has contents, by real path, that count instead of the disk's."""
     found = discover(list(paths))
-    documents = Documents(on_read)
+    documents = Documents(on_read, overlay=dict(overlay or {}))
     linker = Linker(documents, Search(search_folders(extra)))
     program = linker.link(found.documents)
     said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]

@@ -13,8 +13,9 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._outcome import File, Outcome
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
 from robocomp_yaml.emit import stamp, writer
-from robocomp_yaml.emit.build import Build, Options, build
+from robocomp_yaml.emit.build import Build, build
 from robocomp_yaml.emit.changes import Changes
+from robocomp_yaml.emit.options import Options
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import documents_below

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections import Counter
 from collections.abc import Iterator
@@ -14,6 +13,7 @@ import click
 from robocomp_yaml.commands import _options
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related, has_errors
 from robocomp_yaml.diag.render import render
+from robocomp_yaml.diag.render.json import dumps, run_as_data
 from robocomp_yaml.diag.span import Span
 
 SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
@@ -95,8 +95,7 @@ def report(ctx: click.Context, outcome: Outcome, format_: str, *, diff: bool = F
             {"path": file.path, "action": file.action, **({"orig": file.orig} if file.orig else {})}
             for file in outcome.files
         ]
-        data = json.loads(render("json", told, outcome.documents))
-        click.echo(json.dumps({**data, "files": files}, indent=2, ensure_ascii=False))
+        click.echo(dumps({**run_as_data(told, outcome.documents), "files": files}), nl=False)
     elif format_ == "sarif":
         click.echo(render("sarif", told, outcome.documents), nl=False)
     else:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import click
 
 from robocomp_yaml.diag.code import Code, Files
@@ -77,6 +75,8 @@ def _tree(files: Files) -> str:
 
 
 def _as_json(rows: list[Code]) -> str:
+    from robocomp_yaml.diag.render.json import dumps
+
     def text(content: str | bytes | None) -> str | None:
         return content.decode("utf-8", "backslashreplace") if isinstance(content, bytes) else content
 
@@ -92,4 +92,4 @@ def _as_json(rows: list[Code]) -> str:
         }
         for row in rows
     ]
-    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+    return dumps(data)

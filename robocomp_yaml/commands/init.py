@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
+from robocomp_yaml.commands import _workspace
+
 EXAMPLE = "Hello"
-
-
-@dataclass(frozen=True, slots=True)
-class WorkspaceView:
-    modeline: str
 
 
 @click.command(short_help="Make a folder a workspace that already checks.")
@@ -30,53 +25,11 @@ def command(ctx: click.Context, folder: Path, bare: bool) -> None:
 
     empty = not folder.is_dir() or not list(documents_below(str(folder)))
     try:
-        make(ctx, folder)
+        _workspace.make(ctx, folder)
         if empty and not bare:
             new.write(ctx, new.interface_document(folder, EXAMPLE))
             new.write(ctx, new.component_document(folder, f"{EXAMPLE}Comp", "python", {"implements": [EXAMPLE]}))
     except OSError as error:
-        raise unwritable(error) from error
+        raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
         click.echo("next: rcyaml check, rcyaml compile, or rcyaml new interface NAME")
-
-
-def make(ctx: click.Context, folder: Path) -> None:
-    """Writes what a workspace consists of, besides documents; raises OSError where that cannot be."""
-    from robocomp_yaml.source import workspace_files
-
-    for path, text in _files(folder):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            with path.open("x", encoding="utf-8") as file:
-                file.write(text)
-            tell(ctx, "wrote", path)
-        except FileExistsError:
-            tell(ctx, "kept", path)
-    for name in ("interfaces", "components"):
-        (folder / name).mkdir(exist_ok=True)
-    for path in workspace_files.install(folder):
-        tell(ctx, "wrote", path)
-    problem = workspace_files.settings_problem(folder)
-    if problem:
-        click.echo(f"note: {problem}", err=True)
-
-
-def tell(ctx: click.Context, done: str, path: Path) -> None:
-    if ctx.obj.verbosity >= 0:
-        click.echo(f"{done:<5} {path}")
-
-
-def unwritable(error: OSError) -> click.ClickException:
-    where = f" {error.filename}" if error.filename else ""
-    return click.ClickException(f"cannot write{where}: {error.strerror or error}")
-
-
-def _files(folder: Path) -> Iterator[tuple[Path, str]]:
-    from robocomp_yaml import resources
-    from robocomp_yaml.emit.render import render
-    from robocomp_yaml.source.discover import WORKSPACE_FILE
-    from robocomp_yaml.source.workspace_files import modeline
-
-    path = folder / WORKSPACE_FILE
-    yield path, render("new/workspace.yaml.j2", WorkspaceView(modeline("workspace", path, folder)))
-    yield folder / ".gitignore", resources.text("templates/new/gitignore")

@@ -1,7 +1,8 @@
-"""`rcyaml new interface|component`: a document that already checks and compiles, where the workspace keeps its kind.
+"""`rcyaml new interface|component|parameters`: a document that already checks and compiles, where its kind belongs.
 
 An interface goes to the workspace's first folder of interfaces, a component to `components/` and a folder of its own,
-which bears its name in lower case. Where there is no workspace yet, this folder becomes one.
+which bears its name in lower case; parameters go beside their component. Where there is no workspace yet, this folder
+becomes one.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import Any
 
 import click
 
-from robocomp_yaml.commands import _options, init
+from robocomp_yaml.commands import _options, _workspace
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LONGEST_NAME = 200
@@ -47,7 +48,7 @@ class NewDocument:
     text: str
 
 
-@click.group(short_help="Write a new interface or component that already compiles.")
+@click.group(short_help="Write a new interface, component or parameters document.")
 def command() -> None:
     """Write a new document that already checks and compiles, commented as a tutorial.
 
@@ -97,6 +98,22 @@ def component(
     _create(ctx, lambda root: component_document(root, name, language, uses, include))
 
 
+@command.command(short_help="A new document of a component's parameters.")
+@click.argument("name")
+@click.pass_context
+def parameters(ctx: click.Context, name: str) -> None:
+    """Write the parameters' document of the component NAME, beside the component's."""
+    _create(ctx, lambda root: parameters_document(root, name))
+
+
+def parameters_document(root: Path, name: str) -> NewDocument:
+    from robocomp_yaml.commands import new_parameters
+
+    _refuse_odd(name)
+    path, text = new_parameters.parameters_document(root, name)
+    return NewDocument(_free(path), text)
+
+
 def interface_document(root: Path, name: str) -> NewDocument:
     from robocomp_yaml.commands.new_imports import interface_folder
     from robocomp_yaml.emit.render import render
@@ -132,7 +149,7 @@ def write(ctx: click.Context, document: NewDocument) -> None:
     document.path.parent.mkdir(parents=True, exist_ok=True)
     with document.path.open("x", encoding="utf-8") as file:
         file.write(document.text)
-    init.tell(ctx, "wrote", document.path)
+    _workspace.tell(ctx, "wrote", document.path)
 
 
 def _create(ctx: click.Context, make: Callable[[Path], NewDocument]) -> None:
@@ -142,12 +159,12 @@ def _create(ctx: click.Context, make: Callable[[Path], NewDocument]) -> None:
     try:
         if root is None:
             root = Path()
-            init.make(ctx, root)
+            _workspace.make(ctx, root)
         document = make(root)
         write(ctx, document)
         workspace_files.install(root)
     except OSError as error:
-        raise init.unwritable(error) from error
+        raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
         click.echo(f"next: rcyaml compile {document.path}")
 

@@ -7,39 +7,18 @@ goes to its own folder (`-o DIR`: to the same place below DIR), with the Slice t
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from robocomp_yaml.check.forms import FORM
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import FilePlan, RootPlan
 from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
-
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.ports import Ports
-
-TARGETS = ("slice", "python", "cpp", "config")
-
-
-@dataclass(slots=True)
-class Options:
-    """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
-    `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
-    component's workspace (asked for only when a first `etc/config` is to be written)."""
-
-    output: str | None
-    below: Sequence[str]
-    targets: frozenset[str]
-    workspace_of: Callable[[str], Workspace]
-    ports: Callable[[LinkedComponent], Ports]
-
-    def wants(self, target: str) -> bool:
-        return not self.targets or target in self.targets
 
 
 @dataclass(slots=True)
@@ -64,19 +43,29 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             plain = texts[id(linked)]
             yield FilePlan(folder + plain.path, plain.text) if folder else plain
 
-    for real in sorted(program.asked & program.modules.keys(), key=lambda real: program.modules[real].module.path):
-        linked = program.modules[real]
+    def slice_root(linked: LinkedModule) -> str:
+        return options.output or _slice_folder(options.workspace_of(linked.module.path))
+
+    asked = {program.modules[real] for real in program.asked & program.modules.keys()}
+    for linked in sorted(asked, key=lambda linked: linked.module.path):
         if options.wants("slice") and _usable(linked.module.name, linked.module.path, [linked], state, result):
-            root = options.output or _slice_folder(options.workspace_of(linked.module.path))
+            root = slice_root(linked)
             owner = os.path.relpath(linked.module.path, root)
-            result.plans.append(RootPlan(root, owner, list(slices(linked.closure()))))
+            needed = [linked, *_imports(linked, lambda other, root=root: other in asked and slice_root(other) == root)]
+            result.plans.append(RootPlan(root, owner, list(slices(needed))))
             result.compiled += 1
-    for real in sorted(program.asked & program.components.keys(), key=lambda r: program.components[r].component.path):
+    for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if _usable_component(component, state, result):
-            from robocomp_yaml.emit.component import component_plan  # with the targets, which Slice alone needs not
+            # with the targets, which Slice alone needs not
+            from robocomp_yaml.emit.component import component_plan, values_of
 
-            result.plans.append(component_plan(component, options, slices))
+            plan = component_plan(component, options, slices, program)
+            if any(document.path in state.faulty for document in values_of(component, program)):
+                # What is wrong has been said; what the values wrote before stays until they are right again.
+                files = [file for file in plan.files if not file.path.startswith("etc/")]
+                plan = RootPlan(plan.root, plan.owner, files, partial=True)
+            result.plans.append(plan)
             result.diagnostics += _not_yet(component)
             result.compiled += 1
     return result
@@ -92,6 +81,7 @@ class _State:
 
     faulty: set[str] = field(default_factory=set)
     lowered: set[str] = field(default_factory=set)
+    _causes: dict[LinkedModule, str] = field(default_factory=dict)
 
     @classmethod
     def of(cls, diagnostics: Iterable[Diagnostic]) -> _State:
@@ -103,16 +93,44 @@ class _State:
                 state.lowered.add(diagnostic.span.file)
         return state
 
+    def cause(self, linked: LinkedModule) -> str:
+        """The document that keeps a module from being compiled: its own, or one that it imports; '' for none."""
+        todo = [linked]
+        while todo:
+            scope = todo[-1]
+            unknown = [other for other in scope.imports if other not in self._causes]
+            if scope not in self._causes and unknown:
+                todo += unknown
+                continue
+            todo.pop()
+            if scope.module.path in self.faulty or scope.unresolved:
+                self._causes[scope] = scope.module.path
+            else:
+                self._causes[scope] = next((self._causes[o] for o in scope.imports if self._causes[o]), "")
+        return self._causes[linked]
+
+
+def _imports(linked: LinkedModule, covered: Callable[[LinkedModule], bool]) -> Iterator[LinkedModule]:
+    """What a module imports, directly or not, but for what has a plan of its own for the same folder."""
+    seen: set[LinkedModule] = set()
+    todo = [*linked.imports]
+    while todo:
+        scope = todo.pop()
+        if scope not in seen and not covered(scope):
+            seen.add(scope)
+            todo += scope.imports
+            yield scope
+
 
 def _usable(name: str, path: str, modules: Iterable[LinkedModule], state: _State, result: Build) -> bool:
     """Whether a document has no error, nor anything that it imports; when only the latter, says what follows."""
     if path in state.faulty:
         return False
-    for top in modules:
-        for linked in top.closure():
-            if linked.module.path in state.faulty or linked.unresolved:
-                result.diagnostics.append(_unresolved(name, path, linked.module.path, state))
-                return False
+    for linked in modules:
+        cause = state.cause(linked)
+        if cause:
+            result.diagnostics.append(_unresolved(name, path, cause, state))
+            return False
     return True
 
 
@@ -124,6 +142,11 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
     form = os.path.normpath(os.path.join(os.path.dirname(component.path), FORM))
     if component.gui and form in state.faulty:
         result.diagnostics.append(_unresolved(component.name, component.path, form, state))
+        return False
+    document = linked.parameters.document
+    if document is not None and document.path in state.faulty:
+        if component.path not in state.faulty:
+            result.diagnostics.append(_unresolved(component.name, component.path, document.path, state))
         return False
     return _usable(component.name, component.path, linked.imports, state, result)
 
@@ -140,8 +163,7 @@ def _unresolved(name: str, path: str, cause: str, state: _State) -> Diagnostic:
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
-        "parameters": component.parameters, "statemachine": component.statemachine,
-        "options": component.options, "uses": component.has_uses,
+        "statemachine": component.statemachine, "options": component.options, "uses": component.has_uses,
     }  # fmt: skip
     for key, value in asked.items():
         if value:

@@ -4,25 +4,24 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from robocomp_yaml import resources
-from robocomp_yaml.emit import config
+from robocomp_yaml.emit import config, parameter_files
+from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
 from robocomp_yaml.emit.ports import assign
 from robocomp_yaml.emit.targets import languages
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule
-
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.build import Options
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
+from robocomp_yaml.model.pdsl import ValuesDocument
 
 
 def component_plan(
     linked: LinkedComponent,
     options: Options,
     slices: Callable[[Iterable[LinkedModule], str], Iterator[FilePlan]],
+    program: Program,
 ) -> RootPlan:
-    """The plan of one component: Slice, the target of its language, and a first `etc/config`."""
+    """The plan of one component: Slice, its language, `etc/config` from its values or a first one, docs."""
     component = linked.component
     root = _component_root(component.path, options)
     plan = RootPlan(root, os.path.relpath(component.path, root), partial=bool(options.targets))
@@ -36,8 +35,21 @@ def component_plan(
         plan.files += languages()[component.language.name].plan(linked)
     if options.wants("config"):
         written = os.path.lexists(os.path.join(root, CONFIG))
-        plan.files.append(config.plan(linked, assign([linked]) if written else options.ports(linked)))
+        table = assign([linked]) if written else options.ports(linked)
+        plan.files += parameter_files.schemas(linked)
+        made = list(parameter_files.configs(linked, parameter_files.documents_of(linked, program), table))
+        plan.files += made
+        if all(file.path != CONFIG for file in made):
+            plan.files.append(config.plan(linked, table))
+    if options.wants("docs"):
+        plan.files += parameter_files.docs(linked)
     return plan
+
+
+def values_of(linked: LinkedComponent, program: Program) -> list[ValuesDocument]:
+    """Every document that a component's `etc/config` is made of."""
+    documents = parameter_files.documents_of(linked, program)
+    return [layer.document for values in documents for layer in values.layers()]
 
 
 def _component_root(path: str, options: Options) -> str:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic
-from robocomp_yaml.diag.render.json import as_data
+from robocomp_yaml.diag.render.json import as_data, dumps
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.grammar import Parsed
 from robocomp_yaml.legacy.reading import Source
@@ -96,7 +95,7 @@ def as_json(entries: Sequence[Entry]) -> str:
             "diagnostics": [as_data(diagnostic) for diagnostic in entry.diagnostics],
         })
     totals["lines"] = _counts(lines)
-    return json.dumps({"files": files, "totals": totals}, indent=2, ensure_ascii=False) + "\n"
+    return dumps({"files": files, "totals": totals})
 
 
 def _counts(lines: Counter[str]) -> dict[str, int]:

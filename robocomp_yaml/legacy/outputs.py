@@ -10,6 +10,7 @@ import difflib
 import json
 from dataclasses import dataclass, field
 
+from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.emit.atomic import Batch, Step, WriteFailed, carry_out, recover
 from robocomp_yaml.emit.places import STATE, Root
 from robocomp_yaml.source.digest import digest
@@ -130,5 +131,4 @@ class OutputRoot:
                 known[output.path] = digest(output.text.encode())
         if not known and self.remembered is None:
             return None
-        data = json.dumps({"files": dict(sorted(known.items()))}, indent=2, ensure_ascii=False)
-        return f"{data}\n".encode("utf-8", "backslashreplace")  # a name that is not UTF-8 becomes JSON's escape of it
+        return dumps({"files": dict(sorted(known.items()))}).encode()

@@ -8,17 +8,21 @@ from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.model import build_component, build_interface
+from robocomp_yaml.model import build_component, build_interface, build_parameters
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Module
+from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.text import decode, read_bytes
 from robocomp_yaml.source.tree import Mapping, Node, parse
 
-BUILDERS: dict[str, Callable[[Mapping, str], Module | Component]] = {
+Model = Module | Component | ParameterDocument | ValuesDocument
+BUILDERS: dict[str, Callable[[Mapping, str], Model]] = {
     "idsl": build_interface.build,
     "cdsl": build_component.build,
+    "pdsl": build_parameters.build,
+    "config": build_parameters.build_values,
 }
 
 
@@ -30,32 +34,36 @@ class Document:
     path: str
     real: str
     kind: str
-    model: Module | Component | None = None
+    model: Model | None = None
     module: str = ""
 
 
 @dataclass(slots=True)
 class Documents:
-    """The documents of a run by real path, with all that is wrong with each by itself."""
+    """The documents of a run by real path, with all that is wrong with each by itself. `overlay` has contents, by
+    real path, that count instead of the disk's."""
 
     on_read: Callable[[str], None] = lambda path: None
     read: dict[str, Document] = field(default_factory=dict)
     contents: dict[str, bytes] = field(default_factory=dict)
+    overlay: dict[str, bytes] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
-    def get(self, path: str) -> Document:
-        """The document at a path, read at the first call."""
+    def get(self, path: str, kind: str = "") -> Document:
+        """The document at a path, read at the first call; `kind` is for one whose name does not say it."""
         real = os.path.realpath(path)
         document = self.read.get(real)
         if document is None:
-            document = self.read[real] = Document(path, real, kind_of(path) or "idsl")
+            document = self.read[real] = Document(path, real, kind_of(path) or kind or "idsl")
             self.diagnostics += self._load(document)
             self.on_read(path)
         return document
 
     def _load(self, document: Document) -> Iterator[Diagnostic]:
-        raw, diagnostics = read_bytes(document.path)
-        yield from diagnostics
+        raw = self.overlay.get(document.real)
+        if raw is None:
+            raw, diagnostics = read_bytes(document.path)
+            yield from diagnostics
         if raw is None:
             return
         self.contents[document.path] = raw

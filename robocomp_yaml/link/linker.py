@@ -11,12 +11,14 @@ from types import ModuleType
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.attachments import Attachments
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.ports import link_ports
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, LinkedValues, Program
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Import, Module
+from robocomp_yaml.model.pdsl import ValuesDocument
 
 
 @dataclass(slots=True)
@@ -36,10 +38,13 @@ class Linker:
         todo = [self.documents.get(path) for path in paths]
         self.program.asked = {document.real for document in todo}
         components: list[tuple[Document, LinkedComponent]] = []
+        attachments = Attachments(self.documents, self.program, self.search.absent, self.diagnostics)
+        seen: set[str] = set()
         while todo:
             document = todo.pop()
-            if document.real in self.program.modules or document.real in self.program.components:
+            if document.real in seen:
                 continue
+            seen.add(document.real)
             if isinstance(document.model, Module):
                 linked = self.program.modules[document.real] = LinkedModule(document.model)
                 todo += self._imports(document, document.model.imports, linked.unresolved, idsl)
@@ -49,7 +54,11 @@ class Linker:
                 unresolved: set[str] = set()
                 todo += self._imports(document, document.model.imports, unresolved, cdsl)
                 component.broken = bool(unresolved)
+            elif isinstance(document.model, ValuesDocument):
+                self.program.values[document.real] = LinkedValues(document.model)
+            todo += attachments.follow(document)
         self._join()
+        attachments.join()
         for document, component in sorted(components, key=lambda pair: pair[0].path):
             self.diagnostics += link_ports(component, self._suggest_import(document))
         self.program.documents = len(self.documents.read)

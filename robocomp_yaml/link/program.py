@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
+from robocomp_yaml.link.parameters import of_no_document
 from robocomp_yaml.model.component import Component, Use
 from robocomp_yaml.model.interface import (
     Constant,
@@ -14,6 +16,8 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
+from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
 
 Definition = Constant | TypeDefinition | ExceptionType | Interface
 
@@ -87,6 +91,45 @@ class Port:
 
 
 @dataclass(eq=False, slots=True)
+class LinkedParameters:
+    """A component's parameters with their document, if there is one; `broken` when some have no usable type (then
+    values are not judged). `component` is None for a document that no component was found for. `compiled` is for what
+    is made of them once and used often (validators)."""
+
+    parameters: Parameters
+    document: ParameterDocument | None = None
+    component: LinkedComponent | None = None
+    broken: bool = False
+    compiled: dict[str, Any] = field(default_factory=dict)
+
+
+def _only_the_period() -> LinkedParameters:
+    return LinkedParameters(of_no_document(None))
+
+
+@dataclass(eq=False, slots=True)
+class LinkedValues:
+    """A values document with the documents that it extends, the most general first. `parameters` is None where the
+    component is not known; `is_extended` when another document builds on this one, so that it need not be complete;
+    `broken` when a layer is missing."""
+
+    document: ValuesDocument
+    extends: list[LinkedValues] = field(default_factory=list)
+    parameters: LinkedParameters | None = None
+    is_extended: bool = False
+    broken: bool = False
+
+    def layers(self) -> list[LinkedValues]:
+        """This document and all that it builds on: the most general first, each once, this one last."""
+        done: dict[int, LinkedValues] = {}
+        for base in self.extends:
+            for layer in base.layers():
+                done.setdefault(id(layer), layer)
+        done.setdefault(id(self), self)
+        return list(done.values())
+
+
+@dataclass(eq=False, slots=True)
 class LinkedComponent:
     """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled)."""
 
@@ -97,6 +140,7 @@ class LinkedComponent:
     publishes: tuple[Port, ...] = ()
     subscribes: tuple[Port, ...] = ()
     broken: bool = False
+    parameters: LinkedParameters = field(default_factory=_only_the_period)
 
     @property
     def ports(self) -> Iterator[Port]:
@@ -120,5 +164,23 @@ class Program:
 
     modules: dict[str, LinkedModule] = field(default_factory=dict)
     components: dict[str, LinkedComponent] = field(default_factory=dict)
+    parameters: dict[str, LinkedParameters] = field(default_factory=dict)
+    values: dict[str, LinkedValues] = field(default_factory=dict)
     asked: set[str] = field(default_factory=set)
     documents: int = 0
+
+    def asked_components(self) -> set[str]:
+        """The components that the user named, be it by their parameters or values."""
+        documents = {real: linked.component for real, linked in self.parameters.items()}
+        documents |= {real: linked.parameters.component for real, linked in self.values.items() if linked.parameters}
+        wanted = {id(documents[real]) for real in self.asked & documents.keys()}
+        named = {real for real, linked in self.components.items() if id(linked) in wanted}
+        return (self.asked & self.components.keys()) | named
+
+    def parameter_documents(self) -> Iterator[LinkedParameters]:
+        """Every document of parameters, once for each component that has it."""
+        seen: set[int] = set()
+        for linked in (*self.parameters.values(), *(c.parameters for c in self.components.values())):
+            if linked.document is not None and id(linked) not in seen:
+                seen.add(id(linked))
+                yield linked

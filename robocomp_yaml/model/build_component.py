@@ -35,6 +35,7 @@ def build(root: Mapping, path: str) -> Component:
         has_uses=root.get("uses") is not None,
         doc=doc(root),
         span=span_of(root, "component"),
+        parameters_span=span_of(root, "parameters"),
     )
 
 

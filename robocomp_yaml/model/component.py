@@ -66,3 +66,4 @@ class Component:
     has_uses: bool = False
     doc: str = ""
     span: Span = _span()
+    parameters_span: Span = _span()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -10,7 +11,10 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
-KINDS = ("idsl", "cdsl")
+KINDS = ("idsl", "cdsl", "pdsl", "config")
+_MODELINE = re.compile(
+    rb"#\s*yaml-language-server:\s*\$schema=\S*(?:\.rcyaml/schemas|generated)/config\.schema\.json\s*$"
+)
 WORKSPACE_FILE = "rcyaml.yaml"
 MANIFEST = ".rcyaml/manifest.json"
 _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
@@ -21,8 +25,25 @@ def kind_of(path: str) -> str | None:
     name = os.path.basename(path)
     for kind in KINDS:
         if name == f"{kind}.yaml" or name.endswith(f".{kind}.yaml"):
-            return kind
+            return kind if name != "config.yaml" or _is_ours(path) else None
     return None
+
+
+def _is_ours(path: str) -> bool:
+    """Many programs have a `config.yaml`: ours stands in `etc/` beside a component, or names our schema."""
+    folder = os.path.dirname(path)
+    if os.path.basename(os.path.abspath(folder)) == "etc":
+        try:
+            names = os.listdir(os.path.join(folder, os.pardir))
+        except OSError:
+            names = []
+        if any(name == "cdsl.yaml" or name.endswith(".cdsl.yaml") for name in names):
+            return True
+    try:
+        with open(path, "rb") as file:
+            return _MODELINE.match(file.readline(1 << 12)) is not None
+    except OSError:
+        return False
 
 
 @dataclass(slots=True)

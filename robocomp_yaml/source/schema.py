@@ -124,11 +124,18 @@ def _find(root: Node, place: Path[str | int]) -> tuple[Node, Scalar | None]:
     node, key = root, None
     for step in place:
         if isinstance(node, Mapping):
-            key, node = node.entries[str(step)]
+            key, node = node.entries[_spelled(node, step)]
         else:
             assert isinstance(node, Sequence)
             key, node = None, node.items[int(step)]
     return node, key
+
+
+def _spelled(node: Mapping, step: str | int) -> str:
+    """A key as the document spells it: the validator gives one of digits as a number, `+1` and `01` alike."""
+    if isinstance(step, str) or str(step) in node.entries:
+        return str(step)
+    return next(key for key in node.entries if key.lstrip("+").isdecimal() and int(key) == step)
 
 
 def _subschema(whole: dict[str, Any], path: list[str | int]) -> Any:

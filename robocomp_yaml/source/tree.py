@@ -40,6 +40,15 @@ class Node:
         self.file, self._start, self._end, self.data = file, node.start_mark, node.end_mark, data
 
     @property
+    def start(self) -> int:
+        """The index in the text of its first character; `end` is that behind its last one."""
+        return int(self._start.index)
+
+    @property
+    def end(self) -> int:
+        return int(self._end.index)
+
+    @property
     def span(self) -> Span:
         start, end = self._start, self._end
         return Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
@@ -59,11 +68,12 @@ class Scalar(Node):
 class Mapping(Node):
     """`entries` maps each key to (key, value), in the document's order."""
 
-    __slots__ = ("entries",)
+    __slots__ = ("entries", "is_flow")
 
     def __init__(self, file: str, node: MappingNode, entries: dict[str, tuple[Scalar, Node]]) -> None:
         super().__init__(file, node, {key: value.data for key, (_, value) in entries.items()})
         self.entries = entries
+        self.is_flow = bool(node.flow_style)
 
     def get(self, key: str) -> Node | None:
         """The value of a key; None where it is missing or null."""
@@ -75,11 +85,12 @@ class Mapping(Node):
 
 
 class Sequence(Node):
-    __slots__ = ("items",)
+    __slots__ = ("items", "is_flow")
 
     def __init__(self, file: str, node: YamlNode, items: list[Node]) -> None:
         super().__init__(file, node, [item.data for item in items])
         self.items = items
+        self.is_flow = bool(node.flow_style)
 
 
 def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
@@ -200,6 +211,8 @@ class _Builder:
         """A key is the text as spelled: `2d`, `on` and `1` are keys like any other."""
         if node.ctag is not syntax.UNTAGGED:
             self._explicit_tag(node)
+        if not node.value:
+            self._say(codes.KEY_TYPE, node, what="empty", hint="write a name before the colon")
         if not node.style and mapping.flow_style and ":" in node.value:
             missing_value = value.data is None and isinstance(value, Scalar) and not value.lexeme
             if node.value.endswith(":") or missing_value:

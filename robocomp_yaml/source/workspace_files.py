@@ -13,6 +13,8 @@ SETTINGS = ".vscode/settings.json"
 GLOBS = {
     "idsl": ["*.idsl.yaml", "idsl.yaml"],
     "cdsl": ["*.cdsl.yaml", "cdsl.yaml"],
+    "pdsl": ["*.pdsl.yaml", "pdsl.yaml"],
+    "config": ["*.config.yaml", "etc/config.yaml"],
     "workspace": ["rcyaml.yaml"],
 }
 """The file names of each kind, as VS Code's `yaml.schemas` takes them."""

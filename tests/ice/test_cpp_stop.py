@@ -144,3 +144,33 @@ def test_it_answers_while_it_waits(
     assert str(behavior(port).getState()) == "Starting"
     behavior(port).killYourSelf()
     assert waiting.exit_code(2) == 0
+
+
+def test_a_call_that_came_too_early(
+    programs: Programs, start: Start, ice: Any, slices: None, free_port: Ports, tmp_path: Path
+) -> None:
+    """It waits for the end of initialize(); when that never comes, it gets an exception, and does not hold us up."""
+    import Ice
+    import RoboCompArm
+
+    endpoint = f"tcp -h 127.0.0.1 -p {free_port()}"
+    properties = {"Arm.Endpoints": endpoint, "HandProxy": f"hand:tcp -h 127.0.0.1 -p {free_port()}"}
+    waiting = start(programs("Mutual").command(tmp_path, properties)).wait_for("waiting for Hand")
+    arm = RoboCompArm.ArmPrx.uncheckedCast(ice.stringToProxy(f"arm:{endpoint}"))
+    calls = [arm.moveAsync([], False) for _ in range(5)]
+    arm.ice_ping()
+    assert not any(call.done() for call in calls)
+    assert waiting.stop(within=1.5) == 0
+    for call in calls:
+        assert isinstance(call.exception(5), Ice.UnknownException)
+
+
+def test_ices_own_process_facet(server: list[str | Path], start: Start, ice: Any, free_port: Ports) -> None:
+    """IceGrid stops programs so."""
+    import Ice
+
+    endpoint = f"tcp -h 127.0.0.1 -p {free_port()}"
+    running = start([*server, f"--Ice.Admin.Endpoints={endpoint}", "--Ice.Admin.InstanceName=it"])
+    running.wait_for("Server is running")
+    Ice.ProcessPrx.uncheckedCast(ice.stringToProxy(f"it/admin -f Process:{endpoint}")).shutdown()
+    assert running.exit_code(2) == 0

@@ -74,6 +74,6 @@ def test_it_works_outside_the_checkout(kind: str, built: Path, tmp_path: Path) -
     run(rcyaml, "compile", cwd=work)
     run(rcyaml, "schema", "idsl", cwd=work)
     tree = read_tree(work)
-    assert {"slice/Speech.ice", "src/specificworker.py", "etc/config", "bin/SpeechComp", "slice/Mouth.ice"} <= set(tree)
-    assert "generated/genericworker.py" in tree
+    assert {"slice/Speech.ice", "old/slice/Mouth.ice", "etc/config", "bin/SpeechComp"} <= set(tree)
+    assert {"src/specificworker.py", "generated/genericworker.py"} <= set(tree)
     run(rcyaml, "compile", "--check", cwd=work)

@@ -141,7 +141,7 @@ KEY_TYPE = Code(
     "RC0110",
     "error",
     "a key must be plain text, not {what}",
-    "Keys name things; a list or a mapping cannot.",
+    "Keys name things; a list, a mapping or nothing cannot.",
     _wrong("module: RoboCompSpeech\ninterfaces:\n  [Speech, Mouth]: {}\n"),
     _GOOD,
 )

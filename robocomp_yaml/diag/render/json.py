@@ -33,5 +33,13 @@ def _place(span: Span) -> dict[str, object]:
 
 
 def render(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> str:
-    data = {"diagnostics": [as_data(diagnostic) for diagnostic in diagnostics], "documents": documents}
-    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+    return dumps(run_as_data(diagnostics, documents))
+
+
+def run_as_data(diagnostics: Sequence[Diagnostic], documents: int) -> dict[str, object]:
+    return {"diagnostics": [as_data(diagnostic) for diagnostic in diagnostics], "documents": documents}
+
+
+def dumps(data: object) -> str:
+    """JSON that is UTF-8 whatever the names of files are: bytes in them that are no text are escaped."""
+    return json.dumps(data, indent=2, ensure_ascii=False).encode("utf-8", "backslashreplace").decode() + "\n"

@@ -122,7 +122,8 @@ std::shared_ptr<Ice::ObjectPrx> Services::listen(
     const std::lock_guard lock(mutex_);
     const auto adapter = makeAdapter(topic, endpoints.empty() ? "tcp -p 0" : endpoints);
     // IceStorm knows subscribers by identity: with a UUID, several components may listen to one topic.
-    const auto proxy = adapter->addWithUUID(std::make_shared<Guard>(Service{name, "", interface}, servant, log_, gate_));
+    const auto guard = std::make_shared<Guard>(Service{name, "", interface}, servant, log_, gate_);
+    const auto proxy = adapter->addWithUUID(guard);
     adapter->activate();
     return proxy;
 }

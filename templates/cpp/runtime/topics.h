@@ -20,7 +20,7 @@ class Services;
 
 /// The component's dealings with IceStorm.
 ///
-/// A topic is called as the property of the port's name says, else as its interface; behind a prefix, where there is one.
+/// A topic is called as the property of the port's name says, else as its interface; behind a prefix, if there is one.
 class Topics
 {
 public:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from conftest import ROOT, write_tree
+from mouth import MOUTH
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.emit.plan import ONCE
@@ -17,59 +18,6 @@ from robocomp_yaml.emit.targets import cpp
 from robocomp_yaml.link.program import LinkedComponent
 
 RUNTIME = ROOT / "templates" / "cpp" / "runtime"
-MOUTH = {
-    "Types.idsl.yaml": """\
-module: RoboCompTypes
-types:
-  Pose: {struct: {x: float, y: float}}
-""",
-    "Mouth.idsl.yaml": """\
-module: RoboCompMouth
-imports: [Types]
-types:
-  Shape: {enum: [closed, open]}
-  Shapes: {sequence: Shape}
-  Samples: {sequence: byte}
-exceptions:
-  Jammed: {doc: It does not move., struct: {where: Types.Pose}}
-interfaces:
-  Mouth:
-    doc: Lips that move.
-    methods:
-      open:
-        doc: |
-          Opens the mouth.
-
-          Waits until it is open.
-        in: {width: {type: float, unit: mm, doc: Between the lips.}, shape: Shape}
-        returns: bool
-        throws: [Jammed]
-      status: {out: {pose: Types.Pose, shapes: Shapes}, returns: Shape, idempotent: true}
-      stop:
-      sing: {in: {text: string, samples: Samples, this: long, register: byte}}
-      whereIsTheMouthThatSaysAllThis:
-        in: {relativeToThisPose: Types.Pose, shapesOfTheLips: Shapes}
-        out: {poseOfTheMouthInTheImage: Types.Pose, found: bool}
-topics:
-  MouthEvents:
-    methods:
-      moved: {doc: The lips have moved., in: {shape: Shape, at: Types.Pose}}
-""",
-    "mouth.cdsl.yaml": """\
-component: MouthComp
-doc: Moves the lips.
-language: {name: cpp, standard: 20}
-imports: [Mouth]
-implements: [Mouth]
-requires:
-  - {Twin: Mouth}
-  - {Backup: {interface: Mouth, absent: ignore, timeout: 1.5 s, doc: Who moves when we cannot.}}
-publishes: [MouthEvents]
-subscribes: [MouthEvents, Mouth]
-period: 50 ms
-""",
-}
-
 
 @pytest.fixture
 def link(tmp_path: Path) -> Callable[[Mapping[str, str]], LinkedComponent]:
@@ -119,10 +67,10 @@ def test_policies(link: Link) -> None:
 
 def test_every_source_is_built(link: Link) -> None:
     """component.cmake names each generated source, and none that is not there."""
-    for documents in (MOUTH, {"x.cdsl.yaml": "component: Idle\nlanguage: cpp\n"}):
-        got = files(link(documents))
-        named = set(re.findall(r"[\w/]+\.cpp", got["generated/component.cmake"].replace('/src/*.cpp"', '"')))
-        assert {f"generated/{name.removeprefix('/generated/')}" for name in named} == {
+    for lists in ("implements: [A]", "publishes: [A]"):
+        got = files(link(one_interface("X", "interfaces:\n  A: {methods: {f: {}}}\n", lists)))
+        named = re.findall(r"^    ([\w/]+\.cpp)$", got["generated/component.cmake"], re.MULTILINE)
+        assert {f"generated/{name}" for name in [*named, "main.cpp"]} == {
             path for path in got if path.startswith("generated/") and path.endswith(".cpp")
         }
 

@@ -1,0 +1,93 @@
+"""Parameters: defaults, alone and together, and names in code."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.check.expressions import is_sound
+from robocomp_yaml.diag.codes import pdsl as codes
+from robocomp_yaml.diag.codes import values as value_codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.link.program import Program
+from robocomp_yaml.model.names import LANGUAGES, in_code, is_identifier
+from robocomp_yaml.model.parameters import Member, Parameters, RecordType
+from robocomp_yaml.source.tree import Mapping, Node, Sequence
+from robocomp_yaml.values import evaluate
+from robocomp_yaml.values.judge import Path, judge
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    for linked in program.parameter_documents():
+        faults = list(_records(linked.parameters))
+        yield from faults
+        if not faults and not linked.broken:
+            yield from _defaults_together(linked.parameters)
+
+
+def _records(parameters: Parameters) -> Iterator[Diagnostic]:
+    """Each struct once, and the groups of the parameters."""
+    yield from _members(parameters.root, ())
+    for type_ in parameters.types:
+        if isinstance(type_, RecordType):
+            yield from _members(type_, (type_.name,))
+
+
+def _members(record: RecordType, path: Path) -> Iterator[Diagnostic]:
+    yield from _names(record)
+    for member in record.members:
+        if member.is_group and isinstance(member.type, RecordType):
+            yield from _members(member.type, (*path, member.name))
+        elif member.default is not None and member.default.node is not None:
+            yield from _default(member, member.default.node, (*path, member.name))
+
+
+def _default(member: Member, node: Node, path: Path) -> Iterator[Diagnostic]:
+    for fault in judge(member.type, node, path, complete=True):
+        problem = fault.message
+        if fault.code == value_codes.UNKNOWN_PARAMETER.id:
+            problem = f"{member.name} gives a value to something else: {problem}"
+        yield codes.BAD_DEFAULT.at(fault.span, problem=problem, hint=fault.hint)
+    for reference in _references(node):
+        yield codes.BAD_DEFAULT.at(
+            reference.span, problem=f"{member.name} comes from the environment",
+            hint="references stand in values documents",
+        )
+
+
+def _references(node: Node) -> Iterator[Node]:
+    if isinstance(node, Mapping):
+        if node.entries.keys() == {"env"}:
+            yield node
+        for _, value in node.items():
+            yield from _references(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _references(item)
+
+
+def _names(record: RecordType) -> Iterator[Diagnostic]:
+    names: dict[tuple[str, str], Member] = {}
+    for member in record.members:
+        if not is_identifier(member.code_name):
+            free = "".join(c if c.isalnum() else "_" for c in member.name)
+            free = f"p{free}" if free[0].isdigit() else free
+            yield codes.NO_IDENTIFIER.at(member.span, name=member.name, hint=f"for instance as: {free}")
+            continue
+        for language in LANGUAGES:
+            code = in_code(member.code_name, language)
+            other = names.setdefault((language, code), member)
+            if other is not member:
+                yield codes.CODE_CLASH.at(
+                    member.span, name=member.name, other=other.name, code=code, language=language,
+                    hint="give one of them another name in code with as:",
+                    related=[Related(f"'{other.name}' stands here", other.span)],
+                )
+                break
+
+
+def _defaults_together(parameters: Parameters) -> Iterator[Diagnostic]:
+    """Constraints that are broken where nobody gives a value; what has no default is not known here."""
+    data = evaluate.by_code_names(parameters.root, evaluate.defaults(parameters.root))
+    for constraint in parameters.constraints:
+        if is_sound(constraint.expression, parameters.root) and not evaluate.holds(constraint.expression, data):
+            yield codes.DEFAULTS_BREAK.at(constraint.span, message=constraint.message)

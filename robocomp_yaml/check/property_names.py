@@ -1,0 +1,74 @@
+"""Names of properties: each belongs to one parameter, and none to Ice, an adapter or a proxy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import pdsl as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Program
+from robocomp_yaml.model.parameters import BasicType, EnumType, leaves
+from robocomp_yaml.values.spelling import exact_keys, row_templates
+
+_ICE = ("Ice", "IceStorm", "IceBox", "IceGrid", "IceSSL", "IceDiscovery", "IceLocatorDiscovery", "IcePatch2",
+        "IceBridge", "IceMX", "Freeze", "Glacier2", "DataStorm")
+_OURS = {"Endpoints": "the endpoints", "Proxies": "the proxies", "TopicManager": "the topic manager"}
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    for linked in program.parameter_documents():
+        if not linked.broken:
+            yield from _property_names(linked)
+
+
+def _property_names(linked: LinkedParameters) -> Iterator[Diagnostic]:
+    parameters = linked.parameters
+    places = {path: member.span for path, member in leaves(parameters.root)}
+    places |= {spelling.path: spelling.span for spelling in parameters.spellings if spelling.path in places}
+    yield from _among_themselves(linked, places)
+    taken = dict(_taken(linked.component)) if linked.component else {}
+    types = {path: member.type for path, member in leaves(parameters.root)}
+    warned: set[str] = set()
+    for path, key, is_spelled in exact_keys(parameters):
+        first = key.partition(".")[0]
+        has_tail = "." in key or not (is_spelled or isinstance(types[path], BasicType | EnumType))
+        if key in taken:
+            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=taken[key], property=key)
+        elif has_tail and first in _ICE:
+            yield codes.PROPERTY_CLASH.at(places[path], name=path, other="a setting of Ice", property=f"{first}.…")
+        elif has_tail and first in _OURS:
+            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=_OURS[first], property=f"{first}.…")
+        elif has_tail and first in taken and first not in warned:
+            warned.add(first)
+            yield codes.PROPERTY_PREFIX.at(places[path], name=path, other=taken[first])
+
+
+def _among_themselves(linked: LinkedParameters, places: dict[str, Span]) -> Iterator[Diagnostic]:
+    keys: dict[str, str] = {}
+    for path, key, _ in exact_keys(linked.parameters):
+        other = keys.setdefault(key, path)
+        if other != path:
+            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=key)
+    templates: dict[str, str] = {}
+    for path, template in row_templates(linked.parameters):
+        other = templates.setdefault(template.text, path)
+        if other != path:
+            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=template.text)
+        pattern = template.pattern()
+        for key, owner in keys.items():
+            if owner != path and pattern.match(key):
+                yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{owner}'", property=key)
+
+
+def _taken(component: LinkedComponent) -> Iterator[tuple[str, str]]:
+    """The names of properties that the component's connections use, and whose they are."""
+    yield "CommonBehavior", "the adapter CommonBehavior"
+    for port in (*component.implements, *component.subscribes):
+        yield port.name, f"the adapter {port.name}"
+    for port in component.subscribes:
+        yield f"{port.name}Topic", f"the adapter {port.name}Topic"
+    for port in component.publishes:
+        yield port.name, f"the topic {port.name}"
+    for port in component.requires:
+        yield f"{port.name}Proxy", f"the proxy {port.name}"

@@ -1,0 +1,62 @@
+"""Values documents: each by itself, with all that it builds on, and what of it Ice's properties can hold."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import values as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.program import LinkedValues, Program
+from robocomp_yaml.model.build_interface import entries
+from robocomp_yaml.values.effective import document_faults, effective
+from robocomp_yaml.values.properties import properties
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    for linked in sorted(program.values.values(), key=lambda values: values.document.path):
+        yield from of_document(linked)
+
+
+def of_document(linked: LinkedValues, *, complete: bool = False) -> Iterator[Diagnostic]:
+    """`complete`: to be judged as the values of a component even where another document builds on it."""
+    if linked.parameters is None:
+        if not linked.is_extended and not linked.document.component:
+            yield codes.NO_COMPONENT.at(linked.document.root.span)
+        return
+    if linked.parameters.broken:
+        return
+    yield from _ports(linked)
+    is_layer = linked.is_extended and os.path.basename(linked.document.path) != "config.yaml"
+    if is_layer and not complete:
+        yield from document_faults(linked)
+        return
+    values, found = effective(linked)
+    yield from found
+    if values is not None and not has_errors(found):
+        yield from properties(linked, values)[1]
+
+
+def _ports(linked: LinkedValues) -> Iterator[Diagnostic]:
+    component = linked.parameters.component if linked.parameters else None
+    if component is None or component.broken:
+        return
+    served = [port.name for port in component.implements] + ["CommonBehavior"]
+    served += [name for port in component.subscribes for name in (port.name, f"{port.name}Topic")]
+    topics = [port.name for port in (*component.publishes, *component.subscribes)]
+    known = {
+        ("endpoints",): ("interface", served),
+        ("proxies",): ("proxy", [port.name for port in component.requires]),
+        ("topics", "name"): ("topic", topics),
+        ("topics", "prefix"): ("topic", topics + [f"{name}Pub" for name in topics]),
+    }
+    for section, (what, names) in known.items():
+        parent = linked.document.section(*section[:-1])
+        for name, _ in entries(parent, section[-1]):
+            if name.lexeme not in names and name.lexeme.removesuffix("Comp") not in names:
+                meant = suggest(name.lexeme, names)
+                yield codes.UNKNOWN_PORT.at(
+                    name.span, component=component.component.name, what=what, name=name.lexeme,
+                    hint=f"did you mean '{meant}'?" if meant else "",
+                )

@@ -1,0 +1,99 @@
+"""`rcyaml config`: the values of a component's parameters, offline and without a robot."""
+
+from __future__ import annotations
+
+
+import click
+
+from robocomp_yaml.commands import _options
+
+file = click.argument("file", type=click.Path(exists=True, dir_okay=False))
+
+
+@click.group(short_help="Values of parameters: check, show, change, export.")
+def command() -> None:
+    """The values of a component's parameters: without a build, and without a robot.
+
+    FILE is a values document: etc/config.yaml, or NAME.config.yaml.
+    """
+
+
+@command.command(short_help="A first document, with defaults and docs as comments.")
+@click.argument("file", type=click.Path(dir_okay=False))
+@_options.include
+@click.pass_context
+def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
+    """Write a first values document for the component FILE (its .cdsl.yaml or .pdsl.yaml) to etc/config.yaml beside it;
+    or write FILE itself, a values document, for the component that stands beside it or one folder up."""
+    from robocomp_yaml.commands import _values
+
+    _values.write_new(ctx, file, include)
+
+
+@command.command(short_help="Everything that is wrong with the values.")
+@file
+@_options.include
+@_options.format_
+@click.pass_context
+def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
+    """Report everything that is wrong with the values in FILE and the layers it builds on, at line and column."""
+    from robocomp_yaml.commands import _values
+
+    loaded = _values.load(ctx, file, include)
+    _options.report(ctx, format_, loaded.diagnostics, loaded.documents)
+
+
+@command.command(short_help="Every effective value, and where it comes from.")
+@file
+@_options.include
+@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@click.pass_context
+def show(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
+    """Print every effective value with the file and line that set it, and what it overrode. References to the
+    environment are shown as such: their values are never read here."""
+    from robocomp_yaml.commands import _values
+
+    _values.show(ctx, file, include, format_)
+
+
+@command.command(short_help="One effective value.")
+@file
+@click.argument("path")
+@_options.include
+@click.pass_context
+def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...]) -> None:
+    """Print the effective value at PATH, such as motors[0].vel."""
+    from robocomp_yaml.commands import _values
+
+    _values.get(ctx, file, path, include)
+
+
+@command.command("set", short_help="Change one value; all else stays as it is.", context_settings={
+    "ignore_unknown_options": True,
+})
+@file
+@click.argument("path")
+@click.argument("value")
+@_options.include
+@click.pass_context
+def set_(ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...]) -> None:
+    """Give the parameter at PATH another VALUE in FILE, checked by its type and limits. Text needs no quotes; null
+    returns to the default. Comments, order and layout of the document stay, byte for byte."""
+    from robocomp_yaml.commands import _values
+
+    _values.set_value(ctx, file, path, value, include)
+
+
+@command.command(short_help="The values as Ice properties or TOML.")
+@file
+@click.option("--as", "form", type=click.Choice(["ice", "toml"]), default="ice", help="What to print.")
+@_options.include
+@click.pass_context
+def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...]) -> None:
+    """Print all effective values as an Ice property file, from which a component runs that knows nothing of YAML, or as
+    TOML."""
+    from robocomp_yaml.commands import _values
+
+    _values.export(ctx, file, form, include)
+
+

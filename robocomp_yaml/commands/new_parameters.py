@@ -1,0 +1,52 @@
+"""The document that `rcyaml new parameters` writes, and where it goes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+
+@dataclass(frozen=True, slots=True)
+class ParametersView:
+    modeline: str
+    component: str
+
+
+def parameters_document(root: Path, name: str) -> tuple[Path, str]:
+    """Path and text: beside the component `name` of the workspace; where there is none, where it would be."""
+    from robocomp_yaml.emit.render import render
+    from robocomp_yaml.source.workspace_files import modeline
+
+    found = _component(root, name)
+    if found is None:
+        path = root / "components" / name.lower() / f"{name.lower()}.pdsl.yaml"
+        component = name
+    else:
+        path = found.with_name(found.name.replace("cdsl.yaml", "pdsl.yaml"))
+        component = found.name
+    return path, render("new/parameters.pdsl.yaml.j2", ParametersView(modeline("pdsl", path, root), component))
+
+
+def _component(root: Path, name: str) -> Path | None:
+    """The component document of this name, by what the component is called or by its file."""
+    from robocomp_yaml.link.documents import Documents
+    from robocomp_yaml.model.component import Component
+    from robocomp_yaml.source.discover import documents_below, kind_of
+
+    documents = Documents()
+    found: list[tuple[Path, bool]] = []
+    for path in documents_below(str(root)):
+        if kind_of(path) == "cdsl":
+            model = documents.get(path).model
+            called = model.name if isinstance(model, Component) else ""
+            stem = Path(path).name.removesuffix(".cdsl.yaml")
+            if name.lower() in (called.lower(), stem.lower()):
+                found.append((Path(path), bool(isinstance(model, Component) and model.parameters)))
+    if len(found) > 1:
+        shown = ", ".join(str(path) for path, _ in found)
+        raise click.UsageError(f"several components are called '{name}': {shown}")
+    if found and found[0][1]:
+        raise click.UsageError(f"{found[0][0]} names its parameters' document already")
+    return found[0][0] if found else None

@@ -1,0 +1,29 @@
+"""What a compile is asked to emit, and where to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.link.workspace import Workspace
+
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.ports import Ports
+
+
+@dataclass(slots=True)
+class Options:
+    """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
+    `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
+    component's workspace (asked for only when a first `etc/config` is to be written)."""
+
+    output: str | None
+    below: Sequence[str]
+    targets: frozenset[str]
+    workspace_of: Callable[[str], Workspace]
+    ports: Callable[[LinkedComponent], Ports]
+
+    def wants(self, target: str) -> bool:
+        return not self.targets or target in self.targets

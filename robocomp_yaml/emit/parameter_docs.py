@@ -1,0 +1,101 @@
+"""The reference of a component's parameters, in Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model.parameters import EnumType, ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.values.json_schema import in_words, plain
+
+
+def parameter_docs(linked: LinkedComponent) -> str:
+    return "\n".join(_lines(linked)) + "\n"
+
+
+def _lines(linked: LinkedComponent) -> Iterator[str]:
+    parameters = linked.parameters.parameters
+    yield f"# Parameters of {linked.component.name}"
+    yield ""
+    if parameters.doc:
+        yield parameters.doc
+        yield ""
+    yield from _table("Parameter", parameters.root, "")
+    for type_ in parameters.types:
+        yield ""
+        yield f"## {type_.name}"
+        yield ""
+        if type_.doc:
+            yield type_.doc
+            yield ""
+        if isinstance(type_, RecordType):
+            yield from _table("Member", type_, "")
+        else:
+            yield "| Value | Meaning |"
+            yield "|---|---|"
+            yield from (f"| `{name}` | {_cell(doc)} |" for name, doc in type_.enumerators)
+    if parameters.constraints:
+        yield ""
+        yield "## Constraints"
+        yield ""
+        for constraint in parameters.constraints:
+            yield f"- `{constraint.text}`" + (f": {constraint.otherwise}, otherwise." if constraint.otherwise else "")
+    if parameters.spellings:
+        yield ""
+        yield "## Properties"
+        yield ""
+        yield "In `etc/config` these are not spelled by their paths:"
+        yield ""
+        for spelling in parameters.spellings:
+            keys = [spelling.key] if spelling.key else [key for _, key in spelling.fields]
+            shown = ", ".join(f"`{key}`" for key in keys)
+            columns = f" = `{spelling.separator.join(spelling.columns)}`" if spelling.columns else ""
+            count = f"; `{spelling.count}` is their number" if spelling.count else ""
+            yield f"- `{spelling.path}`: {shown}{columns}{count}"
+
+
+def _table(head: str, record: RecordType, prefix: str) -> Iterator[str]:
+    yield f"| {head} | Type | Default | Meaning |"
+    yield "|---|---|---|---|"
+    yield from _rows(record, prefix)
+
+
+def _rows(record: RecordType, prefix: str) -> Iterator[str]:
+    for member in record.members:
+        if isinstance(member.type, RecordType) and member.is_group:
+            if member.doc:
+                yield f"| **`{prefix}{member.name}`** | | | {_cell(member.doc)} |"
+            yield from _rows(member.type, f"{prefix}{member.name}.")
+        else:
+            kind = _cell(_linked(member.type))
+            yield f"| `{prefix}{member.name}` | {kind} | {_default(member)} | {_cell(_meaning(member))} |"
+
+
+def _linked(type_: Type) -> str:
+    """The type in words, with a link to where a named one is described."""
+    words = in_words(type_)
+    named = type_
+    while isinstance(named, ListType | MapType):
+        named = named.element
+    if isinstance(named, RecordType | EnumType) and named.name in words:
+        head, _, tail = words.rpartition(named.name)
+        return f"{head}[{named.name}](#{named.name.lower()}){tail}"
+    if isinstance(named, EnumType):
+        return f"[{named.name}](#{named.name.lower()}): {words}"
+    return words
+
+
+def _default(member: Member) -> str:
+    if member.default is None:
+        return "may be left out" if member.optional else "**required**"
+    text = plain(member.default.data)
+    return f"`{_cell(text)}`" if len(text) <= 60 else f"`{_cell(text[:59])}…`"
+
+
+def _meaning(member: Member) -> str:
+    doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
+    return f"{doc} May change while running.".strip() if member.editable else doc
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", "\\|")

@@ -1,0 +1,22 @@
+"""Properties as the text of a file, each section with a word about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.source.properties import entry_line
+from robocomp_yaml.values.properties import Section
+
+
+def property_text(sections: list[Section], name: str, source: str) -> str:
+    """The text of `etc/config` of a component, made of the values document `source` (a path from the file)."""
+    return "".join(f"{line}\n" for line in _lines(sections, name, source))
+
+
+def _lines(sections: list[Section], name: str, source: str) -> Iterator[str]:
+    yield f"# Configuration of {name}, written by rcyaml from {source}: change it there, and compile again."
+    for section in sections:
+        yield ""
+        yield f"# {section.title}."
+        for made in section.properties:
+            yield entry_line(made.key, made.value)

@@ -1,0 +1,292 @@
+"""The expressions of `constraints:`: a small language without side effects, read into a tree of its own.
+
+    all(m.min < m.max for m in motors)     low < high and high <= limits.top     device in ["/dev/ttyUSB0", "sim"]
+
+The syntax is a subset of Python's, so Python's own parser reads it (it only parses: nothing is ever evaluated by
+Python); whatever is not in the subset is refused at its place. `check.expressions` knows the types, and
+`values.evaluate` the meaning.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import warnings
+from dataclasses import dataclass, field
+from keyword import kwlist
+
+MAX_LENGTH = 2000
+MAX_DEPTH = 50
+FUNCTIONS = ("len", "min", "max", "abs", "sum", "all", "any", "unique", "has", "keys", "values")
+GENERATORS = ("min", "max", "sum", "all", "any", "unique")
+_BINARY = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Mod: "%"}
+_COMPARE = {
+    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=", ast.In: "in",
+    ast.NotIn: "not in",
+}  # fmt: skip
+_TRUTHS = {"true": True, "false": False}
+_FOREIGN = ((re.compile(r"&&"), "and"), (re.compile(r"\|\|"), "or"), (re.compile(r"!(?!=)"), "not"),
+            (re.compile(r"(?<![=<>!])=(?!=)"), "=="))
+
+_RESERVED = re.compile(
+    r"\b(?:" + "|".join(sorted(set(kwlist) - {"and", "or", "not", "in", "for", "if", "True", "False"})) + r")\b"
+)
+
+
+class NotInLanguage(ValueError):
+    """Says what an expression may not say, where (an index), and how to say it."""
+
+    def __init__(self, problem: str, index: int = 0, hint: str = "") -> None:
+        super().__init__(problem)
+        self.index, self.hint = index, hint
+
+
+def _at() -> int:
+    return field(compare=False, kw_only=True, default=0)  # type: ignore[no-any-return]
+
+
+@dataclass(frozen=True, slots=True)
+class Literal:
+    """A number, a text, true or false."""
+
+    value: bool | int | float | str
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Listing:
+    """`[a, b]`, for `in`."""
+
+    items: tuple[Expression, ...]
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A parameter, a group, or the variable of a `for`."""
+
+    name: str
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Attribute:
+    of: Expression
+    name: str
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Index:
+    """An entry of a list by its number, or of a map by its key."""
+
+    of: Expression
+    index: Expression
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Unary:
+    """`operator` is 'not', '-' or '+'."""
+
+    operator: str
+    operand: Expression
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Binary:
+    """`operator` is one of + - * / % (`/` gives a fraction, `%` takes the divisor's sign, as in Python)."""
+
+    operator: str
+    left: Expression
+    right: Expression
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Compare:
+    """`first < second <= third`: each pair must hold. Operators: < <= > >= == != in 'not in'."""
+
+    first: Expression
+    rest: tuple[tuple[str, Expression], ...]
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Logic:
+    """`operator` is 'and' or 'or'."""
+
+    operator: str
+    operands: tuple[Expression, ...]
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Each:
+    """`element for variable in source if condition`: the argument of all, any, sum, min, max or unique."""
+
+    element: Expression
+    variable: str
+    source: Expression
+    condition: Expression | None = None
+    at: int = _at()
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """`function` is one of FUNCTIONS."""
+
+    function: str
+    arguments: tuple[Expression | Each, ...]
+    at: int = _at()
+
+
+Expression = Literal | Listing | Name | Attribute | Index | Unary | Binary | Compare | Logic | Call
+
+
+def parse(text: str) -> Expression:
+    """The tree of an expression. Raises NotInLanguage."""
+    if len(text) > MAX_LENGTH:
+        raise NotInLanguage(f"an expression has at most {MAX_LENGTH} characters")
+    source = _without_keywords(text.replace("\n", " ").replace("\r", " "))
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of the parser, about code that we do not run
+            tree = ast.parse(source, mode="eval")
+        return _Reader(source).read(tree.body)
+    except SyntaxError as error:
+        raise _syntax(source, error) from None
+    except (RecursionError, MemoryError):
+        raise NotInLanguage("this expression is nested too deep") from None
+    except ValueError as error:
+        if isinstance(error, NotInLanguage):
+            raise
+        raise NotInLanguage("this is no expression") from None
+
+
+def _syntax(source: str, error: SyntaxError) -> NotInLanguage:
+    for pattern, word in _FOREIGN:
+        found = pattern.search(_without_texts(source))
+        if found:
+            return NotInLanguage(f"'{found[0]}' means nothing here", found.start(), f"write '{word}'")
+    return NotInLanguage("this is no expression", max(0, (error.offset or 1) - 1))
+
+
+def _without_texts(source: str) -> str:
+    return re.sub(r"\"[^\"]*\"|'[^']*'", lambda text: " " * len(text[0]), source)
+
+
+def _without_keywords(source: str) -> str:
+    """Python's other reserved words are names here. In bold letters the parser takes them for names, and gives them
+    back in plain ones (it normalizes names by NFKC); their length stays the same."""
+    bare = _without_texts(source)
+    for word in reversed(list(_RESERVED.finditer(bare))):
+        first = word[0][0]
+        bold = chr(0x1D41A + ord(first) - ord("a")) if first.islower() else chr(0x1D400 + ord(first) - ord("A"))
+        source = source[: word.start()] + bold + source[word.start() + 1 :]
+    return source
+
+
+class _Reader:
+    def __init__(self, source: str) -> None:
+        self.source = source
+        self._bytes = None if source.isascii() else source.encode()
+        self._depth = 0
+
+    def at(self, node: ast.AST, offset: int | None = None) -> int:
+        """The index of a node's first character, or of another offset in bytes."""
+        if offset is None:
+            offset = int(getattr(node, "col_offset", 0))
+        return offset if self._bytes is None else len(self._bytes[:offset].decode(errors="ignore"))
+
+    def read(self, node: ast.expr) -> Expression:
+        self._depth += 1
+        if self._depth > MAX_DEPTH:
+            raise NotInLanguage("this expression is nested too deep", self.at(node), "write several constraints")
+        read = self._read(node, self.at(node))
+        self._depth -= 1
+        return read
+
+    def _read(self, node: ast.expr, at: int) -> Expression:
+        match node:
+            case ast.Constant(value=bool() | int() | float() | str() as value):
+                return Literal(value, at=at)
+            case ast.Name(id=name):
+                return Literal(_TRUTHS[name], at=at) if name in _TRUTHS else Name(name, at=at)
+            case ast.Attribute(value=of, attr=name):
+                return Attribute(self.read(of), name, at=self.at(node, node.end_col_offset) - len(name))
+            case ast.Subscript(value=of, slice=index) if not isinstance(index, ast.Slice | ast.Tuple):
+                return Index(self.read(of), self.read(index), at=at)
+            case ast.List(elts=items) | ast.Tuple(elts=items):
+                return Listing(tuple(self.read(item) for item in items), at=at)
+            case ast.UnaryOp(op=ast.Not() | ast.USub() | ast.UAdd() as operator, operand=operand):
+                spelled = {ast.Not: "not", ast.USub: "-", ast.UAdd: "+"}[type(operator)]
+                return Unary(spelled, self.read(operand), at=at)
+            case ast.BinOp(left=left, op=binary, right=right) if type(binary) in _BINARY:
+                return Binary(_BINARY[type(binary)], self.read(left), self.read(right), at=at)
+            case ast.BoolOp(op=logic, values=operands):
+                spelled = "and" if isinstance(logic, ast.And) else "or"
+                return Logic(spelled, tuple(self.read(operand) for operand in operands), at=at)
+            case ast.Compare(left=first, ops=ops, comparators=others) if all(type(op) in _COMPARE for op in ops):
+                rest = zip(ops, others, strict=True)
+                return Compare(
+                    self.read(first), tuple((_COMPARE[type(op)], self.read(other)) for op, other in rest), at=at
+                )
+            case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
+                return self.call(function, arguments, at)
+        raise NotInLanguage(_refusal(node), at, "comparisons, arithmetic, and, or, not, in, and functions may stand "
+                            "here; docs/pdsl.md lists them")
+
+    def call(self, function: str, arguments: list[ast.expr], at: int) -> Call:
+        from robocomp_yaml.diag.suggest import suggest
+
+        if function not in FUNCTIONS:
+            meant = suggest(function, FUNCTIONS)
+            hint = f"did you mean '{meant}'?" if meant else f"there are: {', '.join(FUNCTIONS)}"
+            raise NotInLanguage(f"there is no function '{function}'", at, hint)
+        if not arguments or (len(arguments) > 1 and function not in ("min", "max")):
+            raise NotInLanguage(f"{function}() takes one argument", at)
+        read: list[Expression | Each] = []
+        for argument in arguments:
+            if isinstance(argument, ast.GeneratorExp | ast.ListComp):
+                read.append(self.each(function, argument))
+            else:
+                read.append(self.read(argument))
+        if len(read) > 1 and any(isinstance(one, Each) for one in read):
+            raise NotInLanguage(f"{function}() takes one 'for', and nothing beside it", at)
+        return Call(function, tuple(read), at=at)
+
+    def each(self, function: str, node: ast.GeneratorExp | ast.ListComp) -> Each:
+        at = self.at(node)
+        loop = node.generators[0]
+        if function not in GENERATORS:
+            raise NotInLanguage(f"{function}() takes no 'for'", at, f"{', '.join(GENERATORS)} do")
+        if len(node.generators) > 1 or len(loop.ifs) > 1:
+            raise NotInLanguage("one 'for' and one 'if' may stand here", at, "nest a second all() or any()")
+        if not isinstance(loop.target, ast.Name):
+            raise NotInLanguage("a 'for' has one variable", self.at(loop.target))
+        condition = self.read(loop.ifs[0]) if loop.ifs else None
+        return Each(self.read(node.elt), loop.target.id, self.read(loop.iter), condition, at=at)
+
+
+def _refusal(node: ast.expr) -> str:
+    match node:
+        case ast.BinOp(op=ast.Pow()):
+            return "powers cannot stand here"
+        case ast.BinOp(op=ast.FloorDiv()):
+            return "'//' cannot stand here"
+        case ast.Compare():
+            return "'is' cannot stand here"
+        case ast.Constant():
+            return "this value cannot stand here"
+        case ast.Call():
+            return "only the language's own functions can be called"
+        case ast.GeneratorExp() | ast.ListComp():
+            return "a 'for' can only stand inside of all(), any(), sum(), min(), max() or unique()"
+        case ast.IfExp():
+            return "'if … else' cannot stand here"
+        case ast.Subscript():
+            return "only one entry can be taken from a list or map"
+        case _:
+            return "this cannot stand in a constraint"

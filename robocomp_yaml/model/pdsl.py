@@ -1,0 +1,123 @@
+"""The PDSL model as written: names of types are not looked up yet. `model.parameters` is what becomes of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.interface import Literal, _span
+from robocomp_yaml.source.tree import Mapping, Node
+
+# The keys that say what a type is, in the order in which they are looked at.
+KINDS = ("type", "list", "map", "group", "enum", "struct")
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """The nodes of the keys that limit a type's values, as they stand there; None where a key is missing."""
+
+    range: Node | None = None
+    values: Node | None = None
+    pattern: Node | None = None
+    size: Node | None = None
+    unique: Node | None = None
+    unit: Node | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """What a document says about a type. `kinds` are those of KINDS that stand there, with their places: exactly one
+    when nothing is wrong. `name` goes with 'type', `element` with 'list' and 'map', `members` with 'group' and
+    'struct', `enumerators` with 'enum'."""
+
+    kinds: tuple[tuple[str, Span], ...]
+    name: str = ""
+    element: Spec | None = None
+    members: tuple[Entry, ...] = ()
+    enumerators: tuple[tuple[Literal, str], ...] = ()
+    limits: Limits = Limits()
+    doc: str = ""
+    span: Span = _span()
+
+    @property
+    def kind(self) -> str:
+        return self.kinds[0][0] if self.kinds else ""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A parameter, or a member of a group or struct. `editable` is None where nothing is said."""
+
+    name: str
+    spec: Spec
+    default: Node | None = None
+    default_span: Span | None = None
+    optional: bool = False
+    editable: bool | None = None
+    code_name: str = ""
+    doc: str = ""
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """An entry of `constraints:`. `that` is the expression's node: diagnostics point into it."""
+
+    that: Node
+    otherwise: str = ""
+    doc: str = ""
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Spelling:
+    """An entry of `legacy:`: how properties spell the parameter at `path`.
+
+    A scalar has just `key`. For rows, `key` holds `{i}` (or members' names in braces) and `columns` say what a row
+    holds; with `fields` each member has a property of its own. `separators` are for lists in one property.
+    """
+
+    path: str
+    key: str = ""
+    fields: tuple[tuple[str, str], ...] = ()
+    first: int = 0
+    columns: tuple[str, ...] = ()
+    separator: str = ","
+    separators: tuple[str, ...] = ()
+    trailing: bool = False
+    count: str = ""
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterDocument:
+    """One PDSL document. `component` is a path to a CDSL or a plain name, as written, or ''."""
+
+    path: str
+    component: str = ""
+    types: tuple[tuple[str, Spec], ...] = ()
+    parameters: tuple[Entry, ...] = ()
+    rules: tuple[Rule, ...] = ()
+    legacy: tuple[Spelling, ...] = ()
+    doc: str = ""
+    span: Span = _span()
+    component_span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class ValuesDocument:
+    """One values document: a layer of a component's values. `root` is its tree, which has the schema's shape;
+    `extends` are paths as written, the most general first, with their places."""
+
+    path: str
+    root: Mapping
+    component: str = ""
+    extends: tuple[Literal, ...] = ()
+    span: Span = _span()
+
+    def section(self, *keys: str) -> Mapping | None:
+        """The mapping under these keys, one inside the other."""
+        node: Node | None = self.root
+        for key in keys:
+            node = node.get(key) if isinstance(node, Mapping) else None
+        return node if isinstance(node, Mapping) else None

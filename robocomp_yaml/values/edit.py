@@ -1,0 +1,186 @@
+"""One value of a document changed in its text; every other byte stays.
+
+The tree says where: an existing value is replaced between its marks, a new one is put behind the last entry of the
+mapping that it belongs to. What would touch more than that (a list over many lines, an alias) is refused.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
+from robocomp_yaml.values.spell_yaml import quoted, scalar, single_quoted
+
+_COLON = re.compile(r"[ \t]*:")
+_REST_OF_LINE = re.compile(r"[ \t]*(?:#[^\n]*)?(?=\r?\n|\Z)")
+
+
+class NotEditable(Exception):
+    """Says why a value cannot be changed in place; `node` is what stands in the way."""
+
+    def __init__(self, reason: str, node: Node) -> None:
+        super().__init__(reason)
+        self.node = node
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """`text` is the whole document after the change; `was` what stood there before, or ''."""
+
+    text: str
+    was: str
+
+
+def set_value(path: str, text: str, root: Mapping, steps: list[str], new: str, *, is_text: bool) -> Change:
+    """The document with another value at `steps` (from its top); `new` is YAML on one line, or the text itself where
+    `is_text`. Raises NotEditable."""
+    node: Node = root
+    key: Scalar | None = None
+    for depth, step in enumerate(steps):
+        found = _child(node, step)
+        if found is None:
+            change = _insert(text, node, key, steps[depth:], scalar(new) if is_text else new)
+            break
+        key, node = found[0] or key, found[1]
+    else:
+        change = _replace(text, node, key, new, is_text)
+    after, faults = parse(path, change.text)
+    meant, _ = (None, []) if is_text else parse(path, new)
+    expected = new if is_text else meant.data if meant is not None else None
+    if after is None or faults or not _same_but(root.data, after.data, steps) or _at(after.data, steps) != expected:
+        raise NotEditable("a change here would touch more than this value", node)
+    return change
+
+
+def _at(data: Any, steps: list[str]) -> Any:
+    for step in steps:
+        data = data[int(step)] if isinstance(data, list) else data[step]
+    return data
+
+
+def _child(node: Node, step: str) -> tuple[Scalar | None, Node] | None:
+    if isinstance(node, Mapping):
+        return node.entries.get(step)
+    if isinstance(node, Sequence) and step.isdigit():
+        if int(step) < len(node.items):
+            return None, node.items[int(step)]
+        raise NotEditable(f"the list has {len(node.items)} entries here; give the whole list", node)
+    return None
+
+
+def _same_but(before: object, after: object, steps: list[str]) -> bool:
+    """Whether two documents are the same but for the place."""
+    if not steps:
+        return True
+    if isinstance(before, dict | None.__class__) and isinstance(after, dict):
+        old = before or {}
+        others = {key for key in (*old, *after) if key != steps[0]}
+        return all(key in old and key in after and old[key] == after[key] for key in others) and _same_but(
+            old.get(steps[0]), after.get(steps[0]), steps[1:]
+        )
+    if isinstance(before, list) and isinstance(after, list) and len(before) == len(after):
+        at = int(steps[0])
+        return before[:at] == after[:at] and before[at + 1 :] == after[at + 1 :] and _same_but(
+            before[at], after[at], steps[1:]
+        )
+    return False
+
+
+def _replace(text: str, node: Node, key: Scalar | None, new: str, is_text: bool) -> Change:
+    start, end = node.start, node.end
+    if key is not None and start < key.end:
+        raise NotEditable("the value is an alias of another one", key)
+    if text[start : start + 1] in ("&", "!", "*"):
+        raise NotEditable("the value has an anchor, which aliases may repeat", node)
+    old = text[start:end]
+    if isinstance(node, Scalar):
+        if not old:  # nothing behind the colon, or in a list
+            return _fill(text, node, key, scalar(new) if is_text else new)
+        if old[0] in "|>":
+            raise NotEditable("the value is a text of several lines", node)
+        spelled = new
+        if is_text:
+            spelled = quoted(new) if old[0] == '"' else single_quoted(new) if old[0] == "'" else scalar(new)
+        return Change(text[:start] + spelled + text[end:], old)
+    if old[0] not in "[{":
+        raise NotEditable("the value fills several lines; change what it holds, or write it in the document", node)
+    return Change(text[:start] + (scalar(new) if is_text else new) + text[end:], old)
+
+
+def _fill(text: str, node: Node, key: Scalar | None, new: str) -> Change:
+    if key is None:
+        raise NotEditable("the entry is empty", node)
+    colon = _COLON.match(text, key.end)
+    if colon is None:
+        raise NotEditable("the key has no value", key)
+    return Change(f"{text[: colon.end()]} {new}{text[colon.end() :]}", "")
+
+
+def _insert(text: str, node: Node, key: Scalar | None, steps: list[str], new: str) -> Change:
+    """A new entry in a mapping, or the first one below a key that has nothing behind it."""
+    if isinstance(node, Scalar) and node.data is None and key is not None:
+        colon = _COLON.match(text, key.end)
+        if colon is None or node.end > node.start:
+            raise NotEditable("there is no mapping here to add to", node)
+        indent = " " * (key.span.column + 1)
+        at = _end_of_line(text, colon.end())
+        return Change(text[:at] + _line_end(text) + _block(steps, new, indent, _line_end(text)) + text[at:], "")
+    if not isinstance(node, Mapping):
+        raise NotEditable("there is no mapping here to add to", node)
+    if key is not None and node.start < key.end:
+        raise NotEditable("the mapping is an alias of another one", key)
+    last = _last(node)
+    if text[node.start : node.start + 1] == "{":
+        entry = _flow(steps, new)
+        at = node.start + 1 if last is None else last
+        return Change(text[:at] + (f", {entry}" if last is not None else entry) + text[at:], "")
+    first_key = next(iter(node.entries.values()))[0]
+    indent = " " * (first_key.span.column - 1)
+    assert last is not None
+    line_end = _line_end(text)
+    if text[:last].endswith("\n"):  # behind a text of several lines
+        return Change(text[:last] + _block(steps, new, indent, line_end) + line_end + text[last:], "")
+    at = _end_of_line(text, last)
+    return Change(text[:at] + line_end + _block(steps, new, indent, line_end) + text[at:], "")
+
+
+def _last(node: Mapping) -> int | None:
+    """Where the last entry ends."""
+    end = None
+    for key, value in node.entries.values():
+        end = max(key.end, _end(value))
+        if isinstance(value, Scalar) and value.start == value.end:
+            end = max(end, key.end + 1)  # the colon
+    return end
+
+
+def _end(node: Node) -> int:
+    """Where a node's own text ends: libyaml ends block collections only where the next thing starts."""
+    if isinstance(node, Mapping) and node.entries and not node.is_flow:
+        return _last(node) or node.end
+    if isinstance(node, Sequence) and node.items and not node.is_flow:
+        return _end(node.items[-1])
+    return node.end
+
+
+def _end_of_line(text: str, at: int) -> int:
+    rest = _REST_OF_LINE.match(text, at)
+    return rest.end() if rest else at
+
+
+def _line_end(text: str) -> str:
+    return "\r\n" if "\r\n" in text else "\n"
+
+
+def _block(steps: list[str], new: str, indent: str, line_end: str) -> str:
+    lines = [f"{indent}{'  ' * depth}{scalar(step)}:" for depth, step in enumerate(steps)]
+    return line_end.join(lines) + f" {new}"
+
+
+def _flow(steps: list[str], new: str) -> str:
+    inner = new
+    for step in reversed(steps[1:]):
+        inner = f"{{{scalar(step)}: {inner}}}"
+    return f"{scalar(steps[0])}: {inner}"

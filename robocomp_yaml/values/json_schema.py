@@ -1,0 +1,319 @@
+"""JSON Schemas (draft-07) of a component's values: for editors, for tools, and as the gate of `check`.
+
+Three of them say the same about each value, and differ in what may be missing. A document may leave out anything, and
+`null` returns to the default; of effective values nothing that is required may be missing; complete ones also have
+every default, so that there is nothing left to normalize.
+"""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass, field
+from typing import Any
+
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model.parameters import (
+    LIMITS,
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    Parameters,
+    RecordType,
+    ScalarType,
+    Size,
+    Type,
+    kind_in_words,
+    unit_of,
+)
+from robocomp_yaml.source.schema import schema as schema_of_kind
+
+Schema = dict[str, Any]
+DOCUMENT, EFFECTIVE, COMPLETE = "document", "effective", "complete"
+_REFERENCE: Schema = {
+    "title": "Reference",
+    "description": "The value of an environment variable, taken when the component starts.",
+    "type": "object",
+    "required": ["env"],
+    "properties": {
+        "env": {
+            "title": "Variable", "description": "The name of the environment variable.", "type": "string",
+            "pattern": "^[A-Za-z_][A-Za-z0-9_]*$(?!\\n)",
+            "errorMessage": "env: is the name of an environment variable: letters, digits and underscores",
+        }
+    },
+    "additionalProperties": False,
+}
+_REFERENCE_CHOICE = {"type": "object", "defaultSnippets": [{
+    "label": "from the environment", "description": "taken when the component starts", "body": {"env": "${1:NAME}"}
+}]}
+
+
+def values_schema(parameters: Parameters, mode: str) -> Schema:
+    """The schema of what stands under `parameters:`, by itself."""
+    maker = _Maker(mode)
+    made = maker.record(parameters.root)
+    return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": maker.definitions}
+
+
+def document_schema(parameters: Parameters, component: LinkedComponent | None, mode: str) -> Schema:
+    """The self-contained schema of a component's whole values document."""
+    made = copy.deepcopy(schema_of_kind("config"))
+    name = component.component.name if component else "the component"
+    made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
+    made["title"] = f"Values of {name}"
+    made["description"] = f"The values of {name}'s parameters, and where it and the others are."
+    made["markdownDescription"] = made["description"] + (f"\n\n{parameters.doc}" if parameters.doc else "")
+    made["examples"] = [{"parameters": {}}]
+    maker = _Maker(mode)
+    head = {key: made["properties"]["parameters"][key] for key in ("title", "description", "markdownDescription")}
+    made["properties"]["parameters"] = {**maker.record(parameters.root, nullable=mode == DOCUMENT), **head}
+    made["definitions"].update(maker.definitions)
+    if mode == EFFECTIVE:
+        made["required"] = ["parameters"] if any(m.required for m in parameters.root.members) else []
+    if component is not None:
+        for key, names in _ports(component).items():
+            made["properties"][key]["properties"] = {name: {"$ref": f"#/definitions/{_PORTS[key]}"} for name in names}
+    return made
+
+
+_PORTS = {"endpoints": "endpoint", "proxies": "proxy"}
+
+
+def _ports(component: LinkedComponent) -> dict[str, list[str]]:
+    served = [port.name for port in component.implements] + [f"{port.name}Topic" for port in component.subscribes]
+    return {"endpoints": [*served, "CommonBehavior"], "proxies": [port.name for port in component.requires]}
+
+
+@dataclass(slots=True)
+class _Maker:
+    """Makes schemas in one mode; structs go to `definitions`. The complete mode is read by nobody: it has no words."""
+
+    mode: str
+    definitions: dict[str, Schema] = field(default_factory=lambda: {"env": _REFERENCE})
+
+    @property
+    def with_words(self) -> bool:
+        return self.mode != COMPLETE
+
+    def type(self, type_: Type, unit: str = "", *, nullable: bool = False) -> Schema:
+        match type_:
+            case BasicType() | EnumType():
+                return self.scalar(type_, nullable)
+            case ListType(element=element, size=size, unique=unique):
+                made: Schema = {"type": _types("array", nullable), "items": self.type(element)}
+                made |= _size(size, "Items")
+                if unique:
+                    made["uniqueItems"] = True
+                return self.said(made, f"a list of {self.count(size)}entries" if size != Size() else "a list")
+            case MapType(element=element, size=size):
+                nullable_entries = self.mode == DOCUMENT
+                made = {"type": _types("object", nullable)}
+                made["additionalProperties"] = self.type(element, nullable=nullable_entries)
+                if not nullable_entries:  # layers are merged before entries are counted
+                    made |= _size(size, "Properties")
+                return self.said(made, "a mapping of names to values")
+            case RecordType(name=""):
+                return self.record(type_, nullable=nullable)
+            case _:
+                name = f"Type.{type_.name}"
+                if name not in self.definitions:
+                    self.definitions[name] = {}  # for a second mention while it is made
+                    self.definitions[name] = self.record(type_)
+                made = {"type": _types("object", nullable)}
+                made["allOf"] = [{"if": {"type": "object"}, "then": {"$ref": f"#/definitions/{name}"}}]
+                return self.said(made, kind_in_words(type_))
+
+    def said(self, made: Schema, wanted: str) -> Schema:
+        if self.with_words:
+            made["errorMessage"] = f"this is {wanted}"
+        return made
+
+    def count(self, size: Size) -> str:
+        return f"{size.in_words} "
+
+    def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
+        kind = {"bool": "boolean", "string": "string"}.get(type_.name) if isinstance(type_, BasicType) else "string"
+        if isinstance(type_, BasicType) and kind is None:
+            kind = "integer" if type_.is_integer else "number"
+        assert kind is not None
+        limits = self.limits(type_)
+        made: Schema = {"type": [kind, "object", *(["null"] if nullable else [])]}
+        wanted = f"this is {in_words(type_)}"
+        shapes: list[Schema] = [{"if": {"type": "object"}, "then": {"$ref": "#/definitions/env"}}]
+        if "enum" in limits:
+            then = {"enum": limits["enum"]}
+            if self.with_words:
+                then["errorMessage"] = wanted
+                made["anyOf"] = [{"enum": limits["enum"]}, _REFERENCE_CHOICE, {}]
+            shapes.append({"if": {"type": ["string", "number"]}, "then": then})
+        else:
+            made |= limits
+            if self.with_words:
+                made["anyOf"] = [{"type": kind}, _REFERENCE_CHOICE, {}]
+        made["allOf"] = shapes
+        if self.with_words:
+            made["errorMessage"] = wanted
+        return made
+
+    def limits(self, type_: ScalarType) -> Schema:
+        if isinstance(type_, EnumType):
+            return {"enum": list(type_.allowed)}
+        if type_.values:
+            return {"enum": [literal.value for literal in type_.values]}
+        if type_.pattern is not None:
+            return {"pattern": type_.pattern.anchored}
+        if type_.name not in LIMITS:
+            return {}
+        least, most = LIMITS[type_.name]
+        made: Schema = {"minimum": least, "maximum": most}
+        if type_.range and (low := type_.range.low):
+            del made["minimum"]
+            made["exclusiveMinimum" if low.is_open else "minimum"] = low.value
+        if type_.range and (high := type_.range.high):
+            del made["maximum"]
+            made["exclusiveMaximum" if high.is_open else "maximum"] = high.value
+        return made
+
+    def record(self, type_: RecordType, *, nullable: bool = False) -> Schema:
+        made: Schema = {"type": _types("object", nullable)}
+        made["properties"] = {member.name: self.member(member) for member in type_.members}
+        made["additionalProperties"] = False
+        if self.mode == EFFECTIVE:
+            needed = [member.name for member in type_.members if member.required]
+        else:
+            needed = [m.name for m in type_.members if not m.optional] if self.mode == COMPLETE else []
+        if needed:
+            made["required"] = needed
+        if self.with_words:
+            if type_.name:
+                made["title"] = type_.name
+            if type_.doc:
+                made["description"] = made["markdownDescription"] = type_.doc
+            made["defaultSnippets"] = [{
+                "label": type_.name or "all of it", "description": "every member", "body": _body(type_),
+            }]
+        return made
+
+    def member(self, member: Member) -> Schema:
+        made = self.type(member.type, nullable=self.mode == DOCUMENT)
+        if self.with_words:
+            made |= _words(member)
+        return made
+
+
+def _types(name: str, nullable: bool) -> str | list[str]:
+    return [name, "null"] if nullable else name
+
+
+def _size(size: Size, of: str) -> Schema:
+    made: Schema = {f"min{of}": size.least} if size.least else {}
+    return made | ({f"max{of}": size.most} if size.most is not None else {})
+
+
+def in_words(type_: Type) -> str:
+    """A type with its limits and unit: `a number from 0 to 2 (rad/s)`."""
+    words = kind_in_words(type_)
+    if isinstance(type_, BasicType):
+        if type_.values:
+            words = f"one of {', '.join(literal.lexeme for literal in type_.values)}"
+        elif type_.range:
+            words += f" {type_.range.in_words}"
+        elif type_.pattern:
+            words += f" that matches {type_.pattern.text}"
+        words += f" ({type_.unit})" if type_.unit else ""
+    elif isinstance(type_, ListType | MapType):
+        kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
+        size = f" of {type_.size.in_words} entries" if type_.size != Size() else ""
+        words = f"a {kind}{size}, each {one} {in_words(type_.element)}"
+    elif isinstance(type_, RecordType) and type_.name:
+        words = type_.name
+    return words
+
+
+def _words(member: Member) -> Schema:
+    """Title, description, default: what an editor shows."""
+    unit = unit_of(member.type)
+    doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
+    kind = in_words(member.type)
+    facts = [kind[0].upper() + kind[1:]] if not member.is_group else []
+    if member.default is not None:
+        facts.append(f"default: {plain(member.default.data)}")
+    elif member.optional:
+        facts.append("may be left out")
+    elif not member.is_group:
+        facts.append("required")
+    if member.editable and not member.is_group:
+        facts.append("may change while running")
+    text = "; ".join(facts) + ("." if facts else "")
+    if isinstance(member.type, EnumType):
+        text += "".join(f"\n- `{name}`: {said}" for name, said in member.type.enumerators if said)
+    made: Schema = {"title": f"{member.name} ({unit})" if unit else member.name}
+    made["description"] = "\n".join(part for part in (doc, text) if part)
+    made["markdownDescription"] = "\n\n".join(part for part in (doc, text) if part)
+    if member.default is not None:
+        made["default"] = member.default.data
+    made["examples"] = [example(member)]
+    return made
+
+
+def plain(data: object) -> str:
+    """Data as YAML spells it on one line."""
+    if isinstance(data, bool) or data is None:
+        return {True: "true", False: "false"}.get(data, "null")  # type: ignore[arg-type]
+    if isinstance(data, dict):
+        return "{" + ", ".join(f"{key}: {plain(value)}" for key, value in data.items()) + "}"
+    if isinstance(data, list):
+        return "[" + ", ".join(plain(item) for item in data) + "]"
+    return str(data) if not isinstance(data, str) or data else '""'
+
+
+def example(member: Member) -> object:
+    """A value that fits: the default, else the simplest."""
+    return member.default.data if member.default is not None else example_of(member.type)
+
+
+def example_of(type_: Type) -> object:
+    match type_:
+        case EnumType():
+            return type_.allowed[0]
+        case BasicType(name="bool"):
+            return False
+        case BasicType(name="string"):
+            return str(type_.values[0].value) if type_.values else "text"
+        case BasicType():
+            return _example_number(type_)
+        case ListType(element=element, size=size):
+            return [example_of(element)] * max(1, min(size.least, 3))
+        case MapType(element=element):
+            return {"name": example_of(element)}
+        case _:
+            return {m.name: example(m) for m in type_.members if not m.optional}
+
+
+def _example_number(type_: BasicType) -> int | float:
+    if type_.values:
+        return type_.values[0].value  # type: ignore[return-value]
+    if type_.range is None or type_.range.holds(0):
+        return 0
+    low, high = type_.range.low, type_.range.high
+    if low is not None and not low.is_open:
+        return low.value
+    if high is not None and not high.is_open:
+        return high.value
+    if type_.is_integer:
+        return int(low.value) + 1 if low is not None else int(high.value) - 1  # type: ignore[union-attr]
+    if low is not None and high is not None:
+        return (low.value + high.value) / 2
+    return low.value + 1 if low is not None else high.value - 1  # type: ignore[union-attr]
+
+
+def _body(type_: RecordType, first: int = 1) -> Schema:
+    """A snippet's body: the members that need a value, or all where none does."""
+    needed = [m for m in type_.members if m.required] or list(type_.members)
+    return {
+        member.name: f"${{{place}:{plain(example(member))}}}" if not isinstance(example(member), list | dict)
+        else example(member)
+        for place, member in enumerate(needed, first)
+    }

@@ -1,0 +1,257 @@
+"""Values judged at their places: what is wrong with each, in words that name parameter, value, limit and unit."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from math import isfinite
+
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.codes import values as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.model.parameters import (
+    LIMITS,
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    RecordType,
+    ScalarType,
+    Type,
+    kind_in_words,
+)
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.values.paths import Step, in_words
+
+Path = tuple[Step, ...]
+_ENV_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
+
+
+def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | None = None) -> Iterator[Diagnostic]:
+    """All that is wrong with a value. `complete`: nothing required may be missing, and there is no null, as in a
+    default; else it is a layer, in which null returns to the default and anything may be left out."""
+    match type_:
+        case BasicType() | EnumType():
+            yield from _scalar(type_, node, path, key)
+        case ListType():
+            yield from _list(type_, node, path, complete, key)
+        case MapType():
+            yield from _map(type_, node, path, complete, key)
+        case RecordType():
+            yield from _record(type_, node, path, complete, key)
+
+
+def is_reference(node: Node) -> bool:
+    """`{env: NAME}`, where a plain value stands."""
+    return isinstance(node, Mapping) and "env" in node.entries
+
+
+def shown(node: Node) -> str:
+    """A value for messages, shortened."""
+    if isinstance(node, Mapping):
+        return "a mapping"
+    if isinstance(node, Sequence):
+        return "a list"
+    assert isinstance(node, Scalar)
+    if node.data is None:
+        return "empty"
+    text = node.lexeme if len(node.lexeme) <= 40 else node.lexeme[:39] + "…"
+    return f"the text '{text}'" if isinstance(node.data, str) else text
+
+
+def _at(code: Code, node: Node, key: Scalar | None, **facts: object) -> Diagnostic:
+    """At the value; at its key where the value is empty or fills many lines."""
+    span = node.span
+    empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
+    hint = str(facts.pop("hint", ""))
+    return code.at(key.span if key is not None and (empty or span.line != span.end_line) else span, hint=hint, **facts)
+
+
+def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
+    hint = ""
+    if isinstance(node, Scalar) and isinstance(node.data, str) and isinstance(type_, BasicType):
+        bare = node.lexeme.strip()
+        if node.quoted and (type_.is_number and re.fullmatch(r"[-+]?[0-9.]+", bare) or (
+            type_.name == "bool" and bare in ("true", "false", "True", "False")
+        )):
+            hint = f"without quotes: {bare}"
+    elif isinstance(type_, BasicType) and type_.name == "string" and isinstance(node, Scalar) and node.lexeme:
+        hint = f'text needs quotes here: "{node.lexeme}"'
+    wanted = f"{kind_in_words(type_)}{_unit(type_)}"
+    return _at(codes.WRONG_TYPE, node, key, path=in_words(path), wanted=wanted, found=shown(node), hint=hint)
+
+
+def _unit(type_: Type) -> str:
+    return f" ({type_.unit})" if isinstance(type_, BasicType) and type_.unit else ""
+
+
+def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
+    if is_reference(node):
+        yield from _reference(node, path)
+    elif isinstance(node, Mapping | Sequence) or node.data is None:
+        yield _wrong_type(type_, node, path, key)
+    elif isinstance(type_, EnumType):
+        yield from _enumerated(type_, node, path, key)
+    else:
+        yield from _basic(type_, node, path, key)
+
+
+def _reference(node: Node, path: Path) -> Iterator[Diagnostic]:
+    assert isinstance(node, Mapping)
+    name = node.entries["env"][1]
+    for other, _ in node.items():
+        if other.lexeme != "env":
+            yield codes.BAD_REFERENCE.at(other.span, path=in_words(path), problem=f"has '{other.lexeme}' beside 'env'")
+    if not (isinstance(name.data, str) and _ENV_NAME.match(name.data)):
+        yield codes.BAD_REFERENCE.at(
+            name.span, path=in_words(path), problem="names no variable of the environment",
+            hint="a variable's name has letters, digits and underscores, and starts with no digit",
+        )
+
+
+def _enumerated(type_: EnumType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
+    if node.data in type_.allowed and isinstance(node.data, str):
+        return
+    if not isinstance(node.data, str):
+        yield _wrong_type(type_, node, path, key)
+        return
+    meant = suggest(node.data, type_.allowed)
+    yield _at(
+        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"'{node.data}'", wanted=kind_in_words(type_),
+        hint=f"did you mean '{meant}'?" if meant else "",
+    )
+
+
+def _basic(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
+    value = node.data
+    if type_.name == "bool":
+        if not isinstance(value, bool):
+            yield _wrong_type(type_, node, path, key)
+    elif type_.name == "string":
+        if not isinstance(value, str):
+            yield _wrong_type(type_, node, path, key)
+        elif type_.values and all(value != allowed.value for allowed in type_.values):
+            yield _not_allowed(type_, node, path, key)
+        elif type_.pattern and not type_.pattern.matches(value):
+            yield _at(
+                codes.NO_MATCH, node, key, path=in_words(path), value=value[:60], pattern=type_.pattern.text
+            )
+    elif isinstance(value, bool) or not isinstance(value, int | float):
+        yield _wrong_type(type_, node, path, key)
+    elif not isfinite(value) if isinstance(value, float) else False:
+        yield _wrong_type(type_, node, path, key)
+    elif type_.is_integer and value != int(value):
+        yield _wrong_type(type_, node, path, key)
+    else:
+        yield from _number(type_, value, node, path, key)
+
+
+def _number(
+    type_: BasicType, value: int | float, node: Node, path: Path, key: Scalar | None
+) -> Iterator[Diagnostic]:
+    if type_.values:
+        if all(value != allowed.value for allowed in type_.values):
+            yield _not_allowed(type_, node, path, key)
+        return
+    least, most = LIMITS[type_.name]
+    unit = f" {type_.unit}" if type_.unit else ""
+    wanted = ""
+    if type_.range and not type_.range.holds(value):
+        wanted = f"{type_.range.in_words}{unit}"
+    elif not least <= value <= most:
+        wanted = f"from {least} to {most} ({type_.name})"
+    if wanted:
+        lexeme = node.lexeme if isinstance(node, Scalar) else str(value)
+        yield _at(
+            codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{lexeme[:40]}{unit}", wanted=wanted
+        )
+
+
+def _not_allowed(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
+    allowed = [value.lexeme for value in type_.values]
+    unit = f" {type_.unit}" if type_.unit else ""
+    meant = suggest(str(node.data), allowed) if type_.name == "string" else None
+    found = node.lexeme[:40] if isinstance(node, Scalar) else ""
+    return _at(
+        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{found!r}" if type_.name == "string" else
+        f"{found}{unit}", wanted=f"one of {', '.join(allowed)}{unit}", hint=f"did you mean '{meant}'?" if meant else "",
+    )
+
+
+def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
+    if not isinstance(node, Sequence):
+        yield _wrong_type(type_, node, path, key)
+        return
+    yield from wrong_size(type_, len(node.items), node, path, key)
+    seen: set[object] = set()
+    for place, item in enumerate(node.items):
+        yield from judge(type_.element, item, (*path, place), complete=complete)
+        if type_.unique:
+            known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
+            if known in seen:
+                yield codes.NOT_UNIQUE.at(item.span, path=in_words(path), value=shown(item))
+            seen.add(known)
+
+
+def wrong_size(
+    type_: ListType | MapType, count: int, node: Node, path: Path, key: Scalar | None
+) -> Iterator[Diagnostic]:
+    if not type_.size.holds(count):
+        entries = f"{count} entr{'y' if count == 1 else 'ies'}"
+        yield _at(codes.WRONG_SIZE, node, key, path=in_words(path), count=entries, wanted=type_.size.in_words)
+
+
+def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
+    if not isinstance(node, Mapping):
+        yield _wrong_type(type_, node, path, key)
+        return
+    if complete:  # layers are judged when they are merged
+        yield from wrong_size(type_, len(node.entries), node, path, key)
+    for name, value in node.items():
+        if value.data is None and not complete:
+            continue
+        yield from judge(type_.element, value, (*path, name.lexeme), complete=complete, key=name)
+
+
+def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
+    if not isinstance(node, Mapping):
+        yield _wrong_type(type_, node, path, key)
+        return
+    members = {member.name: member for member in type_.members}
+    for name, value in node.items():
+        member = members.get(name.lexeme)
+        if member is None:
+            yield unknown(name, type_, path, node)
+        elif value.data is None and not isinstance(value, Mapping | Sequence):
+            if complete:
+                yield _wrong_type(member.type, value, (*path, name.lexeme), name)
+        else:
+            yield from judge(member.type, value, (*path, name.lexeme), complete=complete, key=name)
+    if complete:
+        yield from missing(type_, set(node.entries), path, key.span if key is not None else node.span)
+
+
+def unknown(name: Scalar, type_: RecordType, path: Path, node: Mapping) -> Diagnostic:
+    known = [member.name for member in type_.members if member.name not in node.entries]
+    meant = suggest(name.lexeme, known)
+    hint = f"did you mean '{meant}'?" if meant else f"there can be: {', '.join(known[:20])}" if known else ""
+    return codes.UNKNOWN_PARAMETER.at(name.span, path=in_words((*path, name.lexeme)), hint=hint)
+
+
+def missing(type_: RecordType, given: set[str], path: Path, span: Span) -> Iterator[Diagnostic]:
+    """What has no value and needs one; groups that are not there are looked into."""
+    for member in type_.members:
+        if member.name in given:
+            continue
+        if isinstance(member.type, RecordType) and member.type.is_group:
+            yield from missing(member.type, set(), (*path, member.name), span)
+        elif member.required:
+            yield codes.MISSING.at(span, path=in_words((*path, member.name)), hint=_wish(member))
+
+
+def _wish(member: Member) -> str:
+    unit = f" ({member.unit})" if member.unit else ""
+    return f"give it {kind_in_words(member.type)}{unit}"

@@ -1,0 +1,140 @@
+"""A whole values document as the properties of `etc/config`, in the order in which they are written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from robocomp_yaml.diag.codes import values as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.program import LinkedValues
+from robocomp_yaml.model.build_interface import text
+from robocomp_yaml.source.properties import unwritable
+from robocomp_yaml.source.tree import Mapping, Node, Scalar
+from robocomp_yaml.values.effective import Effective
+from robocomp_yaml.values.write import Property, Writer
+
+CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
+
+
+@dataclass(slots=True)
+class Section:
+    """The properties that belong together, with what they are about."""
+
+    title: str
+    properties: list[Property] = field(default_factory=list)
+
+
+def dialect(values: LinkedValues) -> str:
+    for layer in reversed(values.layers()):
+        if found := text(layer.document.root.get("legacy"), "dialect"):
+            return found
+    return CLASSIC
+
+
+def legacy_file(values: LinkedValues) -> str:
+    """The file that a migrated document is written to again, or ''."""
+    return text(values.document.root.get("legacy"), "file")
+
+
+def properties(values: LinkedValues, effective: Effective) -> tuple[list[Section], list[Diagnostic]]:
+    """The properties of a document and its layers, and what of it no property can hold."""
+    form = dialect(values)
+    root = values.document.root
+    entry = root.entries.get("parameters") or root.entries.get("component")
+    head = entry[0].span if entry else Span(root.file)
+    quote = form == FLAT_TOML
+    writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote)
+    sections = [
+        Section("Where this component serves its interfaces", list(_endpoints(values, form))),
+        Section("Where the components are that it requires", list(_proxies(values, form))),
+        Section("Topics", list(_topics(values, form))),
+        Section("Parameters", writer.write(effective.data, effective.place)),
+        Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in _given(values, "ice")]),
+        Section("Others", [_property(key, node, False) for key, node in _given(values, "properties")]),
+    ]
+    faults = list(writer.faults)
+    exact = {key: node.lexeme for key, node in _given(values, "legacy", "exact") if isinstance(node, Scalar)}
+    seen: dict[str, Property] = {}
+    for section in sections:
+        section.properties = [_exact(made, exact.get(made.key)) for made in section.properties]
+        kept = []
+        for made in section.properties:
+            problem = unwritable(made.key, made.value)
+            if not problem and made.key in seen and seen[made.key].value != made.value:
+                problem = "another value is this property already"
+            if problem:
+                faults.append(codes.NOT_FOR_ICE.at(made.span or head, path=made.key, problem=problem))
+            elif made.key not in seen:
+                seen[made.key] = made
+                kept.append(made)
+        section.properties = kept
+    return [section for section in sections if section.properties], faults
+
+
+def as_dict(sections: list[Section]) -> dict[str, str]:
+    return {made.key: made.value for section in sections for made in section.properties}
+
+
+def _exact(made: Property, original: str | None) -> Property:
+    """The original spelling, while it still means the value."""
+    if original is None or original == made.value or made.read is None:
+        return made
+    try:
+        same = made.read(original) == made.read(made.value)
+    except (ValueError, KeyError):
+        same = False
+    return replace(made, value=original) if same else made
+
+
+def _given(values: LinkedValues, *keys: str) -> Iterator[tuple[str, Node]]:
+    """The entries of a section over all layers: later ones replace, null removes."""
+    merged: dict[str, Node] = {}
+    for layer in values.layers():
+        section = layer.document.section(*keys)
+        for name, node in section.items() if section is not None else ():
+            if node.data is None:
+                merged.pop(name.lexeme, None)
+            else:
+                merged[name.lexeme] = node
+    yield from merged.items()
+
+
+def _property(key: str, node: Node, quote: bool) -> Property:
+    assert isinstance(node, Scalar)
+    value = node.lexeme
+    return Property(key, f'"{value}"' if quote and '"' not in value else value, node.span)
+
+
+def _endpoints(values: LinkedValues, form: str) -> Iterator[Property]:
+    for name, node in _given(values, "endpoints"):
+        yield _property(f"{name}.Endpoints" if form == CLASSIC else f"Endpoints.{name}", node, form == FLAT_TOML)
+
+
+def _proxies(values: LinkedValues, form: str) -> Iterator[Property]:
+    for name, node in _given(values, "proxies"):
+        key = f"{name}Proxy" if form == CLASSIC else f"Proxies.{name}"
+        if isinstance(node, Mapping):
+            key = text(node, "key", key)
+            proxy = node.get("proxy")
+            assert proxy is not None
+            node = proxy
+        yield _property(key, node, form == FLAT_TOML)
+
+
+def _topics(values: LinkedValues, form: str) -> Iterator[Property]:
+    manager: Node | None = None
+    for layer in values.layers():
+        topics = layer.document.root.get("topics")
+        entry = topics.entries.get("manager") if isinstance(topics, Mapping) else None
+        if entry is not None:
+            manager = None if entry[1].data is None else entry[1]
+    if manager is not None:
+        yield _property("TopicManager.Proxy" if form == CLASSIC else "Proxies.TopicManager", manager, form == FLAT_TOML)
+    for name, node in _given(values, "topics", "prefix"):
+        made = _property(f"Proxies.{name}Prefix", node, form == FLAT_TOML)
+        if made.value:  # none at all is what an empty one means
+            yield made
+    for name, node in _given(values, "topics", "name"):
+        yield _property(name, node, form == FLAT_TOML)

@@ -1,0 +1,126 @@
+"""Every effective value with where it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from robocomp_yaml.model.parameters import (
+    ListType,
+    MapType,
+    Member,
+    RecordType,
+    Type,
+    unit_of,
+)
+from robocomp_yaml.source.tree import Node, Scalar
+from robocomp_yaml.values.effective import Effective
+from robocomp_yaml.values.layers import Place, child
+from robocomp_yaml.values.paths import Step, in_words
+from robocomp_yaml.values.spell_yaml import flow
+from robocomp_yaml.values.write import Path, Where, node_of, step
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """A plain value, or an empty list or map. `node` is where it is given; None for a default, whose node (if a
+    document wrote it) is `default`. `overrode` are the nodes of earlier layers, the latest first."""
+
+    path: str
+    data: Any
+    text: str
+    unit: str
+    editable: bool
+    node: Node | None
+    default: Node | None
+    overrode: tuple[Node, ...]
+
+
+def shown(effective: Effective) -> Iterator[Shown]:
+    yield from _record(effective.parameters.root, effective.data, effective.place, None, (), False)
+
+
+def _record(
+    type_: RecordType, data: dict[str, Any], where: Where, default: Node | None, path: Path, editable: bool
+) -> Iterator[Shown]:
+    for member in type_.members:
+        if member.name in data:
+            given = step(where, member.name)
+            own = step(default, member.name) if default is not None else None
+            fallback = own if own is not None else member.default.node if member.default else None
+            yield from _value(
+                member.type, data[member.name], given, node_of(fallback), (*path, member.name),
+                editable or member.editable,
+            )
+
+
+def _value(
+    type_: Type, data: Any, where: Where, default: Node | None, path: Path, editable: bool
+) -> Iterator[Shown]:
+    if isinstance(type_, RecordType) and isinstance(data, dict):
+        yield from _record(type_, data, where, default, path, editable)
+    elif isinstance(type_, ListType | MapType) and data:
+        entries: list[tuple[Step, Any]] = list(data.items() if isinstance(type_, MapType) else enumerate(data))
+        for name, item in entries:
+            below = step(default, name) if default is not None and where is None else None
+            yield from _value(type_.element, item, _below(where, name), node_of(below), (*path, name), editable)
+    else:
+        node = node_of(where)
+        spelled = default if node is None else node
+        as_spelled = isinstance(spelled, Scalar) and spelled.data == data and not isinstance(data, str)
+        text = spelled.lexeme if as_spelled else flow(data)  # type: ignore[union-attr]
+        overrode = tuple(where.overrode) if isinstance(where, Place) else ()
+        yield Shown(in_words(path), data, text, unit_of(type_), editable, node, default, overrode)
+
+
+def _below(where: Where, name: Step) -> Where:
+    """One step down, with what the same place of the overridden lists was."""
+    below = step(where, name)
+    if isinstance(where, Place) and below is not None and not isinstance(below, Place) and where.overrode:
+        earlier = [found[1] for node in where.overrode if (found := child(node, name)) is not None]
+        return Place(below, None, None, earlier)
+    return below
+
+
+def find(effective: Effective, steps: list[str]) -> tuple[Any, Type, Member | None] | None:
+    """The value at a path with its type, and the parameter or member that it is."""
+    data: Any = effective.data
+    type_: Type = effective.parameters.root
+    member: Member | None = None
+    for name in steps:
+        if isinstance(type_, RecordType):
+            member = type_.member(name)
+            if member is None or name not in data:
+                return None
+            data, type_ = data[name], member.type
+        elif isinstance(type_, ListType):
+            if not (name.isascii() and name.isdigit() and int(name) < len(data)):
+                return None
+            data, type_ = data[int(name)], type_.element
+        elif isinstance(type_, MapType):
+            if name not in data:
+                return None
+            data, type_ = data[name], type_.element
+        else:
+            return None
+    return data, type_, member
+
+
+def type_at(root: RecordType, steps: list[str]) -> Type | None:
+    """The type of what a path names, whether or not it has a value; None where the path names nothing."""
+    type_: Type = root
+    for name in steps:
+        match type_:
+            case RecordType():
+                member = type_.member(name)
+                if member is None:
+                    return None
+                type_ = member.type
+            case ListType(element=element) if name.isascii() and name.isdigit():
+                type_ = element
+            case MapType(element=element):
+                type_ = element
+            case _:
+                return None
+    return type_

@@ -1,0 +1,83 @@
+"""Building C++ components: from the command line on, again and again, and when something is missing."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+from components import build
+from cpp_programs import cmake, needs_cpp
+from mouth import MOUTH
+from processes import Start
+from scenario import INTERFACES, cdsl
+
+from conftest import ROOT, write_tree
+
+pytestmark = [pytest.mark.slow, needs_cpp]
+SYNTAX = ["g++", "-DICE_CPP11_MAPPING", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-Igenerated", "-Isrc"]
+SLICE = ["slice2cpp", "--header-ext", "ice.h", "--source-ext", "ice.cpp"]
+
+
+def slices(root: Path) -> list[str]:
+    """Compiles the component's Slice; the option that finds its headers."""
+    (root / "build").mkdir()
+    names = sorted(str(file) for file in (root / "slice").glob("*.ice"))
+    subprocess.run([*SLICE, f"-I{root / 'slice'}", "--output-dir", "build", *names], cwd=root, check=True)
+    return ["-isystem", "build"]
+
+
+def test_from_the_command_line_on(rcyaml: Callable[..., Result], tmp_path: Path, start: Start) -> None:
+    """A component as it was compiled, built and run; a second build does nothing; a new source is taken."""
+    root = tmp_path / "a component"
+    documents = {**INTERFACES, "a component/x.cdsl.yaml": cdsl("Fresh", "cpp", implements=["Hand"], requires=["Arm"])}
+    write_tree(tmp_path, documents)
+    assert rcyaml("compile", "a component", "-I", ".").exit_code == 0
+    cmake(root, "-DCMAKE_BUILD_TYPE=Plain")
+    running = start([root / "bin" / "Fresh"]).wait_for("waiting for Arm at arm:")
+    assert running.stop() == 0
+
+    again = subprocess.run(["cmake", "--build", "build"], cwd=root, capture_output=True, text=True, check=True)
+    assert "Building" not in again.stdout and "Compiling" not in again.stdout
+    (root / "src" / "more.cpp").write_text("int more = 1;\n")
+    more = subprocess.run(["cmake", "--build", "build"], cwd=root, capture_output=True, text=True, check=True)
+    assert more.stdout.count("Building CXX") == 1 and "more.cpp" in more.stdout
+
+    assert rcyaml("compile", "a component", "-I", ".", "--check").exit_code == 0, "what is built is no concern of rcyaml"
+
+
+def test_ice_is_missing(tmp_path: Path) -> None:
+    root = build({"x.cdsl.yaml": "component: Lonely\nlanguage: cpp\n"}, tmp_path)["Lonely"].root
+    command = ["cmake", "-S", str(root), "-B", str(root / "build"), "-DCMAKE_DISABLE_FIND_PACKAGE_Ice=ON"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert "Lonely needs Ice 3.7 for C++, which is not installed here." in done.stderr
+    assert "sudo apt install libzeroc-ice-dev zeroc-ice-compilers" in done.stderr
+
+
+def test_a_method_that_the_user_lacks(tmp_path: Path) -> None:
+    """The interface has gained one: the compiler names it."""
+    root = build({**INTERFACES, "x/x.cdsl.yaml": cdsl("X", "cpp", implements=["Hand"])}, tmp_path)["X"].root
+    header = root / "src" / "specificworker.h"
+    lines = header.read_text().splitlines(keepends=True)
+    header.write_text("".join(line for line in lines if "Hand_grasp" not in line))
+    done = subprocess.run([*SYNTAX, *slices(root), "generated/main.cpp"], cwd=root, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert "src/specificworker.h lacks methods of the component's interfaces" in done.stderr
+    assert "GenericWorker::Hand_grasp(const RoboCompTypes::Image&)" in done.stderr
+
+
+@pytest.mark.parametrize("standard", [17, 20])
+def test_the_golden_component(tmp_path: Path, standard: int) -> None:
+    """And the whole run time with it, in the standard that components ask for."""
+    golden = ROOT / "tests" / "golden" / "cpp" / "mouth"
+    root = build(MOUTH, tmp_path)["MouthComp"].root
+    for name in ("generated/genericworker.cpp", "src/specificworker.cpp"):
+        assert (root / name).read_text() == (golden / name).read_text()
+    sources = sorted((root / "generated").rglob("*.cpp")) + [root / "src" / "specificworker.cpp"]
+    (root / "all.cpp").write_text("".join(f'#include "{source.relative_to(root)}"\n' for source in sources))
+    command = [*SYNTAX, f"-std=c++{standard}", *slices(root), "all.cpp"]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[:3000]

@@ -1,0 +1,61 @@
+"""All judges of values give the same verdict, on values that fit and on values that do not."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+from hypothesis import HealthCheck, Phase, example, given, settings
+from hypothesis import strategies as st
+
+from robocomp_yaml.values import evaluate
+from robocomp_yaml.values.effective import effective
+from robocomp_yaml.values.normalize import cerberus_verdict, normalized
+from tests.parameters import Data, documents, linked, mutated, values
+from tests.verdicts import JUDGES
+
+RELAXED = settings(
+    max_examples=200, deadline=None, suppress_health_check=list(HealthCheck),
+    phases=[Phase.explicit, Phase.reuse, Phase.generate],  # a case is small as it is; shrinking one takes minutes
+)
+DEVICE = {"parameters": {"device": {"type": "string", "pattern": "a|b"}}}
+WHOLE = {"parameters": {"n": {"type": "long", "default": 1}, "f": {"type": "float", "default": 1}}}
+
+
+@st.composite
+def judged(draw: st.DrawFn) -> tuple[Data, Any]:
+    document, data = draw(documents())
+    for _ in range(draw(st.integers(0, 2))):
+        data = draw(mutated(data))
+    return document, data
+
+
+@given(judged())
+@RELAXED
+@example((DEVICE, {"device": "a\n"}))
+@example((DEVICE, {"device": "xa"}))
+@example((WHOLE, {"n": True}))
+@example((WHOLE, {"n": 2.0}))
+@example((WHOLE, {"n": 2.0**63}))
+@example((WHOLE, {"f": 2**2000}))
+@example((WHOLE, {"f": float("nan")}))
+def test_all_judges_agree(case: tuple[Data, Any]) -> None:
+    document, data = case
+    parameters = linked(document).parameters
+    if isinstance(data, dict):  # every component has its periods; a document need not give them
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of jsonschema-rs, about numbers that are larger than any limit
+            verdicts = {name: judge(parameters, data) for name, judge in JUDGES.items()}
+        assert len(set(verdicts.values())) == 1, verdicts
+
+
+@given(documents())
+@RELAXED
+def test_what_fits_is_made_complete(case: tuple[Data, Data]) -> None:
+    """Part by part or as a whole, by Cerberus or by hand: defaults are filled in alike."""
+    document, data = case
+    of = linked(document)
+    found, faults = effective(values(of, data))
+    assert found is not None, faults
+    root = of.parameters.root
+    assert found.data == normalized(of, data) == cerberus_verdict(root, data)[1] == evaluate.with_defaults(root, data)

@@ -1,0 +1,49 @@
+"""Who judges values. A judge is a function (parameters, data) -> verdict; generated accessors add theirs here."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import jsonschema
+import jsonschema_rs
+
+from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.values.json_schema import EFFECTIVE, values_schema
+from robocomp_yaml.values.judge import judge
+from robocomp_yaml.values.normalize import cerberus_verdict
+from robocomp_yaml.values.spell_yaml import flow
+from tests.parameters import tree
+
+Judge = Callable[[Parameters, Any], bool]
+
+
+def ours(parameters: Parameters, data: Any) -> bool:
+    return not list(judge(parameters.root, tree(flow(data)), (), complete=True))
+
+
+def by_cerberus(parameters: Parameters, data: Any) -> bool:
+    return cerberus_verdict(parameters.root, data)[0]
+
+
+def by_jsonschema_rs(parameters: Parameters, data: Any) -> bool:
+    return jsonschema_rs.Draft7Validator(values_schema(parameters, EFFECTIVE)).is_valid(data)
+
+
+def by_jsonschema(parameters: Parameters, data: Any) -> bool:
+    return jsonschema.Draft7Validator(values_schema(parameters, EFFECTIVE)).is_valid(_as_json(data))
+
+
+def _as_json(data: Any) -> Any:
+    """JSON has no NaN and no infinities: what reads such a document as JSON sees null."""
+    if isinstance(data, dict):
+        return {key: _as_json(value) for key, value in data.items()}
+    if isinstance(data, list):
+        return [_as_json(item) for item in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data
+
+
+JUDGES: dict[str, Judge] = {
+    "ours": ours, "Cerberus": by_cerberus, "jsonschema-rs": by_jsonschema_rs, "jsonschema": by_jsonschema,
+}
