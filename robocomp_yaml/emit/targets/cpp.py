@@ -12,7 +12,9 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.targets import cpp_qt
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.emit.targets.cpp_qt import QtView, RobocompView
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
@@ -52,13 +54,18 @@ class View:
     libraries: str
     slice_stems: str
     sources: list[str]
+    qt: QtView | None
+    robocomp: RobocompView | None
 
 
 def plan(component: LinkedComponent) -> list[FilePlan]:
     """The component's files but for `slice/` and `etc/`."""
     view = _view(component)
+    if view.robocomp:
+        return _robocomp(component, view)
     return [
         *_runtime(view.has_topics),
+        *cpp_qt.files(component),
         *(
             FilePlan(f"generated/{name}", render(f"cpp/{name}.j2", view))
             for name in ("interfaces.h", "genericworker.h", "genericworker.cpp", "main.cpp", "component.cmake")
@@ -66,6 +73,30 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
         FilePlan("src/specificworker.h", render("cpp/specificworker.h.j2", view), ONCE),
         FilePlan("src/specificworker.cpp", render("cpp/specificworker.cpp.j2", view), ONCE),
         FilePlan("CMakeLists.txt", render("cpp/CMakeLists.txt.j2", view), ONCE),
+    ]
+
+
+def _robocomp(component: LinkedComponent, view: View) -> list[FilePlan]:
+    """As plan(), where the user's code is written for RoboComp's own tool."""
+    names = {
+        "generated/interfaces.h": "interfaces.h",
+        "generated/genericworker.h": "robocomp_genericworker.h",
+        "generated/genericworker.cpp": "robocomp_genericworker.cpp",
+        "generated/main.cpp": "robocomp_main.cpp",
+        "generated/robocomp/enumerators.h": "robocomp_enumerators.h",
+        "generated/component.cmake": "component.cmake",
+        "generated/CMakeLists.txt": "robocomp_CMakeLists.txt",
+    }
+    own = {
+        "src/specificworker.h": "robocomp_specificworker.h",
+        "src/specificworker.cpp": "robocomp_specificworker.cpp",
+        "CMakeLists.txt": "CMakeLists.txt",
+    }
+    return [
+        *_runtime(view.has_topics),
+        *cpp_qt.files(component),
+        *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
+        *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE) for path, name in own.items()),
     ]
 
 
@@ -91,7 +122,8 @@ def _view(linked: LinkedComponent) -> View:
     doc = f"{component.name}: {component.doc}" if component.doc else component.name
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if has_services else "/*services*/"
-    runtime = [file.path.removeprefix("generated/") for file in _runtime(has_topics) if file.path.endswith(".cpp")]
+    copied = [*_runtime(has_topics), *cpp_qt.files(linked)]
+    runtime = [file.path.removeprefix("generated/") for file in copied if file.path.endswith(".cpp")]
     ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
@@ -114,4 +146,6 @@ def _view(linked: LinkedComponent) -> View:
         libraries=" ".join(f"Ice::{name}" for name in ice),
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
         sources=["genericworker.cpp", *runtime],
+        qt=cpp_qt.qt_view(linked),
+        robocomp=cpp_qt.robocomp_view(linked, ports),
     )

@@ -2,7 +2,9 @@
 #include "worker.h"
 
 #include "errors.h"
+#include "shutdown.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace runtime
@@ -41,14 +43,34 @@ void Worker::killYourSelf()
     }
 }
 
+void Worker::wake()
+{
+    {
+        const std::lock_guard lock(stateMutex_);
+        woken_ = true;
+    }
+    stateChanged_.notify_all();
+}
+
+void Worker::turn()
+{
+    compute();
+}
+
+void Worker::waitForEnd(Shutdown& shutdown)
+{
+    shutdown.wait();
+}
+
 void Worker::run()
 {
+    begin();
     lastTurn_ = Clock::now();
     while (waitForTurn())
     {
         try
         {
-            compute();
+            turn();
         }
         catch (const std::exception& problem)
         {
@@ -59,6 +81,7 @@ void Worker::run()
             log.error("compute() failed");
         }
     }
+    end();
 }
 
 /// A turn that came late does not move those after it; turns that were missed altogether are left out.
@@ -67,7 +90,15 @@ bool Worker::waitForTurn()
     std::unique_lock lock(stateMutex_);
     while (!stopping_ && Clock::now() < lastTurn_ + period_)
     {
-        stateChanged_.wait_until(lock, lastTurn_ + period_);
+        woken_ = false;
+        lock.unlock();
+        const auto pause = between();
+        lock.lock();
+        const auto next = lastTurn_ + period_;
+        if (!stopping_ && !woken_)
+        {
+            stateChanged_.wait_until(lock, pause ? std::min(next, Clock::now() + *pause) : next);
+        }
     }
     lastTurn_ += (Clock::now() - lastTurn_) / period_ * period_;
     return !stopping_;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace Ice
@@ -20,6 +21,8 @@ namespace runtime
 
 class Connections;
 class Services;
+class Settings;
+class Shutdown;
 
 /// The worker: what GenericWorker, and so the user's SpecificWorker, is built on.
 ///
@@ -57,8 +60,37 @@ protected:
     std::shared_ptr<Ice::Communicator> communicator;
     const Log log;
 
+    /// There is something to do before the next turn.
+    void wake();
+
+    // What else there is to do in the worker's thread: before the first turn, whenever it wakes up between two turns
+    // (and in what time it is to do so again), in a turn, after the last one.
+
+    virtual void begin()
+    {
+    }
+
+    virtual std::optional<std::chrono::steady_clock::duration> between()
+    {
+        return std::nullopt;
+    }
+
+    virtual void turn();
+
+    virtual void end()
+    {
+    }
+
 private:
     friend class Application;
+
+    // In the main thread: before the worker's thread begins, and then until the component stops.
+
+    virtual void prepare(const Settings& /*settings*/, bool /*onlyCheck*/)
+    {
+    }
+
+    virtual void waitForEnd(Shutdown& shutdown);
 
     /// Makes the proxies and offers the servants.
     virtual void connect(const Connections& connections, Services& services) = 0;
@@ -73,6 +105,7 @@ private:
     std::chrono::milliseconds period_;
     std::chrono::steady_clock::time_point lastTurn_;
     bool stopping_ = false;
+    bool woken_ = false;
     std::function<void()> requestShutdown_;
 };
 
