@@ -528,7 +528,7 @@ class SpecificWorker : public GenericWorker
 Q_OBJECT
 public:
 	SpecificWorker(TuplePrx tprx, bool startup_check);
-	bool setParams(RoboCompCommonBehavior::ParameterList params) { return true; }
+	bool setParams(RoboCompCommonBehavior::ParameterList) { return true; }
 public slots:
 	void compute();
 	void initialize(int period);

@@ -4,6 +4,9 @@ The server implements two interfaces and publishes a topic; the client requires 
 parameters.
 """
 
+# In place of PySide6, where there is none.
+NO_QT = 'raise ModuleNotFoundError("No module named \'PySide6\'", name="PySide6")\n'
+
 SERVER_2023 = '''
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication

@@ -194,6 +194,13 @@ def test_without_pyside(build: Build, start: Start, tmp_path: Path) -> None:
         assert "the window needs PySide6" in refused.output and 'pip install "PySide6-Essentials<6.11"' in refused.output
 
 
+def test_without_a_screen(window: Callable[..., tuple[Built, int]], start: Start) -> None:
+    component, _ = window("QWidget", "")
+    refused = start(component.command, env={"DISPLAY": "", "WAYLAND_DISPLAY": "", "QT_QPA_PLATFORM": ""})
+    assert refused.exit_code() == 1
+    assert "there is no screen for the window" in refused.output and refused.output.count("\n") == 1
+
+
 ROBOCOMP = """
 from PySide2.QtCore import QTimer
 from PySide2 import QtWidgets

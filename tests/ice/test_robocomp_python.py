@@ -10,10 +10,8 @@ from typing import Any
 import pytest
 from components import Build, Built
 from processes import Ports, Start, Storm, until
-from robocomp_workers import CLIENT_2025, SERVER_2020, SERVER_2023
+from robocomp_workers import CLIENT_2025, NO_QT, SERVER_2020, SERVER_2023
 from scenario import INTERFACES, cdsl
-
-NO_QT = 'raise ModuleNotFoundError("No module named \'PySide6\'", name="PySide6")\n'
 
 
 @pytest.fixture(params=["pyside6", "no-qt"])

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 import logging
+import os
 import sys
 
 from generated.runtime.errors import StartError
 
+SCREENS = ("QT_QPA_PLATFORM", "DISPLAY", "WAYLAND_DISPLAY")
 INSTALL = f"'{sys.executable} -m pip install \"PySide6-Essentials<6.11\"'"
 
 
@@ -19,5 +21,9 @@ def require(log: logging.Logger) -> None:
         raise StartError(f"the window needs PySide6, which this Python does not have: run {INSTALL}") from None
     except ImportError as error:
         raise StartError(f"the window needs PySide6, and a library that it needs is missing: {error}") from None
+    if sys.platform == "linux" and not any(map(os.environ.get, SCREENS)):  # Qt itself would abort the process
+        raise StartError(
+            "there is no screen for the window: set DISPLAY, or QT_QPA_PLATFORM=offscreen to do without"
+        )
     if sys.version_info[:2] == (3, 11) and QtCore.__version_info__ >= (6, 11):
         log.warning("PySide6 %s may abort after some hundred signals: run %s", QtCore.__version__, INSTALL)

@@ -17,6 +17,7 @@ class Stage(stage.Stage):
         from generated.qt.loop import Loop
         from PySide6.QtWidgets import QApplication
 
+        QApplication.setQuitOnLastWindowClosed(False)  # other windows may come and go
         self._application = QApplication.instance() or QApplication([self.component.name, *sys.argv[1:]])
         self._loop = Loop(self._application, self.stopping, self.log)
 

@@ -23,6 +23,7 @@ class Stage(stage.Stage):
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)
+        self.settings.stay()
         os.chdir(ROOT)  # where RoboComp starts its components: their code opens `etc/...` and `src/...`
         if self.component.base:
             from generated.qt import pyside
@@ -34,6 +35,8 @@ class Stage(stage.Stage):
         from generated.qt.loop import Loop
 
         kind = qt.QtWidgets.QApplication if self.component.base else qt.QtCore.QCoreApplication
+        if self.component.base:
+            kind.setQuitOnLastWindowClosed(False)  # what counts is the component's own window
         application = kind.instance() or kind([self.component.name, *sys.argv[1:]])
         self._loop = Loop(application, self.stopping, self.log)
         self._schedule: Schedule | None = None
