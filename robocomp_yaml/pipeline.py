@@ -6,21 +6,17 @@ goes on from the program that it gives.
 
 from __future__ import annotations
 
-import importlib
 import os
-import pkgutil
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from robocomp_yaml import check
+from robocomp_yaml.check import checks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
 from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
-
-Check = Callable[[Program], Iterator[Diagnostic]]
 
 
 @dataclass(slots=True)
@@ -38,12 +34,6 @@ class Analysis:
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
         return in_order([*self.diagnostics, *_with_lint(diagnostics, self.linker)])
-
-
-def checks() -> list[Check]:
-    """Every check, in the order of their modules' names."""
-    modules = sorted(module.name for module in pkgutil.iter_modules(check.__path__))
-    return [importlib.import_module(f"{check.__name__}.{name}").check for name in modules]
 
 
 def search_folders(given: Iterable[str]) -> tuple[str, ...]:
@@ -64,7 +54,7 @@ def analyse(
     linker = Linker(documents, Search(search_folders(extra)))
     program = linker.link(found.documents)
     said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]
-    for run in checks():
+    for run in checks(program):
         said += run(program)
     contents = documents.contents
     for workspace in linker.workspaces.values():

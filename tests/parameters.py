@@ -138,6 +138,11 @@ POINTS = st.fixed_dictionaries(
 )
 
 
+def _named(name: str) -> Data:
+    """The name in code, where it has to be another."""
+    return {} if name.isidentifier() else {"as": f"p_{name.replace('-', '_')}"}
+
+
 @st.composite
 def members(draw: st.DrawFn, depth: int = 1) -> tuple[Data, st.SearchStrategy[Data]]:
     """Parameters, and values that fit them."""
@@ -148,7 +153,7 @@ def members(draw: st.DrawFn, depth: int = 1) -> tuple[Data, st.SearchStrategy[Da
     for name in names:
         if depth and draw(st.integers(0, 5)) == 0:
             group, inner = draw(members(depth - 1))
-            made[name] = {"group": group}
+            made[name] = {"group": group, **_named(name)}
             needed[name] = inner
             continue
         type_, fitting = draw(types())
@@ -161,9 +166,7 @@ def members(draw: st.DrawFn, depth: int = 1) -> tuple[Data, st.SearchStrategy[Da
             case _:
                 type_ = {**type_, "optional": True}
                 free[name] = fitting
-        if not name.isidentifier():
-            type_ = {**type_, "as": f"p_{name.replace('-', '_')}"}
-        made[name] = type_
+        made[name] = {**type_, **_named(name)}
     return made, st.fixed_dictionaries(needed, optional=free)
 
 

@@ -14,7 +14,8 @@ from robocomp_yaml.values.json_schema import EFFECTIVE, values_schema
 from robocomp_yaml.values.judge import judge
 from robocomp_yaml.values.normalize import cerberus_verdict
 from robocomp_yaml.values.spell_yaml import flow
-from tests.parameters import tree
+import accessors
+from parameters import tree
 
 Judge = Callable[[Parameters, Any], bool]
 
@@ -35,6 +36,10 @@ def by_jsonschema(parameters: Parameters, data: Any) -> bool:
     return jsonschema.Draft7Validator(values_schema(parameters, EFFECTIVE)).is_valid(_as_json(data))
 
 
+def by_python_accessors(parameters: Parameters, data: Any) -> bool:
+    return not accessors.take(parameters, data)[1]
+
+
 def _as_json(data: Any) -> Any:
     """JSON has no NaN and no infinities: what reads such a document as JSON sees null."""
     if isinstance(data, dict):
@@ -46,4 +51,5 @@ def _as_json(data: Any) -> Any:
 
 JUDGES: dict[str, Judge] = {
     "ours": ours, "Cerberus": by_cerberus, "jsonschema-rs": by_jsonschema_rs, "jsonschema": by_jsonschema,
+    "generated Python": by_python_accessors,
 }

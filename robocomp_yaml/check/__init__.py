@@ -1,1 +1,32 @@
-"""What a schema cannot say: every module here has `check(program) -> Iterator[Diagnostic]`."""
+"""What a schema cannot say: a folder for each kind of document, every module of which may have a
+`check(program) -> Iterator[Diagnostic]`. The checks of a kind are imported only where there are documents of it."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.link.program import Program
+
+Check = Callable[[Program], Iterator[Diagnostic]]
+
+
+def checks_of(kind: str) -> list[Check]:
+    """Every check of a kind of document, in the order of their modules' names."""
+    modules = sorted(module.name for module in pkgutil.iter_modules([str(Path(__file__).parent / kind)]))
+    found = (importlib.import_module(f"{__name__}.{kind}.{name}") for name in modules)
+    return [module.check for module in found if hasattr(module, "check")]
+
+
+def checks(program: Program) -> list[Check]:
+    """The checks that a program calls for."""
+    kinds = {
+        "idsl": program.modules,
+        "cdsl": program.components,
+        "machine": any(linked.machine for linked in program.components.values()),
+        "pdsl": program.parameters or program.values,
+    }
+    return [check for kind, documents in kinds.items() if documents for check in checks_of(kind)]

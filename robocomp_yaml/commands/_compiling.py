@@ -16,6 +16,7 @@ from robocomp_yaml.emit import stamp, writer
 from robocomp_yaml.emit.build import Build, build
 from robocomp_yaml.emit.changes import Changes
 from robocomp_yaml.emit.options import Options
+from robocomp_yaml.emit.specific.review import Review, review
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import documents_below
@@ -35,6 +36,7 @@ class Run:
     targets: tuple[str, ...]
     look_only: bool = False
     adopt: bool = False
+    merge: bool = False
     _schemas: dict[str, bytes] = field(default_factory=dict)
 
     def carry_out(self, *, with_diff: bool = False) -> tuple[Outcome, stamp.Stamp | None]:
@@ -47,17 +49,18 @@ class Run:
         built = build(analysis.program, analysis.diagnostics, options)
         others = self._other_roots(analysis)
         recovered = [] if self.look_only else writer.recover(built.plans, others)
-        changes = writer.prepare(built.plans, adopt=self.adopt, others=others)
-        lasting = analysis.with_more(built.diagnostics)
+        own = review(built.plans, merge=self.merge)
+        changes = writer.prepare(built.plans, adopt=self.adopt, others=others, merges=own.merges)
+        lasting = analysis.with_more([*built.diagnostics, *own.diagnostics])
         told = [*lasting, *recovered, *changes.diagnostics]
         if not self.look_only:
             told += writer.commit(changes)
             self._refresh_schemas(analysis)
         outcome = _outcome_of(analysis, built, changes, in_order(told), with_diff=with_diff)
         outcome.planned = self.look_only
-        if self.look_only or has_errors(told):
+        if self.look_only or has_errors(told) or own.diagnostics or self.merge:
             return outcome, None
-        return outcome, self._stamp(analysis, changes, outcome.settled(lasting))
+        return outcome, self._stamp(analysis, own, changes, outcome.settled(lasting))
 
     def _other_roots(self, analysis: Analysis) -> list[str]:
         """The folders in which a document that is gone may have left something."""
@@ -79,7 +82,7 @@ class Run:
                 path = os.path.normpath(os.path.join(workspace.root, workspace_files.schema_path(kind)))
                 self._schemas[path] = Path(path).read_bytes()
 
-    def _stamp(self, analysis: Analysis, changes: Changes, again: Outcome) -> stamp.Stamp | None:
+    def _stamp(self, analysis: Analysis, own: Review, changes: Changes, again: Outcome) -> stamp.Stamp | None:
         """What the same run made again would come to; None where that depends on more than what was read (on names of
         files that an import might have meant)."""
         unresolved = any(linked.unresolved for linked in analysis.program.modules.values())
@@ -89,8 +92,8 @@ class Run:
         settled = {os.path.join(root.root, path): data for root in changes.roots for path, data in root.settled.items()}
         once = [os.path.join(root.root, path) for root in changes.roots for path in root.once]
         return stamp.take(
-            inputs=analysis.contents,
-            absent=analysis.absent | set(changes.journals),
+            inputs=analysis.contents | own.contents,
+            absent=analysis.absent | own.absent | set(changes.journals),
             folders={folder: _options.find_below(folder) for folder in analysis.found.folders},
             outputs=settled | self._schemas,
             present=once,

@@ -18,15 +18,16 @@ from robocomp_yaml.diag.span import Span
 
 SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
 
-WRITTEN = ("create", "update", "adopt", "edited")
+WRITTEN = ("create", "update", "adopt", "edited", "merge")
 CHANGED = (*WRITTEN, "remove", "refused")
 _DONE = {
     "create": "wrote", "update": "updated", "adopt": "took over", "edited": "rewrote", "remove": "removed",
-    "kept": "kept", "left": "left", "unchanged": "unchanged",
+    "merge": "merged", "kept": "kept", "left": "left", "unchanged": "unchanged",
 }  # fmt: skip
 _WOULD = {
     "create": "would write", "update": "would update", "adopt": "would take over", "edited": "would rewrite",
-    "remove": "would remove", "kept": "would keep", "left": "would leave", "unchanged": "unchanged",
+    "remove": "would remove", "merge": "would merge", "kept": "would keep", "left": "would leave",
+    "unchanged": "unchanged",
 }  # fmt: skip
 
 

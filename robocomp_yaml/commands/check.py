@@ -17,11 +17,14 @@ def command(ctx: click.Context, paths: tuple[str, ...], include: tuple[str, ...]
 
     A folder means all documents below it. Documents that they import are looked at too.
     """
-    from robocomp_yaml.emit import ports
     from robocomp_yaml.pipeline import analyse
 
     paths = paths or (".",)
     with _options.progress("reading", paths) as on_read:
         analysis = analyse(paths, include, on_read)
-    told = analysis.with_more(ports.clashes(analysis.program.components.values()))
+    told = analysis.diagnostics
+    if analysis.program.components:
+        from robocomp_yaml.emit import ports
+
+        told = analysis.with_more(ports.clashes(analysis.program.components.values()))
     _options.report(ctx, format_, told, analysis.program.documents)

@@ -18,17 +18,19 @@ from robocomp_yaml.commands import _options
 @click.option("--diff", is_flag=True, help="Show what would change in each file, and write nothing.")
 @click.option("--check", is_flag=True, help="Write nothing; exit with 1 if anything would change (for CI).")
 @click.option("--adopt", is_flag=True, help="Take over files that rcyaml did not write; keep them as .orig.")
+@click.option("--merge", is_flag=True, help="Bring your files in src/ up to date, by a three-way merge.")
 @_options.include
 @_options.format_
 @click.pass_context
 def command(
     ctx: click.Context, paths: tuple[str, ...], output: str | None, targets: tuple[str, ...], dry_run: bool,
-    diff: bool, check: bool, adopt: bool, include: tuple[str, ...], format_: str,
+    diff: bool, check: bool, adopt: bool, merge: bool, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Compile the documents at PATHS (by default, below this folder).
 
     An interface becomes Slice, in the workspace's slice folder. A component becomes a runnable program in its own
-    folder: generated/ is always rewritten, src/ is yours and written only once.
+    folder: generated/ is always rewritten, src/ is yours and written only once. What your class lacks after an
+    interface changed is named, with the text to paste; --merge puts it in.
     """
     from robocomp_yaml.commands import _outcome
     from robocomp_yaml.emit import stamp
@@ -38,14 +40,14 @@ def command(
     # A run that was made already, of which nothing changed since, is not made again: only told of.
     name = stamp.key([*paths, "-o", output or "", "-I", *include, "-t", *targets])
     folder = output or (paths[0] if os.path.isdir(paths[0]) else os.path.dirname(paths[0])) or "."
-    made = None if diff or ctx.obj.verbosity > 0 else stamp.load(folder, name)
+    made = None if diff or merge or ctx.obj.verbosity > 0 else stamp.load(folder, name)
     if made is not None and stamp.is_current(made, _options.find_below):
         outcome = _outcome.Outcome.of_data(made.replay)
         outcome.planned = look_only
     else:
         from robocomp_yaml.commands import _compiling
 
-        run = _compiling.Run(paths, include, output, targets, look_only=look_only, adopt=adopt)
+        run = _compiling.Run(paths, include, output, targets, look_only=look_only, adopt=adopt, merge=merge)
         outcome, made = run.carry_out(with_diff=diff)
         if made is not None:
             stamp.save(folder, name, made)

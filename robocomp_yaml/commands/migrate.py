@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import click
@@ -44,16 +46,18 @@ def command(
     from robocomp_yaml.legacy.migration import migrate
     from robocomp_yaml.pipeline import search_folders
 
+    if report is not None:
+        _refuse_to_overwrite(report)
     run = migrate(paths, output, search_folders(include), force=force, progress=_progress)
     shown = run.changes() if show_diff else run.forced()
     for path, change in list(shown):
-        click.echo(change.diff(path), nl=False, err=format_ != "text")
+        click.echo(change.diff(path), nl=False, err=format_ != "text" or report == "-")
     if not dry_run:
         run.write()
     lost = sum(entry.lines()["lost"] for entry in run.entries)
+    _print(ctx, run, format_, dry_run, err=report == "-")
     if report is not None:
         _save(report, as_json(run.entries))
-    _print(ctx, run, format_, dry_run)
     if strict and lost:
         click.echo(f"{lost} line{'s are' if lost > 1 else ' is'} lost, and --strict does not allow that", err=True)
     ctx.exit(1 if run.failed or (strict and lost) else 0)
@@ -67,6 +71,19 @@ def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:
         yield from bar
 
 
+def _refuse_to_overwrite(path: str) -> None:
+    """A report replaces an earlier report, and nothing else that stands there."""
+    if not os.path.isfile(path):
+        return
+    try:
+        with open(path, "rb") as file:
+            words = file.read(40).split()
+    except OSError as error:
+        raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
+    if words and words[:2] != [b"{", b'"files":']:
+        raise click.UsageError(f"--report does not overwrite {path}, which is no report of an earlier run")
+
+
 def _save(path: str, text: str) -> None:
     try:
         with click.open_file(path, "w", encoding="utf-8", errors="backslashreplace") as file:
@@ -75,25 +92,27 @@ def _save(path: str, text: str) -> None:
         raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
 
 
-def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool) -> None:
-    """Diagnostics, each document if asked for, and the summary by format."""
+def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, err: bool) -> None:
+    """Diagnostics, each document if asked for, and the summary by format: on standard output, or where the report
+    goes there, on standard error."""
     from robocomp_yaml.diag.render import render
 
+    say = partial(click.echo, err=err)
     told = run.diagnostics
     documents = sum(len(entry.outputs) for entry in run.entries)
     if format_ != "text" or told:
-        colored = format_ == "text" and _options.colored(ctx)
-        click.echo(render(format_, told, documents, colored), nl=False, color=ctx.color)
+        colored = format_ == "text" and _options.colored(ctx, sys.stderr if err else None)
+        say(render(format_, told, documents, colored), nl=False, color=ctx.color)
     if format_ != "text" or ctx.obj.verbosity < 0:
         return
     if ctx.obj.verbosity > 0:
         for root in run.roots.values():
             for output in root.outputs:
-                click.echo(f"{output.state:9} {root.root.shown(output.path)}")
+                say(f"{output.state:9} {root.root.shown(output.path)}")
     if run.entries:
-        click.echo(_table(run))
+        say(_table(run))
     if dry_run:
-        click.echo("nothing was written (--dry-run)")
+        say("nothing was written (--dry-run)")
 
 
 def _table(run: Migration) -> str:

@@ -11,17 +11,17 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.atomic import Step
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE
 
-CREATE, UPDATE, ADOPT, EDITED = "create", "update", "adopt", "edited"
+CREATE, UPDATE, ADOPT, EDITED, MERGE = "create", "update", "adopt", "edited", "merge"
 REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", "refused"
 """What happens to a file.
 
 EDITED: someone changed a generated file; their version is kept under `orig`, ours is written (or, where it is no longer
-generated, nothing is). ADOPT: it was there before rcyaml, and is kept under `orig` likewise. KEPT: it is the user's,
-and stays. LEFT: it is the user's, and no document asks for it any more. REFUSED: it stays as it is, as a
-diagnostic says.
+generated, nothing is). MERGE: it is the user's, with what a new skeleton brings. ADOPT: it was there before rcyaml, and
+is kept under `orig` likewise. KEPT: it is the user's, and stays. LEFT: it is the user's, and no document asks for it
+any more. REFUSED: it stays as it is, as a diagnostic says.
 """
 
-WRITING = (CREATE, UPDATE, ADOPT, EDITED, REMOVE)
+WRITING = (CREATE, UPDATE, ADOPT, EDITED, MERGE, REMOVE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,13 +10,15 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 from dataclasses import asdict, dataclass
 
-from robocomp_yaml.emit.places import STATE, contents
+from robocomp_yaml.emit.places import STATE, Root, contents
 from robocomp_yaml.source.digest import digest
 
 JOURNAL = f"{STATE}/journal.json"
 JOURNAL_DONE = f"{STATE}/journal.done"
+_STAGED = re.compile(r"\.rcyaml-[0-9]+-[0-9]+\.(new|old)")
 PART = "~"
 """Ends the name of a copy that is not complete yet."""
 
@@ -52,14 +54,30 @@ def load(root: str) -> tuple[Journal | None, bool]:
     for name, done in ((JOURNAL, False), (JOURNAL_DONE, True)):
         try:
             raw = json.loads(contents(os.path.join(root, name)))
-            marks = tuple(Mark(**mark) for mark in raw["marks"])
-            return Journal(marks, tuple(raw["folders"])), done
+            journal = Journal(tuple(Mark(**mark) for mark in raw["marks"]), tuple(raw["folders"]))
         except FileNotFoundError:
             continue
-        except (OSError, ValueError, TypeError, KeyError):
+        except (OSError, ValueError, TypeError, KeyError, RecursionError):
             # Cut short: the process died while it wrote the journal, before it touched anything else.
-            return Journal(()), done
+            journal = Journal(())
+        return journal if _is_sound(journal, Root(root)) else Journal(()), done
     return None, False
+
+
+def _is_sound(journal: Journal, root: Root) -> bool:
+    """Whether a commit can have written this. One that came with somebody's repository shall move and remove no file
+    that is not ours."""
+    for mark in journal.marks:
+        names = (mark.path, mark.new, mark.old, mark.orig)
+        if not all(isinstance(name, str) for name in (*names, mark.hash)) or not mark.path:
+            return False
+        if not all(not name or _STAGED.fullmatch(os.path.basename(name)) for name in (mark.new, mark.old)):
+            return False
+        if mark.orig and not mark.orig.startswith(f"{mark.path}.orig"):
+            return False
+        if any(name and root.look(name, read=False).outside for name in names):
+            return False
+    return all(isinstance(name, str) and not root.look(name, read=False).outside for name in journal.folders)
 
 
 def put_back(root: str, journal: Journal) -> None:

@@ -20,6 +20,23 @@ class FilePlan:
     executable: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class Merge:
+    """What becomes of a file of the user: `before` is what it held, and `base` what a later merge starts from."""
+
+    before: bytes
+    text: bytes
+    base: bytes
+
+
+@dataclass(slots=True)
+class Merges:
+    """Merges by real root and path; in a `refused` root nothing may be written."""
+
+    files: dict[tuple[str, str], Merge] = field(default_factory=dict)
+    refused: set[str] = field(default_factory=set)
+
+
 @dataclass(slots=True)
 class RootPlan:
     """All that one owner (the path of a document relative to `root`, with '/') puts below the folder `root`.

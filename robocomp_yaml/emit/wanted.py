@@ -54,9 +54,20 @@ class WantedRoot:
     def _exists(self, owner: str) -> bool:
         # A root that is a link has two parents: its own and that of the link.
         return any(
-            os.path.lexists(os.path.normpath(os.path.join(root, owner)))
+            not _is_gone(os.path.normpath(os.path.join(root, owner)))
             for root in (os.path.abspath(self.root.path), self.root.real)
         )
+
+
+def _is_gone(path: str) -> bool:
+    """A folder that nobody may look into is no sign that a document in it is gone."""
+    try:
+        os.lstat(path)
+    except (FileNotFoundError, NotADirectoryError):
+        return True
+    except OSError:
+        return False
+    return False
 
 
 def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[WantedRoot]:

@@ -9,25 +9,28 @@ from dataclasses import replace
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit import atomic, changes, manifest, properties
+from robocomp_yaml.emit import atomic, changes, manifest
 from robocomp_yaml.emit.changes import Change, Changes, RootChanges
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, free_name
 from robocomp_yaml.emit.manifest import Entry, Manifest
 from robocomp_yaml.emit.places import Found
-from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan, RootPlan
+from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan
 from robocomp_yaml.emit.wanted import WantedRoot, by_root
+from robocomp_yaml.source import properties
 from robocomp_yaml.source.digest import digest
 
 
-def prepare(plans: Iterable[RootPlan], *, adopt: bool = False, others: Iterable[str] = ()) -> Changes:
+def prepare(
+    plans: Iterable[RootPlan], *, adopt: bool = False, others: Iterable[str] = (), merges: Merges | None = None
+) -> Changes:
     """What it takes to carry out the plans. Only looks at the disk.
 
     `adopt` also takes over files that rcyaml did not write. `others` are roots with a manifest for which nothing is
-    planned: what they hold for documents that are gone is removed.
+    planned: what they hold for documents that are gone is removed. `merges` are those of the user's own files.
     """
     result = Changes()
     for wanted in by_root(plans, others):
-        root = _Root(wanted, adopt)
+        root = _Root(wanted, adopt, merges or Merges())
         root.prepare()
         result.roots.append(root.result)
         result.diagnostics += root.diagnostics
@@ -76,10 +79,11 @@ def _cannot_write(wanted: WantedRoot, path: str, reason: str) -> Diagnostic:
 class _Root:
     """The look at one root: each planned or known file meets what stands at its path."""
 
-    def __init__(self, wanted: WantedRoot, adopt: bool) -> None:
+    def __init__(self, wanted: WantedRoot, adopt: bool, merges: Merges) -> None:
         self.wanted = wanted
         self.root = wanted.root
         self.adopt = adopt
+        self.merges = merges
         self.old = Manifest()
         self.new = Manifest()
         self.diagnostics = list(wanted.diagnostics())
@@ -100,7 +104,7 @@ class _Root:
             else:
                 self._always(wanted.plan, entry)
         self._manifest(manifest_found)
-        if any(diagnostic.severity == "error" for diagnostic in self.diagnostics):
+        if any(diagnostic.severity == "error" for diagnostic in self.diagnostics) or self._cannot_merge():
             self.result.refuse()
 
     def _usable(self, found: Found) -> bool:
@@ -122,10 +126,13 @@ class _Root:
         return True
 
     def _once(self, plan: FilePlan, entry: Entry | None) -> None:
-        found = self.root.look(plan.path, read=entry is None)
+        merge = self.merges.files.get((self.root.real, plan.path))
+        found = self.root.look(plan.path, read=entry is None or merge is not None)
         text = plan.text.encode()
         self.result.once.append(plan.path)
-        if found.exists:
+        if merge and found.data == merge.before:
+            self._merge(plan, found, merge)
+        elif found.exists:
             self._note(plan.path, changes.KEPT)
             if entry:
                 self._own(plan.path, entry.hash, once=True)
@@ -139,6 +146,17 @@ class _Root:
             self._write(plan, Found(), changes.CREATE)
             self._own(plan.path, digest(text), once=True)
             self._keep_base(plan.path, text)
+
+    def _merge(self, plan: FilePlan, found: Found, merge: Merge) -> None:
+        if merge.text == found.data:
+            self._note(plan.path, changes.KEPT)
+        else:
+            self._write(plan, found, changes.MERGE, merge.text)
+        self._own(plan.path, digest(merge.base), once=True)
+        self._keep_base(plan.path, merge.base)
+
+    def _cannot_merge(self) -> bool:
+        return self.root.real in self.merges.refused
 
     def _always(self, plan: FilePlan, entry: Entry | None) -> None:
         found = self.root.look(plan.path)
@@ -192,8 +210,9 @@ class _Root:
             self.result.steps.append(atomic.Step(path, found.data, None, orig=orig))
             self._warn_edited(path, f"it is no longer generated, and kept as '{os.path.basename(orig)}'")
 
-    def _write(self, plan: FilePlan, found: Found, action: str) -> Change:
-        text = plan.text.encode()
+    def _write(self, plan: FilePlan, found: Found, action: str, text: bytes | None = None) -> Change:
+        """Writes the plan's text, or another one."""
+        text = plan.text.encode() if text is None else text
         orig = ""
         if action in (changes.EDITED, changes.ADOPT):
             orig = free_name(f"{self.root.real}/{plan.path}")[len(self.root.real) + 1 :]

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import bisect
-import os
-import stat
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import files as file_codes
@@ -56,12 +54,6 @@ class Source:
 
 def read(path: str) -> tuple[Source | None, list[Diagnostic]]:
     """The text of a legacy file, with a warning where it is not UTF-8; or why there is none."""
-    try:
-        mode = os.stat(path).st_mode
-    except OSError as error:
-        return None, [file_codes.UNREADABLE.at(Span(path), reason=(error.strerror or str(error)).lower())]
-    if not stat.S_ISREG(mode):  # to open a pipe would be to wait for its other end
-        return None, [file_codes.UNREADABLE.at(Span(path), reason="it is no regular file")]
     raw, diagnostics = read_bytes(path, MAX_SOURCE)
     if raw is None:
         return None, diagnostics

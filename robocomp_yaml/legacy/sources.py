@@ -10,7 +10,8 @@ from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.places import in_words
+from robocomp_yaml.emit import manifest
+from robocomp_yaml.emit.places import contents, in_words
 from robocomp_yaml.legacy.formats import by_name
 from robocomp_yaml.legacy.rules import Rules, formats
 from robocomp_yaml.link.workspace import root_above
@@ -83,22 +84,34 @@ def _suffixes() -> set[str]:
 
 
 def _below(folder: str, said: list[Diagnostic]) -> Iterator[str]:
-    """Links to folders are followed, but no folder is entered twice."""
+    """Links to folders are followed, but no folder is entered twice. What `compile` wrote is no source."""
 
     def closed(error: OSError) -> None:
         said.append(file_codes.UNREADABLE.at(Span(str(error.filename)), reason=in_words(error)))
 
     entered: set[tuple[int, int]] = set()
+    compiled: set[str] = set()
     for where, folders, names in os.walk(folder, followlinks=True, onerror=closed):
         status = os.stat(where)
         if (status.st_dev, status.st_ino) in entered:
             folders.clear()
             continue
         entered.add((status.st_dev, status.st_ino))
+        compiled |= _compiled(where)
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(names):
-            if not name.startswith(".") and by_name(name) is not None:
-                yield os.path.normpath(os.path.join(where, name))
+            path = os.path.normpath(os.path.join(where, name))
+            if not name.startswith(".") and by_name(name) is not None and path not in compiled:
+                yield path
+
+
+def _compiled(folder: str) -> set[str]:
+    """The files that `compile` wrote into an output root."""
+    try:
+        files = manifest.read(contents(os.path.join(folder, manifest.PATH))).files
+    except (OSError, manifest.Unusable):
+        return set()
+    return {os.path.normpath(os.path.join(folder, path)) for path, entry in files.items() if not entry.once}
 
 
 def _preferences(files: Iterable[LegacyFile]) -> Iterator[LegacyFile]:
@@ -127,11 +140,11 @@ def names(
     for file, rules in sorted(files, key=lambda item: (item[1].rank, item[0].path)):
         base = os.path.basename(file.path)
         stem, suffix = os.path.splitext(base)
-        short = file.document(f"{stem if suffix.lower() in rules.suffixes else base}.{rules.kind}.yaml")
-        own = short if short not in taken else file.document(f"{base}.{rules.kind}.yaml")
+        short = file.document(f"{stem if suffix.lower() in rules.suffixes else base}{rules.document}")
+        own = short if short not in taken else file.document(f"{base}{rules.document}")
         number = 2
         while own in taken:
-            own = file.document(f"{base}.{number}.{rules.kind}.yaml")
+            own = file.document(f"{base}.{number}{rules.document}")
             number += 1
         if own != short:
             said.append(codes.MEETING.at(Span(file.path), other=taken[short], path=short, own=own))

@@ -2,28 +2,42 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cache
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.model import build_component, build_interface, build_parameters
-from robocomp_yaml.model.component import Component
-from robocomp_yaml.model.interface import Module
-from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
+from robocomp_yaml.model import build_interface
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.text import decode, read_bytes
 from robocomp_yaml.source.tree import Mapping, Node, parse
 
-Model = Module | Component | ParameterDocument | ValuesDocument
-BUILDERS: dict[str, Callable[[Mapping, str], Model]] = {
-    "idsl": build_interface.build,
-    "cdsl": build_component.build,
-    "pdsl": build_parameters.build,
-    "config": build_parameters.build_values,
+if TYPE_CHECKING:
+    from robocomp_yaml.model.component import Component
+    from robocomp_yaml.model.interface import Module
+    from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
+
+    Model = Module | Component | ParameterDocument | ValuesDocument
+
+_BUILDERS = {
+    "idsl": "build_interface.build",
+    "cdsl": "build_component.build",
+    "pdsl": "build_parameters.build",
+    "config": "build_parameters.build_values",
 }
+
+
+@cache
+def builder(kind: str) -> Callable[[Mapping, str], Model]:
+    """What makes the model of a document that has the shape of its kind."""
+    module, _, function = _BUILDERS[kind].partition(".")
+    build: Callable[[Mapping, str], Model] = getattr(importlib.import_module(f"robocomp_yaml.model.{module}"), function)
+    return build
 
 
 @dataclass(slots=True)
@@ -78,7 +92,7 @@ class Documents:
         yield from (diagnostics := self._fits(document, tree))
         if not has_errors(diagnostics):
             assert isinstance(tree, Mapping)
-            document.model = BUILDERS[document.kind](tree, document.path)
+            document.model = builder(document.kind)(tree, document.path)
         if isinstance(tree, Mapping):
             document.module = build_interface.text(tree, "module")
 

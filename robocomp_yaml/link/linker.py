@@ -7,18 +7,20 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import suggest
-from robocomp_yaml.link.attachments import Attachments
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.ports import link_ports
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule, LinkedValues, Program
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Import, Module
-from robocomp_yaml.model.pdsl import ValuesDocument
+
+if TYPE_CHECKING:
+    from robocomp_yaml.link.attachments import Attachments
 
 
 @dataclass(slots=True)
@@ -38,7 +40,7 @@ class Linker:
         todo = [self.documents.get(path) for path in paths]
         self.program.asked = {document.real for document in todo}
         components: list[tuple[Document, LinkedComponent]] = []
-        attachments = Attachments(self.documents, self.program, self.search.absent, self.diagnostics)
+        attachments: Attachments | None = None
         seen: set[str] = set()
         while todo:
             document = todo.pop()
@@ -48,21 +50,28 @@ class Linker:
             if isinstance(document.model, Module):
                 linked = self.program.modules[document.real] = LinkedModule(document.model)
                 todo += self._imports(document, document.model.imports, linked.unresolved, idsl)
-            elif isinstance(document.model, Component):
+                continue
+            if isinstance(document.model, Component):
                 component = self.program.components[document.real] = LinkedComponent(document.model)
                 components.append((document, component))
                 unresolved: set[str] = set()
                 todo += self._imports(document, document.model.imports, unresolved, cdsl)
                 component.broken = bool(unresolved)
-            elif isinstance(document.model, ValuesDocument):
-                self.program.values[document.real] = LinkedValues(document.model)
+            attachments = attachments or self._attachments()
             todo += attachments.follow(document)
         self._join()
-        attachments.join()
+        if attachments is not None:
+            attachments.join()
         for document, component in sorted(components, key=lambda pair: pair[0].path):
             self.diagnostics += link_ports(component, self._suggest_import(document))
+            self._read_machine(component)
         self.program.documents = len(self.documents.read)
         return self.program
+
+    def _attachments(self) -> Attachments:
+        from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
+
+        return Attachments(self.documents, self.program, self.search.absent, self.diagnostics)
 
     def workspace_of(self, path: str) -> Workspace:
         """The workspace that a document belongs to; without a declared one, its own folder."""
@@ -78,6 +87,19 @@ class Linker:
                     self.diagnostics += diagnostics
                 self._by_folder[folder] = self.workspaces[real]
         return self._by_folder[folder]
+
+    def _read_machine(self, linked: LinkedComponent) -> None:
+        if linked.component.machine is not None or not linked.component.statemachine:
+            linked.machine = linked.component.machine
+            return
+        from robocomp_yaml.link.machines import MachineReader  # with XML, which few need
+
+        reader = MachineReader(self.documents.overlay, absent=self.search.absent)
+        linked.machine = reader.of(linked.component)
+        linked.machine_files = tuple(reader.contents)
+        linked.broken |= linked.machine is None
+        self.documents.contents.update(reader.contents)
+        self.diagnostics += reader.diagnostics
 
     def _imports(
         self, document: Document, imports: tuple[Import, ...], unresolved: set[str], codes: ModuleType

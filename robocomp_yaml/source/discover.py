@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import files as codes
@@ -64,8 +64,15 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
     for path in paths:
         if os.path.isdir(path):
             found.folders.append(path)
-            below = list(documents_below(path, found.roots))
-            if not below:
+            closed: list[OSError] = []
+            below = list(documents_below(path, found.roots, closed.append))
+            found.diagnostics += [
+                codes.UNREADABLE.at(
+                    Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower()
+                )
+                for error in closed
+            ]
+            if not below and not closed:
                 found.diagnostics.append(codes.NOTHING_FOUND.at(
                     Span(path), hint="`rcyaml new interface NAME` writes a first one, `rcyaml migrate` carries over "
                     "what you have",
@@ -86,10 +93,12 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
     return found
 
 
-def documents_below(folder: str, roots: list[str] | None = None) -> Iterator[str]:
+def documents_below(
+    folder: str, roots: list[str] | None = None, on_error: Callable[[OSError], None] | None = None
+) -> Iterator[str]:
     """Every document below a folder, sorted within each folder; a link to a folder is not followed. The folders that
-    have a manifest are added to `roots`."""
-    for where, folders, names in os.walk(folder):
+    have a manifest are added to `roots`, and `on_error` is told of those that cannot be read."""
+    for where, folders, names in os.walk(folder, onerror=on_error):
         if roots is not None and ".rcyaml" in folders and os.path.isfile(os.path.join(where, MANIFEST)):
             roots.append(os.path.normpath(where))
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))

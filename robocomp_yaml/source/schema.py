@@ -74,13 +74,14 @@ def _explain(
     facts = kind.as_dict()
     match kind.name:
         case "additionalProperties":
-            assert isinstance(node, Mapping)
             for unknown in facts["unexpected"]:
-                yield _unknown_key(whole, node, place, path, unknown)
+                around, found = _behind_empty(node, unknown)
+                if found is not None and isinstance(around, Mapping):
+                    yield _unknown_key(whole, around, place, path, found)
         case "propertyNames":
-            assert isinstance(node, Mapping)
             name = facts["error"].instance
-            entry = node.entries.get(name)
+            around, _ = _behind_empty(node, name)
+            entry = around.entries.get(name) if isinstance(around, Mapping) else None
             is_name = "A-Za-z_" in str(_subschema(whole, path))
             hint = _name_hint(name) if is_name else _own_message(whole, path)
             yield codes.WRONG_NAME.at((entry[0] if entry else node).span, name=name, hint=hint)
@@ -120,22 +121,34 @@ def _unknown_key(
 
 
 def _find(root: Node, place: Path[str | int]) -> tuple[Node, Scalar | None]:
-    """The node at a place, and the key that it stands behind."""
+    """The node at a place, and the key that it stands behind; what is nearest where the place is not exact."""
     node, key = root, None
     for step in place:
-        if isinstance(node, Mapping):
-            key, node = node.entries[_spelled(node, step)]
-        else:
-            assert isinstance(node, Sequence)
-            key, node = None, node.items[int(step)]
+        if isinstance(node, Sequence) and isinstance(step, int) and step < len(node.items):
+            key, node = None, node.items[step]
+            continue
+        node, name = _behind_empty(node, step)
+        if name is None:
+            break
+        assert isinstance(node, Mapping)
+        key, node = node.entries[name]
     return node, key
 
 
-def _spelled(node: Mapping, step: str | int) -> str:
-    """A key as the document spells it: the validator gives one of digits as a number, `+1` and `01` alike."""
-    if isinstance(step, str) or str(step) in node.entries:
-        return str(step)
-    return next(key for key in node.entries if key.lstrip("+").isdecimal() and int(key) == step)
+def _behind_empty(node: Node, step: str | int) -> tuple[Node, str | None]:
+    """The mapping that has a key, behind empty keys (the validator leaves those out of its places), and the key as
+    spelled (the validator gives one of digits as a number, `+1` and `01` alike)."""
+    while isinstance(node, Mapping):
+        if str(step) in node.entries:
+            return node, str(step)
+        if isinstance(step, int):
+            for key in node.entries:
+                if key.lstrip("+").isdecimal() and int(key) == step:
+                    return node, key
+        if "" not in node.entries:
+            break
+        node = node.entries[""][1]
+    return node, None
 
 
 def _subschema(whole: dict[str, Any], path: list[str | int]) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import stat
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -47,14 +48,20 @@ def decode(path: str, raw: bytes) -> tuple[str | None, list[Diagnostic]]:
 
 
 def read_bytes(path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list[Diagnostic]]:
-    """The bytes of a file no larger than `limit`."""
+    """The bytes of a file no larger than `limit`. Pipes and devices are not read: they may have no end, or never
+    begin."""
     try:
+        mode = os.stat(path).st_mode
+        if not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
+            return None, [codes.UNREADABLE.at(Span(path), reason="it is no regular file")]
         with open(path, "rb") as file:
-            size = os.fstat(file.fileno()).st_size
+            status = os.fstat(file.fileno())
+            raw = file.read(limit + 1) if status.st_size <= limit else b""
+            size = max(status.st_size, len(raw))
             if size > limit:
                 return None, [codes.TOO_LARGE.at(
                     Span(path), what="the file", size=size_in_words(size), limit=size_in_words(limit)
                 )]
-            return file.read(), []
+            return raw, []
     except OSError as error:
         return None, [codes.UNREADABLE.at(Span(path), reason=(error.strerror or str(error)).lower())]

@@ -211,7 +211,7 @@ class _Builder:
         """A key is the text as spelled: `2d`, `on` and `1` are keys like any other."""
         if node.ctag is not syntax.UNTAGGED:
             self._explicit_tag(node)
-        if not node.value:
+        if not node.value and not node.style:
             self._say(codes.KEY_TYPE, node, what="empty", hint="write a name before the colon")
         if not node.style and mapping.flow_style and ":" in node.value:
             missing_value = value.data is None and isinstance(value, Scalar) and not value.lexeme

@@ -57,6 +57,13 @@ def values_schema(parameters: Parameters, mode: str) -> Schema:
     return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": maker.definitions}
 
 
+def complete_schema(type_: Type) -> Schema:
+    """The schema of one complete value."""
+    maker = _Maker(COMPLETE)
+    made = maker.type(type_)
+    return {**made, "definitions": maker.definitions}
+
+
 def document_schema(parameters: Parameters, component: LinkedComponent | None, mode: str) -> Schema:
     """The self-contained schema of a component's whole values document."""
     made = copy.deepcopy(schema_of_kind("config"))
@@ -97,64 +104,55 @@ class _Maker:
     def with_words(self) -> bool:
         return self.mode != COMPLETE
 
-    def type(self, type_: Type, unit: str = "", *, nullable: bool = False) -> Schema:
+    def type(self, type_: Type, *, nullable: bool = False) -> Schema:
         match type_:
             case BasicType() | EnumType():
                 return self.scalar(type_, nullable)
             case ListType(element=element, size=size, unique=unique):
-                made: Schema = {"type": _types("array", nullable), "items": self.type(element)}
-                made |= _size(size, "Items")
+                then: Schema = {"items": self.type(element), **self.size(size, "Items")}
                 if unique:
-                    made["uniqueItems"] = True
-                return self.said(made, f"a list of {self.count(size)}entries" if size != Size() else "a list")
+                    then["uniqueItems"] = True
+                return self.shape("array", then, nullable, type_)
             case MapType(element=element, size=size):
                 nullable_entries = self.mode == DOCUMENT
-                made = {"type": _types("object", nullable)}
-                made["additionalProperties"] = self.type(element, nullable=nullable_entries)
+                then = {"additionalProperties": self.type(element, nullable=nullable_entries)}
                 if not nullable_entries:  # layers are merged before entries are counted
-                    made |= _size(size, "Properties")
-                return self.said(made, "a mapping of names to values")
+                    then |= self.size(size, "Properties")
+                return self.shape("object", then, nullable, type_)
             case RecordType(name=""):
                 return self.record(type_, nullable=nullable)
             case _:
                 name = f"Type.{type_.name}"
                 if name not in self.definitions:
                     self.definitions[name] = {}  # for a second mention while it is made
-                    self.definitions[name] = self.record(type_)
-                made = {"type": _types("object", nullable)}
-                made["allOf"] = [{"if": {"type": "object"}, "then": {"$ref": f"#/definitions/{name}"}}]
-                return self.said(made, kind_in_words(type_))
+                    self.definitions[name] = self.members(type_)
+                return self.shape("object", {"$ref": f"#/definitions/{name}"}, nullable, type_)
 
-    def said(self, made: Schema, wanted: str) -> Schema:
+    def size(self, size: Size, of: str) -> Schema:
+        made: Schema = {f"min{of}": size.least} if size.least else {}
+        made |= {f"max{of}": size.most} if size.most is not None else {}
+        if not made or not self.with_words:
+            return made
+        return {"allOf": [{**made, "errorMessage": f"there must be {size.in_words} entries"}]}
+
+    def shape(self, kind: str, then: Schema, nullable: bool, type_: Type) -> Schema:
+        """A list or mapping: what holds for it, and one message for everything else."""
+        otherwise: Schema = {"type": _types(kind, nullable)}
         if self.with_words:
-            made["errorMessage"] = f"this is {wanted}"
-        return made
-
-    def count(self, size: Size) -> str:
-        return f"{size.in_words} "
+            otherwise["errorMessage"] = f"this is {in_words(type_)}"
+        return {"if": {"type": kind}, "then": then, "else": otherwise}
 
     def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
-        kind = {"bool": "boolean", "string": "string"}.get(type_.name) if isinstance(type_, BasicType) else "string"
-        if isinstance(type_, BasicType) and kind is None:
-            kind = "integer" if type_.is_integer else "number"
-        assert kind is not None
         limits = self.limits(type_)
-        made: Schema = {"type": [kind, "object", *(["null"] if nullable else [])]}
-        wanted = f"this is {in_words(type_)}"
-        shapes: list[Schema] = [{"if": {"type": "object"}, "then": {"$ref": "#/definitions/env"}}]
         if "enum" in limits:
-            then = {"enum": limits["enum"]}
-            if self.with_words:
-                then["errorMessage"] = wanted
-                made["anyOf"] = [{"enum": limits["enum"]}, _REFERENCE_CHOICE, {}]
-            shapes.append({"if": {"type": ["string", "number"]}, "then": then})
+            otherwise: Schema = {"enum": [*limits["enum"], *([None] if nullable else [])]}
         else:
-            made |= limits
-            if self.with_words:
-                made["anyOf"] = [{"type": kind}, _REFERENCE_CHOICE, {}]
-        made["allOf"] = shapes
+            otherwise = {"type": _types(_json_type(type_), nullable), **limits}
+        made: Schema = {"if": {"type": "object"}, "then": {"$ref": "#/definitions/env"}, "else": otherwise}
         if self.with_words:
-            made["errorMessage"] = wanted
+            otherwise["errorMessage"] = f"this is {in_words(type_)}"
+            made["anyOf"] = [{"enum": limits["enum"]} if "enum" in limits else {"type": _json_type(type_)},
+                             _REFERENCE_CHOICE, {}]
         return made
 
     def limits(self, type_: ScalarType) -> Schema:
@@ -177,22 +175,27 @@ class _Maker:
         return made
 
     def record(self, type_: RecordType, *, nullable: bool = False) -> Schema:
-        made: Schema = {"type": _types("object", nullable)}
-        made["properties"] = {member.name: self.member(member) for member in type_.members}
+        return self.shape("object", self.members(type_), nullable, type_)
+
+    def members(self, type_: RecordType) -> Schema:
+        """What holds for a record that is a mapping."""
+        made: Schema = {"properties": {member.name: self.member(member) for member in type_.members}}
         made["additionalProperties"] = False
-        if self.mode == EFFECTIVE:
-            needed = [member.name for member in type_.members if member.required]
-        else:
-            needed = [m.name for m in type_.members if not m.optional] if self.mode == COMPLETE else []
-        if needed:
+        needed = [member.name for member in type_.members if member.required] if self.mode == EFFECTIVE else []
+        if self.mode == COMPLETE:
+            needed = [member.name for member in type_.members if not member.optional]
+        if needed and not self.with_words:
             made["required"] = needed
+        elif needed:
+            made["allOf"] = [{"required": [name], "errorMessage": f"the key '{name}' is missing"} for name in needed]
         if self.with_words:
             if type_.name:
                 made["title"] = type_.name
             if type_.doc:
                 made["description"] = made["markdownDescription"] = type_.doc
             made["defaultSnippets"] = [{
-                "label": type_.name or "all of it", "description": "every member", "body": _body(type_),
+                "label": type_.name or "all of it", "description": "every member that needs a value",
+                "body": _body(type_),
             }]
         return made
 
@@ -203,13 +206,14 @@ class _Maker:
         return made
 
 
+def _json_type(type_: ScalarType) -> str:
+    if isinstance(type_, BasicType) and type_.name in LIMITS:
+        return "integer" if type_.is_integer else "number"
+    return "boolean" if type_.name == "bool" and isinstance(type_, BasicType) else "string"
+
+
 def _types(name: str, nullable: bool) -> str | list[str]:
     return [name, "null"] if nullable else name
-
-
-def _size(size: Size, of: str) -> Schema:
-    made: Schema = {f"min{of}": size.least} if size.least else {}
-    return made | ({f"max{of}": size.most} if size.most is not None else {})
 
 
 def in_words(type_: Type) -> str:
@@ -227,8 +231,8 @@ def in_words(type_: Type) -> str:
         kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
         size = f" of {type_.size.in_words} entries" if type_.size != Size() else ""
         words = f"a {kind}{size}, each {one} {in_words(type_.element)}"
-    elif isinstance(type_, RecordType) and type_.name:
-        words = type_.name
+    elif isinstance(type_, RecordType):
+        words = type_.name or "a mapping of parameters to values"
     return words
 
 

@@ -18,11 +18,10 @@ from robocomp_yaml.model.parameters import (
     ListType,
     MapType,
     Member,
-    Parameters,
     RecordType,
     Type,
 )
-from robocomp_yaml.values.json_schema import COMPLETE, DOCUMENT, EFFECTIVE, values_schema
+from robocomp_yaml.values.json_schema import COMPLETE, DOCUMENT, EFFECTIVE, complete_schema, values_schema
 
 Data = dict[str, Any]
 
@@ -90,15 +89,9 @@ def _records(linked: LinkedParameters, member: Member, element: RecordType, item
 
 def _entry_gate(linked: LinkedParameters, key: str, member: Member) -> jsonschema_rs.Draft7Validator:
     if ("gate", key) not in linked.compiled:
-        whole = values_schema(_only(member), COMPLETE)
-        part = {**whole["properties"][member.name], "definitions": whole["definitions"]}
-        linked.compiled["gate", key] = jsonschema_rs.Draft7Validator(part)
+        linked.compiled["gate", key] = jsonschema_rs.Draft7Validator(complete_schema(member.type))
     gate: jsonschema_rs.Draft7Validator = linked.compiled["gate", key]
     return gate
-
-
-def _only(member: Member) -> Parameters:
-    return Parameters(RecordType("", (member,)))
 
 
 def _by_cerberus(linked: LinkedParameters, key: str, record: RecordType, data: Data) -> tuple[Any] | None:
@@ -126,10 +119,15 @@ def cerberus_verdict(root: RecordType, data: object) -> tuple[bool, Any]:
     return bool(verdict), as_data(root, validator.document)
 
 
+_NOTHING = object()  # for null, which Cerberus would take for a wish for the default
+
+
 def with_references(type_: Type, data: Any) -> Any:
     """`{env: NAME}`, where a plain value stands, as an object of its own, so that Cerberus takes it for one."""
     from robocomp_yaml.values.rules import Reference
 
+    if data is None:
+        return _NOTHING
     match type_:
         case BasicType() | EnumType():
             is_reference = isinstance(data, dict) and data.keys() == {"env"} and _is_variable(data["env"])

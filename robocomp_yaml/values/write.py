@@ -24,7 +24,7 @@ from robocomp_yaml.model.parameters import (
     Type,
 )
 from robocomp_yaml.model.pdsl import Spelling
-from robocomp_yaml.source.properties import unwritable
+from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.values import lexemes, rows
 from robocomp_yaml.values.evaluate import with_defaults
@@ -125,6 +125,9 @@ class Writer:
         is_text = isinstance(type_, EnumType) or type_.name == "string"
         if self.quote and is_text and '"' not in text:
             text = f'"{text}"'
+        elif self.quote and is_text and unquoted(text) != text:
+            self.fault(where, path, "in quotes, it would be read without them")
+            return
         yield from self.checked(Property(
             key, text, span_of(where), None if is_text else lambda other: lexemes.read(type_, other)
         ), where, path)
@@ -238,8 +241,8 @@ class Writer:
             text = self.text(type_, item[name], self.here(record, where, name), (*path, name)) if name in item else ""
             if text is None:
                 return None
-            member = record.member(name)
-            if name in item and text == "" and member is not None and member.optional:
+            column = record.member(name)
+            if name in item and text == "" and column is not None and column.optional:
                 self.fault(step(where, name), (*path, name), _EMPTY_OPTIONAL)
                 return None
             texts[name] = text

@@ -57,6 +57,7 @@ def run(root: Path) -> tuple[list[str], int]:
     logging.basicConfig(level=logging.WARNING, handlers=[Listener(wrong)])
     try:
         from generated.component import COMPONENT
+        from generated.parameters import TABLE, Parameters
         from specificworker import SpecificWorker
 
         class Caller(SpecificWorker):
@@ -68,7 +69,7 @@ def run(root: Path) -> tuple[list[str], int]:
                     self.killYourSelf()
 
         stage = Stage(COMPONENT, Settings([root / "etc" / "config"], []), Stopping(), only_check=False)
-        code = Application(COMPONENT, Caller, stage).run()
+        code = Application(COMPONENT, Caller, (TABLE, Parameters), stage).run()
         wrong += [f"exit code {code}"] if code else []
     except BaseException:
         wrong.append(traceback.format_exc())

@@ -64,7 +64,8 @@ def test_what_it_tells(component: Built, start: Start, behavior: Ask, port: int)
     assert 0 <= first < PATIENCE * 1000
     until(lambda: asked.timeAwake() > first, "time to pass")
     parameters = asked.getParameterList()
-    assert set(parameters) == {"CommonBehavior.Endpoints", "ArmProxy", "Arm.Speed"}
+    properties = {"CommonBehavior.Endpoints", "ArmProxy", "Arm.Speed"}
+    assert set(parameters) == {*properties, "period.compute", "period.emergency"}
     speed = parameters["Arm.Speed"]
     assert (speed.editable, speed.value, speed.type) == (False, "1.5", "string")
 
@@ -79,7 +80,12 @@ def test_what_it_is_told(component: Built, start: Start, behavior: Ask, port: in
         assert asked.getPeriod() == 20
         running.wait_for(f"WARNING Worker: setPeriod({wrong}) refused")
     asked.setParameterList(asked.getParameterList())
-    running.wait_for("setParameterList refused: no parameter is editable (Arm.Speed, ArmProxy, Common")
+    running.wait_for("parameters changed by setParameterList: none")
+    changed = asked.getParameterList()
+    changed["Arm.Speed"].value, changed["period.compute"].value = "2", "99"
+    asked.setParameterList(changed)
+    running.wait_for("setParameterList refused: there is no parameter 'Arm.Speed'")
+    assert asked.getPeriod() == 20, "all, or none"
     config = component.root / "etc" / "config"
     config.write_text(config.read_text() + "period.compute = 30\n")
     asked.reloadConfig()
@@ -87,7 +93,7 @@ def test_what_it_is_told(component: Built, start: Start, behavior: Ask, port: in
     config.write_text("period.compute = soon\n")
     asked.reloadConfig()
     assert asked.getPeriod() == 30
-    running.wait_for("reloadConfig refused: period.compute is 'soon'")
+    running.wait_for("etc/config: period.compute must be a whole number (ms), and is 'soon'")
     asked.killYourSelf()
     assert running.exit_code(2) == 0
 

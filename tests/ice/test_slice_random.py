@@ -9,7 +9,7 @@ import pytest
 from random_modules import Maker
 from slice_compilers import complaints, needs_compilers
 
-from robocomp_yaml import pipeline
+from robocomp_yaml.check import checks
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.emit.targets import slice as target
@@ -28,7 +28,7 @@ IN_PYTHON_ALONE = {codes.PYTHON_WORD.id}
 
 def _said(pair: list[LinkedModule]) -> set[str]:
     program = Program({linked.module.path: linked for linked in pair})
-    said = [diagnostic for run in pipeline.checks() for diagnostic in run(program)]
+    said = [diagnostic for run in checks(program) for diagnostic in run(program)]
     return {d.code for d in said if d.severity == ERROR or d.code in IN_PYTHON_ALONE}
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from slice_compilers import complaints, needs_compilers
 
-from robocomp_yaml.check.names import RESERVED, UNESCAPED_IN_PYTHON, fault_of
+from robocomp_yaml.check.idsl.names import RESERVED, UNESCAPED_IN_PYTHON, fault_of
 
 pytestmark = needs_compilers
 

@@ -14,7 +14,8 @@ from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties
 from robocomp_yaml.values.read import properties_to_values
-from tests.parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
+import accessors
+from parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")
 RELAXED = settings(
@@ -49,6 +50,8 @@ def comes_back(by_ice, of: LinkedParameters, data: Data, **more: Any) -> list[st
         read, errors = properties_to_values(of.parameters, held, quoted=quoted)
         assert not errors
         assert read == found.data
+        marked = {**held, "Endpoints.CommonBehavior": '"tcp"'} if quoted else held  # as every such file is
+        assert accessors.read_back(of.parameters, marked) == found.data
     return [fault.message for fault in faults]
 
 

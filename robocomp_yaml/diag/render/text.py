@@ -8,6 +8,7 @@
 
 from __future__ import annotations
 
+import os
 import unicodedata
 from collections.abc import Sequence
 
@@ -15,6 +16,7 @@ from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic
 from robocomp_yaml.diag.span import Span
 
 WIDEST = 160  # a longer line is cut around its fault
+MOST_READ = 1 << 25  # bytes of a file in which lines to show are looked for
 _COLORS = {ERROR: "31", WARNING: "33", NOTE: "36"}
 
 
@@ -108,11 +110,18 @@ class _Lines:
 
     def get(self, file: str, line: int) -> str | None:
         if file not in self._files:
-            try:
-                with open(file, "rb") as opened:
-                    text = opened.read().decode("utf-8-sig", errors="replace")
-                self._files[file] = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-            except OSError:
-                self._files[file] = None
+            self._files[file] = _read(file)
         lines = self._files[file]
         return lines[line - 1] if lines and line <= len(lines) else None
+
+
+def _read(file: str) -> list[str] | None:
+    """The lines of a file, or of its beginning; None where it cannot be read, as a pipe, which may never end."""
+    if not os.path.isfile(file):
+        return None
+    try:
+        with open(file, "rb") as opened:
+            text = opened.read(MOST_READ).decode("utf-8-sig", errors="replace")
+    except OSError:
+        return None
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")

@@ -12,9 +12,10 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import cpp_qt
+from robocomp_yaml.emit.targets import cpp_qt, cpp_statemachine
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
 from robocomp_yaml.emit.targets.cpp_qt import QtView, RobocompView
+from robocomp_yaml.emit.targets.cpp_statemachine import MachineView
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
@@ -56,16 +57,19 @@ class View:
     sources: list[str]
     qt: QtView | None
     robocomp: RobocompView | None
+    machine: MachineView | None
+    base: str
 
 
 def plan(component: LinkedComponent) -> list[FilePlan]:
     """The component's files but for `slice/` and `etc/`."""
-    view = _view(component)
+    copied = [*cpp_statemachine.files(component), *cpp_qt.files(component)]
+    view = _view(component, copied)
     if view.robocomp:
-        return _robocomp(component, view)
+        return _robocomp(view, copied)
     return [
         *_runtime(view.has_topics),
-        *cpp_qt.files(component),
+        *copied,
         *(
             FilePlan(f"generated/{name}", render(f"cpp/{name}.j2", view))
             for name in ("interfaces.h", "genericworker.h", "genericworker.cpp", "main.cpp", "component.cmake")
@@ -76,7 +80,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     ]
 
 
-def _robocomp(component: LinkedComponent, view: View) -> list[FilePlan]:
+def _robocomp(view: View, copied: list[FilePlan]) -> list[FilePlan]:
     """As plan(), where the user's code is written for RoboComp's own tool."""
     names = {
         "generated/interfaces.h": "interfaces.h",
@@ -94,7 +98,7 @@ def _robocomp(component: LinkedComponent, view: View) -> list[FilePlan]:
     }
     return [
         *_runtime(view.has_topics),
-        *cpp_qt.files(component),
+        *copied,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
         *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE) for path, name in own.items()),
     ]
@@ -111,7 +115,7 @@ def _runtime(has_topics: bool) -> tuple[FilePlan, ...]:
     )
 
 
-def _view(linked: LinkedComponent) -> View:
+def _view(linked: LinkedComponent, copied: list[FilePlan]) -> View:
     component = linked.component
     ports = Ports(linked)
     has_topics = bool(ports.publishes or ports.subscribes)
@@ -122,8 +126,7 @@ def _view(linked: LinkedComponent) -> View:
     doc = f"{component.name}: {component.doc}" if component.doc else component.name
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if has_services else "/*services*/"
-    copied = [*_runtime(has_topics), *cpp_qt.files(linked)]
-    runtime = [file.path.removeprefix("generated/") for file in copied if file.path.endswith(".cpp")]
+    sources = [file.path.removeprefix("generated/") for file in (*_runtime(has_topics), *copied)]
     ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
@@ -145,7 +148,15 @@ def _view(linked: LinkedComponent) -> View:
         ice_components=" ".join(ice),
         libraries=" ".join(f"Ice::{name}" for name in ice),
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
-        sources=["genericworker.cpp", *runtime],
+        sources=["genericworker.cpp", *(path for path in sources if path.endswith(".cpp"))],
+        machine=cpp_statemachine.view(linked.machine) if linked.machine else None,
+        base=_base(linked),
         qt=cpp_qt.qt_view(linked),
         robocomp=cpp_qt.robocomp_view(linked, ports),
     )
+
+
+def _base(linked: LinkedComponent) -> str:
+    """What GenericWorker is derived from."""
+    base = "machine::Worker" if linked.machine else "runtime::Worker"
+    return f"runtime::WindowWorker<{base}>" if linked.component.gui else base

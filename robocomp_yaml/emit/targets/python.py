@@ -15,9 +15,10 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import python_qt
+from robocomp_yaml.emit.targets import python_parameters, python_qt, python_statemachine
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
+from robocomp_yaml.emit.targets.python_statemachine import MachineView
 from robocomp_yaml.emit.targets.python_stubs import ModuleStub, stub
 from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.emit.targets.slice import file_name
@@ -68,6 +69,8 @@ class View:
     window: str
     qt_base: str
     sequences: list[str]
+    machine: MachineView | None
+    base: str
     imports: str = ""
     spread: tuple[str, ...] = ()
 
@@ -83,8 +86,10 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     stubs = [*signatures, *(method.value for method in methods)]
     return [
         *_runtime(),
+        *python_statemachine.files(component),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
         FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
+        python_parameters.plan(component),
         FilePlan("generated/component.py", _rendered("component.py", view, table)),
         *python_qt.files(component),
         *(_robocomp(view) if component.component.compatibility else [
@@ -153,7 +158,16 @@ def _view(linked: LinkedComponent) -> View:
         window=component.gui.base if component.gui else "",
         qt_base=python_qt.qt_base(linked),
         sequences=python_qt.sequences(linked),
+        machine=python_statemachine.view(linked.machine) if linked.machine else None,
+        base=_base(linked),
     )
+
+
+def _base(linked: LinkedComponent) -> str:
+    """What GenericWorker is derived from."""
+    machine = "MachineWorker" if linked.machine else ""
+    window = "WindowWorker" if linked.component.gui else ""
+    return ", ".join(base for base in (window, machine) if base) or "Worker"
 
 
 def _identifiers(linked: LinkedComponent) -> Iterator[str]:

@@ -17,13 +17,14 @@ _FORGOTTEN = _KEYWORDS - ICE_ESCAPES
 
 # Attributes of every worker: accessors and methods called so get another name.
 WORKER_ATTRIBUTES = frozenset(
-    "communicator compute getPeriod initialize initializeGui killYourSelf log mutex runInGui runInWorker setPeriod "
-    "ui window".split()
+    "communicator compute getPeriod initialize initializeGui killYourSelf log mutex parameters runInGui runInWorker "
+    "setPeriod ui window".split()
 )
 
 # Names that stand in the generated files beside the Slice modules.
 _TAKEN = frozenset(
-    "COMPONENT Component Context GenericWorker Implemented Method Published Required SpecificWorker Subscribed "
+    "COMPONENT Component Context Events GenericWorker Implemented MACHINE MODELS MachineWorker Method Parameters "
+    "Published Required SpecificWorker Subscribed "
     "Worker annotations bool bytes dict float int list load main str super tuple".split()
 )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 
 from robocomp_yaml.model.interface import Member
@@ -26,6 +27,19 @@ def signature(name: str, parameters: Sequence[str], returns: str, indent: str) -
         return line
     inner = "".join(f"{indent}    {word},\n" for word in words)
     return f"def {name}(\n{inner}{indent}) -> {returns}:"
+
+
+def literal(data: object) -> str:
+    """Plain data as an expression, texts in double quotes."""
+    if isinstance(data, str):
+        return json.dumps(data, ensure_ascii=False) if data.isprintable() else repr(data)
+    if isinstance(data, tuple):
+        return f"({', '.join(map(literal, data))}{',' if len(data) == 1 else ''})"
+    if isinstance(data, list):
+        return f"[{', '.join(map(literal, data))}]"
+    if isinstance(data, dict):
+        return f"{{{', '.join(f'{literal(key)}: {literal(value)}' for key, value in data.items())}}}"
+    return repr(data)
 
 
 def one_line(text: str) -> str:

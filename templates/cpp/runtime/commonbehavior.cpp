@@ -4,6 +4,10 @@
 #include "log.h"
 #include "worker.h"
 
+#include <Ice/Communicator.h>
+#include <Ice/ObjectAdapter.h>
+#include <Ice/Properties.h>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -62,10 +66,15 @@ void CommonBehavior::killYourSelf(const Ice::Current&)
     shutdown_.request();
 }
 
-ParameterList CommonBehavior::getParameterList(const Ice::Current&)
+ParameterList CommonBehavior::getParameterList(const Ice::Current& current)
 {
+    const auto live = current.adapter->getCommunicator()->getProperties()->getPropertiesForPrefix("statemachine.");
     const std::lock_guard lock(parametersMutex_);
     ParameterList result;
+    for (const auto& [key, value] : live)
+    {
+        result[key] = {false, value, "string"};
+    }
     for (const auto& [key, value] : parameters_)
     {
         result[key] = {false, value, "string"};

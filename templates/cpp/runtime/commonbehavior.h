@@ -35,7 +35,7 @@ public:
     int timeAwake(const Ice::Current&) override;
 
     void killYourSelf(const Ice::Current&) override;
-    RoboCompCommonBehavior::ParameterList getParameterList(const Ice::Current&) override;
+    RoboCompCommonBehavior::ParameterList getParameterList(const Ice::Current& current) override;
     void setParameterList(RoboCompCommonBehavior::ParameterList parameters, const Ice::Current&) override;
 
     /// Reads the config again; what takes effect is the period.

@@ -13,6 +13,7 @@ from typing import Any
 from generated.robocomp import values
 from generated.runtime import stage, worker
 from generated.runtime.errors import StartError
+from generated.runtime.problems import ParameterError
 from generated.runtime.schedule import Schedule
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -39,7 +40,7 @@ class Stage(stage.Stage):
             kind.setQuitOnLastWindowClosed(False)  # what counts is the component's own window
         application = kind.instance() or kind([self.component.name, *sys.argv[1:]])
         self._loop = Loop(application, self.stopping, self.log)
-        self._schedule: Schedule | None = None
+        self._context: worker.Context | None = None
         Stage.current = self
 
     def worker_class(self) -> stage.WorkerClass:
@@ -62,7 +63,7 @@ class Stage(stage.Stage):
         self._loop.run()
 
     def create(self, worker_class: Callable[..., Any], context: worker.Context) -> worker.Worker:
-        self._schedule = context.schedule
+        self._context = context
         return self._loop.call(lambda: self._make(worker_class, context))
 
     def run(self, running: worker.Worker, schedule: Schedule) -> None:
@@ -72,9 +73,9 @@ class Stage(stage.Stage):
         """Called by the constructor of GenericWorker."""
         from generated.robocomp.qt import QtCore
 
-        assert self._schedule is not None
+        assert self._context is not None
         made.mutex = QtCore.QRecursiveMutex()
-        made.Period = self._schedule.period
+        made.Period = self._context.schedule.period
         made.timer = QtCore.QTimer(made)
         made.log = self.log
         made.kill.connect(self.stopping.request)
@@ -86,8 +87,12 @@ class Stage(stage.Stage):
 
     def period_set(self, milliseconds: int) -> None:
         """The worker has set it; CommonBehavior must know."""
-        if self._schedule is not None and self._schedule.period != milliseconds:
-            self._schedule.period = milliseconds
+        if self._context is not None and self._context.schedule.period != milliseconds:
+            try:
+                self._context.parameters.set("period.compute", milliseconds)
+            except ParameterError as error:  # it is the user's code that has the say here
+                self.log.warning("the parameter period.compute does not follow: %s", error)
+                self._context.schedule.period = milliseconds
 
     def _make(self, worker_class: Callable[..., Any], context: worker.Context) -> Any:
         """As each version of RoboComp's main program makes it, by the parameters of its constructor."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import logging
 import threading
+from collections.abc import Callable
 
 import Ice
 
-from generated.runtime import commonbehavior, servants, worker
+from generated.runtime import commonbehavior, configuration, servants, worker
 from generated.runtime.errors import StartError
 from generated.runtime.log import IceLogger
+from generated.runtime.parameters import Live, Store, Table
 from generated.runtime.ports import Component, Subscribed
 from generated.runtime.proxies import connect
 from generated.runtime.schedule import Schedule
@@ -19,6 +21,8 @@ from generated.runtime.stage import Stage, WorkerClass
 from generated.runtime.stopping import Stopping
 from generated.runtime.topics import Topics
 from generated.runtime.waiting import reason
+
+Parameters = tuple[Table, Callable[[Store], Live]]
 
 # What differs from Ice's own defaults, unless the config says otherwise.
 ICE_DEFAULTS = {
@@ -34,7 +38,7 @@ class Application:
     and in Ice's.
     """
 
-    def __init__(self, component: Component, worker_class: WorkerClass, stage: Stage) -> None:
+    def __init__(self, component: Component, worker_class: WorkerClass, parameters: Parameters, stage: Stage) -> None:
         settings, stopping = stage.settings, stage.stopping
         self._component = component
         self._worker_class = worker_class
@@ -44,7 +48,11 @@ class Application:
         self._log = stage.log
         self._gate = servants.Gate(self._log)
         self._topics: Topics | None = None
-        self._schedule = Schedule(settings.period(component.period), stopping)
+        table, live = parameters
+        self._store = configuration.load(table, settings)
+        self._parameters = live(self._store)
+        self._schedule = Schedule(component.period, stopping)
+        configuration.drive(self._schedule, self._store)
         self._communicator = Ice.initialize(_initialization(settings))
 
     def run(self) -> int:
@@ -95,6 +103,7 @@ class Application:
     def _start(self) -> worker.Worker:
         """Serves first and waits for others then, so that two components may require each other."""
         behavior = self._serve_common_behavior()
+        self._warn_of_properties()
         for port in self._component.implements:
             adapter = self._adapter(port.name, self._settings.endpoints(port.name))
             servant = servants.servant(port.interface, port.methods, self._gate)
@@ -102,7 +111,9 @@ class Application:
             adapter.activate()
         proxies = self._connect()
         subscribers = self._listen()
-        context = worker.Context(self._component.name, self._communicator, self._schedule, self._stopping, proxies)
+        context = worker.Context(
+            self._component.name, self._communicator, self._schedule, self._stopping, self._parameters, proxies
+        )
         running = self._stage.create(self._worker_class, context)
         self._gate.open(running)
         for port, subscriber in subscribers:
@@ -111,13 +122,21 @@ class Application:
             behavior.is_running = True
         return running
 
+    def _warn_of_properties(self) -> None:
+        component = self._component
+        ports = (*component.implements, *component.requires, *component.publishes, *component.subscribes)
+        for key in configuration.misspelled(self._store, [port.name for port in ports]):
+            self._log.warning("%s: there is no parameter '%s'", self._settings.where, key)
+
     def _serve_common_behavior(self) -> commonbehavior.Behavior | None:
         """Unless the config has no endpoint for it, or the component implements it itself."""
         name = "CommonBehavior"
         endpoints = self._settings.first(f"{name}.Endpoints", f"Endpoints.{name}")
         if not endpoints or any(port.name == name for port in self._component.implements):
             return None
-        behavior = commonbehavior.servant(self._component, self._settings, self._schedule, self._stopping, self._log)
+        behavior = commonbehavior.servant(
+            self._component, self._settings, self._store, self._schedule, self._stopping, self._log
+        )
         adapter = self._adapter(name, endpoints)
         adapter.add(behavior, Ice.stringToIdentity("commonbehavior"))
         adapter.activate()

@@ -9,8 +9,11 @@ from typing import Any
 
 import Ice
 
+from generated.runtime import configuration
 from generated.runtime.errors import StartError
+from generated.runtime.parameters import Store
 from generated.runtime.ports import Component
+from generated.runtime.problems import ParameterError
 from generated.runtime.schedule import Schedule
 from generated.runtime.settings import Settings
 from generated.runtime.stopping import Stopping
@@ -22,10 +25,12 @@ class Behavior:
     """The operations of CommonBehavior. They answer from the start, while the component still waits for others."""
 
     def __init__(
-        self, component: Component, settings: Settings, schedule: Schedule, stopping: Stopping, log: logging.Logger
-    ) -> None:
+        self, component: Component, settings: Settings, store: Store, schedule: Schedule, stopping: Stopping,
+        log: logging.Logger,
+    ) -> None:  # fmt: skip
         self._component = component
         self._settings = settings
+        self._store = store
         self._schedule = schedule
         self._stopping = stopping
         self._log = log
@@ -37,8 +42,8 @@ class Behavior:
 
     def setPeriod(self, period: int, current: Ice.Current) -> None:
         try:
-            self._schedule.period = period
-        except ValueError as error:
+            self._store.change({"period.compute": period})
+        except ParameterError as error:
             self._log.warning("setPeriod(%s) refused: %s", period, error)
         else:
             self._log.info("the period is %s ms now", period)
@@ -52,20 +57,32 @@ class Behavior:
         self._stopping.request()
 
     def getParameterList(self, current: Ice.Current) -> dict[str, Any]:
+        """The parameters by their dotted paths; and the other properties, which nobody can change."""
         parameter = self._component.behavior.Parameter
-        return {
-            key: parameter(editable=False, value=value, type="string")
-            for key, value in self._settings.parameters().items()
-        }
+        listed = {key: parameter(False, text, "string") for key, text in sorted(self._store.unread.items())}
+        for key, entry in self._store.entries().items():
+            listed[key] = parameter(entry.is_editable, entry.text, entry.type)
+        return listed | {key: parameter(False, text, "string") for key, text in _live(current).items()}
 
     def setParameterList(self, parameters: dict[str, Any], current: Ice.Current) -> None:
-        self._log.warning("setParameterList refused: no parameter is editable (%s)", ", ".join(sorted(parameters)))
+        """All of them, or none: then the log says why."""
+        others, live = self._store.unread, _live(current)
+        given = {key: parameter.value for key, parameter in parameters.items() if key not in live}
+        changes = {key: value for key, value in given.items() if others.get(key) != value}
+        before = self._store.entries()
+        try:
+            self._store.change_texts(changes)
+        except ParameterError as error:
+            self._log.warning("setParameterList refused: %s", error)
+        else:
+            changed = [key for key, entry in self._store.entries().items() if before.get(key) != entry]
+            self._log.info("parameters changed by setParameterList: %s", ", ".join(changed) or "none")
 
     def reloadConfig(self, current: Ice.Current) -> None:
-        """Reads the config again; what takes effect is the period."""
+        """Reads the config again: all that it changes takes effect, or nothing does and the log says why."""
         try:
             settings = self._settings.reloaded()
-            self._schedule.period = settings.period(self._component.period)
+            configuration.reload(self._store, settings)
         except StartError as error:
             self._log.warning("reloadConfig refused: %s", error)
         else:
@@ -77,9 +94,15 @@ class Behavior:
         return states.Running if self.is_running else states.Starting
 
 
+def _live(current: Ice.Current) -> dict[str, str]:
+    """What the component says of itself while it runs: the states of its state machine, if it has one."""
+    properties = current.adapter.getCommunicator().getProperties()
+    return dict(properties.getPropertiesForPrefix("statemachine."))
+
+
 def servant(
-    component: Component, settings: Settings, schedule: Schedule, stopping: Stopping, log: logging.Logger
+    component: Component, settings: Settings, store: Store, schedule: Schedule, stopping: Stopping, log: logging.Logger
 ) -> Behavior:
     """An Ice object with these operations."""
     servant_class = type("CommonBehaviorServant", (Behavior, component.behavior.CommonBehavior), {})
-    return servant_class(component, settings, schedule, stopping, log)
+    return servant_class(component, settings, store, schedule, stopping, log)

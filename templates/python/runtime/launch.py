@@ -23,11 +23,12 @@ def launch(name: str, files: Sequence[Path], properties: Sequence[str], only_che
     try:
         settings = Settings(files, properties)
         from generated.component import COMPONENT
+        from generated.parameters import TABLE, Parameters
         from generated.runtime.application import Application
         from generated.runtime.stage import Stage
 
         stage = (COMPONENT.stage or Stage)(COMPONENT, settings, stopping, only_check)
-        application = Application(COMPONENT, stage.worker_class(), stage)
+        application = Application(COMPONENT, stage.worker_class(), (TABLE, Parameters), stage)
     except StartError as error:
         logging.getLogger(name).error(error)
         return 1

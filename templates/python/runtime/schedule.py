@@ -28,8 +28,6 @@ class Schedule:
 
     @period.setter
     def period(self, milliseconds: int) -> None:
-        if milliseconds < 1:
-            raise ValueError(f"the period must be at least 1 ms, not {milliseconds}")
         self._period = milliseconds
         self._wake_up.set()
         self.told(milliseconds)

@@ -18,6 +18,7 @@ class Settings:
     def __init__(self, files: Sequence[Path], arguments: Sequence[str]) -> None:
         self._files = files
         self._arguments = list(arguments)
+        self.overrides = dict(_option(argument) for argument in arguments)
         self.properties = self._load()
 
     def _load(self) -> Ice.Properties:
@@ -30,7 +31,8 @@ class Settings:
                 raise StartError(f"cannot read the config file {shown(file)}: {error.strerror}") from None
             except Ice.LocalException as error:
                 raise StartError(f"cannot read the config file {shown(file)}: {error}") from None
-        properties.parseCommandLineOptions("", self._arguments)
+        for key, value in self.overrides.items():
+            properties.setProperty(key, value)
         for key, value in properties.getPropertiesForPrefix("Ice.").items():
             properties.setProperty(key, unquoted(value))
         return properties
@@ -74,15 +76,6 @@ class Settings:
         plain = self.first(name) or topic
         return f"{prefix}/{plain}" if prefix else plain
 
-    def period(self, default: int) -> int:
-        """In milliseconds."""
-        value = self.first("period.compute", "Period.Compute")
-        if not value:
-            return default
-        if not value.isdecimal() or int(value) < 1:
-            raise StartError(f"period.compute is '{value}' in {self.where}: it must be a number of ms, at least 1")
-        return int(value)
-
     def reloaded(self) -> Settings:
         """The same files and command line, read again."""
         return Settings(self._files, self._arguments)
@@ -91,6 +84,14 @@ class Settings:
         """All properties but Ice's own."""
         every = self.properties.getPropertiesForPrefix("")
         return {key: value for key, value in sorted(every.items()) if not key.startswith("Ice.")}
+
+
+def _option(argument: str) -> tuple[str, str]:
+    """`--KEY=VALUE`, taken as it stands: Ice's own reader would end the value at a `#`."""
+    key, equals, value = argument[2:].partition("=")
+    if not key.strip():
+        raise StartError(f"{argument} names no property")
+    return key.strip(), value if equals else "1"
 
 
 def _check_text(file: Path) -> None:

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import Ice
 
@@ -33,6 +35,25 @@ def load(files: Sequence[str], modules: Sequence[str], escape: bool = False) -> 
         return [sys.modules[name] for name in modules]
     finally:
         sys.modules.update(shadowed)
+
+
+class Absent:
+    """Stands where a module would be that the component does not import any more, and that code in src/ still names: so
+    the component starts, and only code that needs the module fails."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __getattr__(self, attribute: str) -> Any:
+        raise AttributeError(f"{self._name}.{attribute}: the component does not import {self._name}")
+
+
+def absent(name: str) -> Absent:
+    """What an import of this name from generated.interfaces gives, where there is no such module."""
+    if name.startswith("__"):
+        raise AttributeError(name)
+    logging.getLogger("interfaces").warning("the code imports %s, which the component does not", name)
+    return Absent(name)
 
 
 def _load(file: Path, escape: bool) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 
 import Ice
 
+from generated.runtime.parameters import Live
 from generated.runtime.schedule import Schedule
 from generated.runtime.stopping import Stopping
 
@@ -23,20 +24,22 @@ class Context:
     communicator: Ice.Communicator
     schedule: Schedule
     stopping: Stopping
+    parameters: Live
     proxies: Mapping[str, Any] = field(default_factory=dict)
 
 
 class Worker:
     """Runs `compute()` every period, in a thread of its own.
 
-    Attributes: `log` (a logger), `communicator` (Ice's), and `mutex`. Ice calls the methods of the component's
-    interfaces in its own threads, while `compute()` may be running; what both touch, touch `with self.mutex:`. Several
-    methods run at once only if the config says so (`Ice.ThreadPool.Server.Size`).
+    Attributes: `parameters`, `log` (a logger), `communicator` (Ice's), and `mutex`. Ice calls the methods of the
+    component's interfaces in its own threads, while `compute()` may be running; what both touch, touch `with
+    self.mutex:`. Several methods run at once only if the config says so (`Ice.ThreadPool.Server.Size`).
     """
 
     def __init__(self, context: Context) -> None:
         self.log = logging.getLogger(context.name)
         self.communicator = context.communicator
+        self.parameters: Any = context.parameters
         self.mutex = threading.RLock()
         self._schedule = context.schedule
         self._stopping = context.stopping
@@ -52,8 +55,8 @@ class Worker:
         return self._schedule.period
 
     def setPeriod(self, period: int) -> None:
-        """Sets the period, in milliseconds: at once, even in the middle of a wait."""
-        self._schedule.period = period
+        """Sets `period.compute`, in milliseconds: at once, even in the middle of a wait."""
+        self.parameters.set("period.compute", period)
 
     def killYourSelf(self) -> None:
         """Stops the component in order."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Callable
@@ -218,3 +219,26 @@ def test_names_with_blanks_and_accents(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"una cabeza señal/Speech.idsl.yaml": SPEECH, "una cabeza señal/speech.cdsl.yaml": COMPONENT})
     assert rcyaml("compile").exit_code == 0
     assert (tmp_path / "una cabeza señal/generated/genericworker.py").exists()
+
+
+def test_a_folder_that_cannot_be_read_is_told_and_not_taken_for_gone(
+    compiled: Path, rcyaml: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What was generated from its documents stays."""
+
+    def closed(call: Callable[..., object]) -> Callable[..., object]:
+        def refuse(path: str, *args: object, **options: object) -> object:
+            if "interfaces" in str(path):
+                raise PermissionError(errno.EACCES, "Permission denied", path)
+            return call(path, *args, **options)
+
+        return refuse
+
+    for name in ("scandir", "lstat", "stat"):
+        monkeypatch.setattr(os, name, closed(getattr(os, name)))
+    for command in ("check", "compile"):
+        result = rcyaml(command)
+        assert result.exit_code == 1
+        assert "error[RC0001]: cannot read this file: permission denied\n  ┌─ interfaces\n" in result.output
+    monkeypatch.undo()
+    assert (compiled / "slice/Speech.ice").is_file()

@@ -40,8 +40,8 @@ def test_a_folder_becomes_a_workspace(rcyaml: Run, tmp_path: Path) -> None:
         "interfaces/Speech.idsl.yaml":
         "# yaml-language-server: $schema=../.rcyaml/schemas/idsl.schema.json\n" + SPEECH_YAML,
         "rcyaml.yaml": "# yaml-language-server: $schema=.rcyaml/schemas/workspace.schema.json\n"
-        "interfaces: [interfaces]\n# Files that were not there to be migrated are imported still.\n"
-        "lint:\n  RC1101: warning\n  RC2101: warning\n",
+        "interfaces: [interfaces]\n# Files that were not there to be migrated are named still.\n"
+        "lint:\n  RC1101: warning\n  RC2101: warning\n  RC2201: warning\n",
     }
     assert (tmp_path / "new/.rcyaml/schemas/idsl.schema.json").is_file()
     assert read_tree(tmp_path / "old") == TREE
@@ -87,7 +87,7 @@ def test_what_a_user_edited_is_kept(rcyaml: Run, tmp_path: Path, renewed: bool) 
     result = rcyaml("migrate", ".", "--report", "-")
     assert result.exit_code == 0
     assert document.read_text(encoding="utf-8") == "# mine\n" + SPEECH_YAML
-    assert ("RC5022" in result.stdout) is renewed
+    assert ("RC5022" in result.output) is renewed
 
     forced = rcyaml("migrate", ".", "--force")
     assert forced.exit_code == 0
@@ -124,6 +124,36 @@ def test_one_bad_file_does_not_stop_the_others(rcyaml: Run, tmp_path: Path) -> N
         ["converted", "warned", "refused", "skipped", "lines", "lost"],
         ["CDSL", "1", "0", "0", "0", "0"], ["IDSL", "1", "0", "2", "0", "0"], ["all", "2", "0", "2", "0", "0"],
     ]  # fmt: skip
+
+
+def test_what_compile_wrote_is_not_migrated_back(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, TREE)
+    rcyaml("migrate", ".")
+    assert rcyaml("compile").exit_code == 0
+    before = read_tree(tmp_path)
+    assert {"slice/Speech.ice", "components/speech/slice/Speech.ice"} <= set(before)
+    result = rcyaml("migrate", ".")
+    assert (result.exit_code, "Slice" in result.stdout) == (0, False)
+    assert read_tree(tmp_path) == before
+
+
+@pytest.mark.parametrize("path", ["Speech.idsl", "Speech.idsl.yaml", "notes.txt"])
+def test_a_report_overwrites_nothing_but_a_report(path: str, rcyaml: Run, tmp_path: Path) -> None:
+    files = {"Speech.idsl": SPEECH, "Speech.idsl.yaml": "module: Mine\n", "notes.txt": "mine\n"}
+    write_tree(tmp_path, files)
+    result = rcyaml("migrate", "Speech.idsl", "-o", "out", "--report", path)
+    assert result.exit_code == 2
+    assert f"--report does not overwrite {path}, which is no report of an earlier run" in result.output
+    assert read_tree(tmp_path) == files
+    for _ in range(2):
+        assert rcyaml("migrate", "Speech.idsl", "-o", "out", "--report", "ledger.json").exit_code == 0
+
+
+def test_a_report_on_standard_output_is_alone_there(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"Speech.idsl": SPEECH + "#endif\n"})
+    result = rcyaml("-v", "migrate", ".", "--dry-run", "--diff", "--report", "-")
+    assert json.loads(result.stdout)["totals"]["files"] == 1
+    assert "RC5005" in result.stderr and "nothing was written" in result.stderr
 
 
 def test_the_report(rcyaml: Run, tmp_path: Path) -> None:

@@ -15,9 +15,12 @@ import pytest
 from robocomp_yaml import resources
 from robocomp_yaml.source import tree
 
-KINDS = ("idsl", "cdsl", "workspace")
+KINDS = ("idsl", "cdsl", "pdsl", "config", "workspace")
 EDITOR = Path(__file__).resolve().parents[2] / "editor"
-RIGHT = {"idsl": "Speech.idsl.yaml", "cdsl": "speech.cdsl.yaml", "workspace": "rcyaml.yaml"}
+RIGHT = {
+    "idsl": "Speech.idsl.yaml", "cdsl": "speech.cdsl.yaml", "pdsl": "speech.pdsl.yaml", "config": "speech.config.yaml",
+    "workspace": "rcyaml.yaml",
+}
 SCHEMAS: dict[str, dict[str, Any]] = {kind: json.loads(resources.text(f"schemas/{kind}.schema.json")) for kind in KINDS}
 ANNOTATIONS = ("title", "description", "markdownDescription")
 

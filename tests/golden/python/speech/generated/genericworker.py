@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 from generated.interfaces import RoboCompSpeech, RoboCompTypes
+from generated.parameters import Parameters
 from generated.runtime.worker import Context, Worker
 
 
 class GenericWorker(Worker):
     """SpeechComp: Synthesizes speech."""
+
+    parameters: Parameters
+    """The component's parameters, as generated/parameters.py describes them."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -4,6 +4,7 @@
 #   self.twin_proxy: calls Twin
 #   self.backup_proxy: calls Backup
 #   self.speechevents_proxy: publishes SpeechEvents
+#   self.parameters: what etc/config and generated/parameters.py say
 #   self.log, self.mutex, self.getPeriod(), self.setPeriod(ms), self.killYourSelf()
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from robocomp_yaml.check.expressions import is_sound
+from robocomp_yaml.check.pdsl.expressions import is_sound
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related

@@ -10,7 +10,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
-from robocomp_yaml.values.effective import document_faults, effective
+from robocomp_yaml.values.effective import Effective, document_faults, effective
+from robocomp_yaml.values.harmless import is_harmless
 from robocomp_yaml.values.properties import properties
 
 
@@ -34,8 +35,14 @@ def of_document(linked: LinkedValues, *, complete: bool = False) -> Iterator[Dia
         return
     values, found = effective(linked)
     yield from found
-    if values is not None and not has_errors(found):
+    if values is not None and not has_errors(found) and not is_plain(linked, values):
         yield from properties(linked, values)[1]
+
+
+def is_plain(linked: LinkedValues, values: Effective) -> bool:
+    """Whether nothing stands there but parameters, none of which can be trouble."""
+    given = {key for layer in linked.layers() for key in layer.document.root.entries}
+    return given <= {"component", "doc", "extends", "parameters"} and is_harmless(values.parameters, values.data)
 
 
 def _ports(linked: LinkedValues) -> Iterator[Diagnostic]:

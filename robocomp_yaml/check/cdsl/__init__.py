@@ -1,0 +1,1 @@
+"""Components: what their lists may say together."""

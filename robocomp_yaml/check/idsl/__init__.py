@@ -1,0 +1,1 @@
+"""Interfaces: names, references, cycles, and what Slice cannot say."""

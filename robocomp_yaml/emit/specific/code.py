@@ -1,0 +1,150 @@
+"""Source code as far as a merge looks into it: the methods of the specific class, imports, and faults of syntax."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
+CLASS = "SpecificWorker"
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A word of the text; counted as in a span."""
+
+    line: int
+    column: int
+    end_column: int
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """`parameters` and `returns` with blanks made alike; `names` are those of the parameters. A call with `least` to
+    `most` arguments fits; `most` is None where there is no limit."""
+
+    parameters: tuple[str, ...]
+    names: tuple[str, ...]
+    returns: str
+    least: int
+    most: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """A method of the class: declared in its body, or (C++) defined outside of it.
+
+    `first` and `end` are the lines from its first to behind its last, from 0, decorators with it. `signature` is None
+    where the class only gives something else this name. `nested` when it stands under a condition.
+    """
+
+    name: str
+    place: Place
+    first: int
+    end: int
+    signature: Signature | None
+    has_body: bool = True
+    nested: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Import:
+    """What a line brings in, and the line that would bring just this."""
+
+    key: str
+    line: str
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """A file. `members` stand in the class, `definitions` outside. `place` is that of the class's name, None where the
+    file does not have the class; `body_end` the line before which its body ends, and `unit` one step of indentation.
+    `bases` are the classes that it inherits from. `import_end` is the line behind the last import, or where one may
+    be put."""
+
+    path: str
+    lines: list[str]
+    faults: int
+    members: tuple[Method, ...] = ()
+    definitions: tuple[Method, ...] = ()
+    imports: tuple[Import, ...] = ()
+    import_end: int = 0
+    place: Place | None = None
+    body_end: int = 0
+    unit: str = "    "
+    bases: tuple[str, ...] = ()
+
+    def text_of(self, method: Method) -> str:
+        return "".join(self.lines[method.first : method.end])
+
+
+def lines_of(text: str) -> list[str]:
+    """The lines with their ends; only a line feed ends one, as for compilers."""
+    lines = [f"{line}\n" for line in text.split("\n")]
+    last = lines.pop()[:-1]
+    return [*lines, last] if last else lines
+
+
+def read(path: str, text: str) -> Code | None:
+    """The code of a file; None where it is in no language that is known here."""
+    reader = _reader(path)
+    return reader(path, text) if reader else None
+
+
+def is_code(path: str) -> bool:
+    return _reader(path) is not None
+
+
+def _reader(path: str) -> Callable[[str, str], Code] | None:
+    suffix = path.rpartition(".")[2]
+    if suffix == "py":
+        from robocomp_yaml.emit.specific.python_code import read as read_python
+
+        return read_python
+    if suffix in ("h", "hpp", "cpp"):
+        from robocomp_yaml.emit.specific.cpp_code import read as read_cpp
+
+        return read_cpp
+    return None
+
+
+def place(node: Node, lines: list[str]) -> Place:
+    """Where a node of one line stands."""
+    row, start = node.start_point
+    line = lines[row].encode()
+    column = len(line[:start].decode(errors="replace")) + 1
+    return Place(row + 1, column, column + len(text(node)))
+
+
+def text(node: Node) -> str:
+    return (node.text or b"").decode(errors="replace")
+
+
+def plain(node: Node | None) -> str:
+    """A node's text without comments and needless blanks."""
+    return " ".join(words(node)) if node else ""
+
+
+def words(node: Node) -> Iterator[str]:
+    """The tokens below a node."""
+    todo = [node]
+    while todo:
+        current = todo.pop()
+        if current.type == "comment":
+            continue
+        if current.child_count == 0:
+            yield text(current)
+        todo += reversed(current.children)
+
+
+def faults(root: Node) -> int:
+    """How many places of a tree are no proper syntax."""
+    count, todo = 0, [root] if root.has_error else []
+    while todo:
+        node = todo.pop()
+        count += node.is_error or node.is_missing
+        todo += [child for child in node.children if child.has_error or child.is_missing]
+    return count

@@ -1,0 +1,141 @@
+"""What the user's class lacks of a new skeleton, what of it is outdated, and what nobody calls any more."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.emit.specific.code import Code, Method, Signature
+
+
+@dataclass(frozen=True, slots=True)
+class Lacking:
+    """A method of a skeleton's file that the user's files do not have."""
+
+    skeleton: Code
+    method: Method
+
+
+@dataclass(frozen=True, slots=True)
+class Outdated:
+    """A method of the user that no longer fits; `wanted` is the skeleton's."""
+
+    code: Code
+    method: Method
+    skeleton: Code
+    wanted: Method
+
+
+@dataclass(frozen=True, slots=True)
+class Gone:
+    """A method that no skeleton has any more, at its places; `renamed` is what it may be called now."""
+
+    name: str
+    places: tuple[tuple[Code, Method], ...]
+    renamed: str = ""
+
+
+@dataclass(slots=True)
+class Comparison:
+    lacking: list[Lacking] = field(default_factory=list)
+    outdated: list[Outdated] = field(default_factory=list)
+    gone: list[Gone] = field(default_factory=list)
+
+    @property
+    def is_complete(self) -> bool:
+        return not self.lacking and not self.outdated
+
+
+def compare(
+    new: Sequence[Code], base: Mapping[str, Code], yours: Sequence[Code], bases: Collection[str] = ()
+) -> Comparison:
+    """`new` is the skeleton of today and `base` that which the user's files came from, file by file, as far as it is
+    known; `yours` are the user's files. `bases` are the classes that a skeleton's class inherits from, beside those in
+    `new`."""
+    result = Comparison()
+    members, definitions = _by_name(yours, "members"), _by_name(yours, "definitions")
+    bodies = {name: [pair for pair in found if pair[1].has_body] for name, found in members.items()}
+    elsewhere = _inherited(new, yours, bases)
+    for skeleton in new:
+        older = base.get(skeleton.path)
+        for part, known in (("members", members), ("definitions", definitions)):
+            before = {method.name: method for method in getattr(older, part, ())}
+            for method in getattr(skeleton, part):
+                found = known.get(method.name, [])
+                defined = found or (bodies.get(method.name) if part == "definitions" else None)
+                if not defined and method.name not in elsewhere:
+                    result.lacking.append(Lacking(skeleton, method))
+                if found and not any(_fits(mine, method, before.get(method.name)) for _, mine in found):
+                    result.outdated.append(Outdated(*found[0], skeleton, method))
+    result.gone = list(_gone(new, base, members, definitions, result.lacking))
+    return result
+
+
+def _by_name(codes: Iterable[Code], part: str) -> dict[str, list[tuple[Code, Method]]]:
+    found: dict[str, list[tuple[Code, Method]]] = {}
+    for code in codes:
+        for method in getattr(code, part):
+            found.setdefault(method.name, []).append((code, method))
+    return found
+
+
+def _inherited(new: Sequence[Code], yours: Sequence[Code], bases: Collection[str]) -> set[str]:
+    """Methods that the class may have from a class of the user's own that it inherits from: those named anywhere."""
+    expected = {*bases, *(base for code in new for base in code.bases)}
+    if all(base in expected for code in yours for base in code.bases):
+        return set()
+    words = {word for code in yours for line in code.lines for word in re.findall(r"\w+", line)}
+    return {method.name for code in new for method in (*code.members, *code.definitions)} & words
+
+
+def _fits(mine: Method, wanted: Method, before: Method | None) -> bool:
+    """Whether a method does for what the skeleton has now. What the user wrote otherwise than `before` is trusted, but
+    for the number of parameters."""
+    is_, needs = mine.signature, wanted.signature
+    if is_ is None or needs is None or _types(is_) == _types(needs):
+        return True
+    count = len(needs.parameters)
+    if is_.least > count or (is_.most is not None and is_.most < count):
+        return False
+    was = before.signature if before else None
+    if was is None:
+        return True
+    triples = [*zip(is_.parameters, was.parameters, needs.parameters, strict=False)]
+    triples.append((is_.returns, was.returns, needs.returns))
+    return not any(mine == old and _differ(old, now) for mine, old, now in triples)
+
+
+def _differ(old: str, now: str) -> bool:
+    """Whether a parameter or result changed; that it got a type, or lost it, is no change."""
+    if not old or not now or (" : " in old) != (" : " in now):
+        return old.partition(" ")[0] != now.partition(" ")[0] and bool(old and now)
+    return old != now
+
+
+def _types(signature: Signature) -> tuple[object, ...]:
+    return signature.parameters, signature.returns
+
+
+def _gone(
+    new: Sequence[Code],
+    base: Mapping[str, Code],
+    members: Mapping[str, list[tuple[Code, Method]]],
+    definitions: Mapping[str, list[tuple[Code, Method]]],
+    lacking: Sequence[Lacking],
+) -> Iterable[Gone]:
+    today = {method.name for code in new for method in (*code.members, *code.definitions)}
+    before = {m.name: m for code in base.values() for m in (*code.definitions, *code.members)}
+    fresh = {one.method.name: one.method for one in lacking if one.method.name not in before}
+    for name, method in before.items():
+        places = (*members.get(name, ()), *definitions.get(name, ()))
+        if name in today or not places:
+            continue
+        alike = [other for other, its in fresh.items() if _same(method.signature, its.signature)]
+        alike = [other for other in alike if other.partition("_")[0] == name.partition("_")[0]]
+        yield Gone(name, places, alike[0] if len(alike) == 1 else suggest(name, alike) or "")
+
+
+def _same(one: Signature | None, other: Signature | None) -> bool:
+    return bool(one and other and (one.parameters, one.returns) == (other.parameters, other.returns))

@@ -1,0 +1,62 @@
+"""`etc/config`, as far as a merge looks into it: keys that a component needs, each with its comment."""
+
+from __future__ import annotations
+
+import re
+
+from robocomp_yaml.source import properties
+from robocomp_yaml.emit.plan import CONFIG
+
+_NEEDED = re.compile(r"(?P<name>.+?)(?:Topic)?\.Endpoints|(?P<proxy>.+)Proxy|(?P<manager>TopicManager)\.Proxy")
+
+
+def is_entries(path: str) -> bool:
+    return path == CONFIG
+
+
+def lacking(base: str | None, yours: str, new: str) -> list[str]:
+    """The keys without which the component will not start: those that it did not need before, and that no spelling of
+    is there. None where it is not known what it needed before."""
+    if base is None:
+        return []
+    known = {*_keys(yours), *_keys(base)}
+    return [key for key in _keys(new) if not known & {key, *_spellings(key)} and _NEEDED.fullmatch(key)]
+
+
+def paste(new: str, keys: list[str]) -> str:
+    """The lines of these entries, with the comments above them."""
+    lines = new.splitlines(keepends=True)
+    parts = []
+    for n, line in enumerate(lines):
+        if line.partition("=")[0].strip() in keys:
+            first = n
+            while first and lines[first - 1].startswith("#"):
+                first -= 1
+            parts += lines[first : n + 1]
+    return "".join(parts)
+
+
+def merge(base: str | None, yours: str, new: str) -> str:
+    """The user's file with what it lacks at its end. What else is new in it are ports and addresses as they would be
+    chosen now: not a reason to change those that are in use."""
+    keys = lacking(base, yours, new)
+    if not keys:
+        return yours
+    ended = yours if not yours or yours.endswith("\n") else f"{yours}\n"
+    return f"{ended}\n{paste(new, keys)}"
+
+
+def _keys(text: str) -> dict[str, str]:
+    return dict(properties.read(text).values)
+
+
+def _spellings(key: str) -> set[str]:
+    """The other names under which the run time looks for a property."""
+    found = _NEEDED.fullmatch(key)
+    if found is None:
+        return set()
+    if found["manager"]:
+        return {"Proxies.TopicManager"}
+    if found["proxy"]:
+        return {f"Proxies.{found['proxy']}"}
+    return {f"Endpoints.{key.removesuffix('.Endpoints')}", f"Endpoints.{found['name']}"}

@@ -1,0 +1,73 @@
+"""Methods and imports put into code where they belong, without a change to any line that is there."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from robocomp_yaml.emit.specific.code import Code, Method
+
+
+def insert(code: Code, skeleton: Code, names: Collection[str]) -> str:
+    """The text of `code` with the methods of the skeleton that are called so, each behind the one that precedes it
+    there, and with the imports of the skeleton that it lacks."""
+    known = {one.key for one in code.imports}
+    imports = "".join(one.line for one in skeleton.imports if one.key not in known)
+    pieces: list[tuple[int, str]] = [(code.import_end, imports)] if imports else []
+    for part in ("members", "definitions"):
+        order: tuple[Method, ...] = getattr(skeleton, part)
+        mine: tuple[Method, ...] = getattr(code, part)
+        ends = {method.name: method.end for method in mine if not method.nested}
+        for n, method in enumerate(order):
+            if method.name in names and method.name not in ends:
+                before = next((ends[other.name] for other in reversed(order[:n]) if other.name in ends), None)
+                at = before if before is not None else code.body_end if code.place else len(code.lines)
+                ends[method.name] = at
+                pieces.append((at, _piece(code, skeleton, method, alone=before is None)))
+    return _joined(code.lines, pieces)
+
+
+def lead(skeleton: Code, method: Method) -> str:
+    """The comment above a method that is a title, with the blank line between."""
+    row = method.first
+    if row and not skeleton.lines[row - 1].strip():
+        row -= 1
+    start = row
+    while start and skeleton.lines[start - 1].lstrip().startswith(("# ", "// ")):
+        start -= 1
+    return "" if start == row else "".join(skeleton.lines[start : method.first])
+
+
+def _piece(code: Code, skeleton: Code, method: Method, alone: bool) -> str:
+    """The lines to put in, with the title above them where the file does not have it yet. `alone`: at the end of the
+    class, where in C++ private members may stand."""
+    title = lead(skeleton, method)
+    if title and title.splitlines()[0].strip() in {line.strip() for line in code.lines}:
+        title = ""
+    text = f"{title}{skeleton.text_of(method)}"
+    if not method.has_body:
+        return f"{chr(10) if title or alone else ''}{'public:' + chr(10) if alone else ''}{text}"
+    if code.unit != skeleton.unit:
+        text = "".join(_indented(line, skeleton.unit, code.unit) for line in text.splitlines(keepends=True))
+    return f"\n{text}"
+
+
+def _indented(line: str, old: str, new: str) -> str:
+    steps = 0
+    while line.startswith(old, steps * len(old)):
+        steps += 1
+    return new * steps + line[steps * len(old) :]
+
+
+def _joined(before: list[str], pieces: list[tuple[int, str]]) -> str:
+    lines = list(before)
+    if pieces and lines and not lines[-1].endswith("\n"):
+        lines[-1] += "\n"
+    by_place: dict[int, str] = {}
+    for at, piece in pieces:
+        by_place[at] = by_place.get(at, "") + piece
+    for at in sorted(by_place, reverse=True):
+        piece = by_place[at]
+        follows = lines[at] if at < len(lines) else ""
+        is_spaced = piece.startswith("\n") and follows.strip() and not follows.lstrip().startswith("}")
+        lines.insert(at, f"{piece}\n" if is_spaced else piece)
+    return "".join(lines)

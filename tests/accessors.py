@@ -1,0 +1,67 @@
+"""Generated accessors in this process: the run time that they need is the one in `templates/`."""
+
+from __future__ import annotations
+
+import sys
+from types import ModuleType
+from typing import Any
+from unittest import mock
+
+from conftest import ROOT
+
+from robocomp_yaml.emit.targets import python_parameters
+from robocomp_yaml.model.parameters import Parameters
+
+_LAST: list[Any] = []  # the parameters and the module that were asked for last
+
+
+def python(parameters: Parameters) -> ModuleType:
+    """The module `generated/parameters.py` of a component with these parameters."""
+    if _LAST and _LAST[0] is parameters:
+        return _LAST[1]
+    if "generated" not in sys.modules:
+        package = ModuleType("generated")
+        package.__path__ = [str(ROOT / "templates" / "python")]
+        sys.modules["generated"] = package
+    made = ModuleType("generated.parameters")
+    text = python_parameters.text(parameters, "Component", "x.pdsl.yaml")
+    exec(compile(text, "parameters.py", "exec"), made.__dict__)
+    _LAST[:] = [parameters, made]
+    return made
+
+
+def store(parameters: Parameters, properties: dict[str, str], overrides: dict[str, str] | None = None) -> Any:
+    """The parameters of a component that was started with these properties. Raises ParameterError."""
+    made = python(parameters)
+    from generated.runtime.parameters import Store  # type: ignore[import-not-found]
+
+    return Store(made.TABLE, properties, overrides or {})
+
+
+def live(parameters: Parameters, properties: dict[str, str], overrides: dict[str, str] | None = None) -> Any:
+    """What `self.parameters` is in the worker."""
+    made = python(parameters)
+    from generated.runtime.parameters import Store
+
+    return made.Parameters(Store(made.TABLE, properties, overrides or {}))
+
+
+def take(parameters: Parameters, data: Any) -> tuple[Any, list[str]]:
+    """Data as the accessors take it: as data again, with defaults; and what is wrong. References are not judged."""
+    made = python(parameters)
+    from generated.runtime import composite, texts  # type: ignore[import-not-found]
+    from generated.runtime.plain import Taking  # type: ignore[import-not-found]
+
+    kind, taking = composite.Recording(made.TABLE.values), Taking()
+    with mock.patch.object(texts.os, "environ", {}):
+        values = kind.take(data, (), taking)
+    problems = [problem.message for problem in taking.problems if "comes from the environment" not in problem.message]
+    return (None if problems else composite.data(kind, values)), problems
+
+
+def read_back(parameters: Parameters, properties: dict[str, str]) -> Any:
+    """The values that a component has which was started with these properties, as data."""
+    started = store(parameters, properties)
+    from generated.runtime import composite
+
+    return composite.data(started.kind, started.values)

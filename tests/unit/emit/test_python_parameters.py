@@ -1,0 +1,324 @@
+"""Generated Python accessors: reading, setting, refusing, telling; and what their source looks like."""
+
+from __future__ import annotations
+
+import ast
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import pytest
+
+from robocomp_yaml.emit.targets import python_parameters
+from robocomp_yaml.values import evaluate
+import accessors
+from parameters import parameters
+
+ARM = """\
+doc: What the arm needs.
+types:
+  Handler: {doc: Who drives it., enum: {Dunkermotoren: {doc: The old one.}, Faulhaber: }}
+  Motor:
+    doc: One motor of the bus.
+    struct:
+      name: string
+      id: string
+      invertedSign: {type: bool, default: false}
+      min: {type: float, range: [-3.15, 3.15], unit: rad}
+      max: {type: float, range: [-3.15, 3.15], unit: rad}
+      vel: {type: float, range: [0, 2], default: 0.9, unit: rad/s}
+parameters:
+  handler: {type: Handler, default: Dunkermotoren, editable: true}
+  device: {type: string, pattern: "/dev/[a-z]+", default: /dev/tty, doc: Where the bus is.}
+  baudRate: {type: int, values: [9600, 115200], default: 115200, editable: true}
+  basicPeriod: {type: int, range: [1, 1000], unit: ms, default: 220, editable: true}
+  token: {type: string, optional: true, editable: true}
+  threshold: {type: double, range: {from: 0, below: 1}, default: 0, editable: true}
+  Yolo: {group: {use_gpu: {type: bool, default: true}, model: {type: string, default: m, editable: true}}}
+  motors: {list: Motor, size: [1, 3], editable: true}
+  gains: {list: {list: float, size: 3}, default: [[1, 0, 0]], editable: true}
+  ids: {list: int, unique: true, default: [], editable: true}
+  offsets: {map: float, default: {}, editable: true}
+  low: {type: int, default: 1, editable: true}
+  high: {type: int, default: 2, editable: true}
+  2d: {type: bool, as: view2d, default: false}
+  class: {type: string, default: x}
+constraints:
+  - {that: "all(m.min < m.max for m in motors)", else: a motor's min must be below its max}
+  - low < high
+legacy:
+  device: Arm.Device
+  motors: {key: "Arm.M{i}", columns: [name, id, invertedSign, min, max, vel], count: Arm.NumMotors}
+"""
+CONFIG = {"Arm.Device": "/dev/usb", "Arm.NumMotors": "2", "Arm.M0": "a, A, True, -3.14, 3.14, .9",
+          "Arm.M1": "b,B,false,-1,1,1"}  # fmt: skip
+
+
+@pytest.fixture
+def arm() -> Any:
+    return accessors.live(parameters(ARM)[0], CONFIG)
+
+
+def refused(action: Callable[[], object]) -> list[str]:
+    """The messages of the ParameterError that it raises."""
+    accessors.python(parameters("parameters: {x: {type: int, default: 1}}\n")[0])
+    from generated.runtime.problems import ParameterError  # type: ignore[import-not-found]
+
+    with pytest.raises(ParameterError) as error:
+        action()
+    return [problem.message for problem in error.value.problems]
+
+
+def started(text: str, properties: Mapping[str, str], overrides: Mapping[str, str] | None = None) -> Any:
+    return accessors.live(parameters(text)[0], dict(properties), dict(overrides or {}))
+
+
+def test_golden(golden: Callable[[str, Mapping[str, str]], None]) -> None:
+    golden("python/parameters", {"parameters.py": python_parameters.text(parameters(ARM)[0], "ArmComp", "arm.pdsl.yaml")})
+
+
+def test_reading(arm: Any) -> None:
+    assert (arm.basicPeriod, arm.device, arm.handler, arm.token) == (220, "/dev/usb", "Dunkermotoren", None)
+    assert (arm.motors[0].vel, arm.motors[0].invertedSign, arm.motors[1].min) == (0.9, True, -1.0)
+    assert (arm.Yolo.use_gpu, arm.gains, dict(arm.offsets), arm.view2d, arm.class_) == (
+        True, ((1.0, 0.0, 0.0),), {}, False, "x",
+    )  # fmt: skip
+    assert (arm.period.compute, arm.period.emergency) == (100, 500)
+
+
+def test_setting(arm: Any) -> None:
+    arm.set("basicPeriod", 100)
+    arm.set("motors[1].vel", 2)
+    arm.set('offsets["a.b"]', 1)
+    arm.threshold = 0.5
+    arm.change({"low": 5, "high": 6, "Yolo.model": "n", "token": "t"})
+    assert (arm.basicPeriod, arm.motors[1].vel, arm.offsets["a.b"], arm.threshold) == (100, 2.0, 1.0, 0.5)
+    assert (arm.low, arm.high, arm.Yolo.model, arm.token) == (5, 6, "n", "t")
+    arm.set("motors", [*arm.motors, {"name": "c", "id": "C", "min": 0, "max": 1}])
+    assert arm.motors[2].vel == 0.9
+    arm.set("token", None)
+    arm.set("basicPeriod", None)
+    assert (arm.token, arm.basicPeriod) == (None, 220), "None returns to the default"
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "message"),
+    [
+        ("basicPeriod", 2000, "basicPeriod is 2000 ms, and must be from 1 to 1000 ms"),
+        ("basicPeriod", True, "basicPeriod must be a whole number (ms), and is true"),
+        ("basicPeriod", "5", "basicPeriod must be a whole number (ms), and is '5'"),
+        ("basicPeriod", 1.5, "basicPeriod must be a whole number (ms), and is 1.5"),
+        ("threshold", 1, "threshold is 1, and must be at least 0 and below 1"),
+        ("threshold", float("nan"), "threshold must be a number, and is nan"),
+        ("baudRate", 1, "baudRate is 1, and must be one of 9600, 115200"),
+        ("handler", "Faul", "handler is 'Faul', and must be one of Dunkermotoren, Faulhaber"),
+        ("motors[0].vel", 7, "motors[0].vel is 7 rad/s, and must be from 0 to 2 rad/s"),
+        ("motors", [], "motors has 0 entries, and must have from 1 to 3"),
+        ("gains", [[1, 2]], "gains[0] has 2 entries, and must have exactly 3"),
+        ("ids", [1, 2, 1], "ids holds 1 twice"),
+        ("offsets", {"a b": "x"}, "offsets[\"a b\"] must be a number, and is 'x'"),
+        ("motors[0]", {"name": "x"}, "motors[0].id has no value, and no default"),
+        ("motors[7].vel", 1, "there is no parameter 'motors[7].vel'"),
+        ("speed", 1, "there is no parameter 'speed'"),
+        ("motors[0].speed", 1, "there is no parameter 'motors[0].speed'"),
+        ("low", 2, "this must hold: low < high"),
+        ("motors[0].max", -3.15, "a motor's min must be below its max"),
+        ("class", "y", "class cannot be changed while the component runs: it is not editable"),
+        ("Yolo.use_gpu", False, "Yolo.use_gpu cannot be changed while the component runs: it is not editable"),
+    ],
+)
+def test_a_bad_value_changes_nothing(arm: Any, path: str, value: object, message: str) -> None:
+    before = arm.now
+    assert message in refused(lambda: arm.change({"basicPeriod": 1, path: value}))
+    assert arm.now is before and arm.basicPeriod == 220
+
+
+def test_an_error_says_what_and_where(arm: Any) -> None:
+    from generated.runtime.problems import ParameterError
+
+    with pytest.raises(ParameterError) as error:
+        arm.set("basicPeriod", 2000)
+    (problem,) = error.value.problems
+    assert (error.value.parameter, problem.value, problem.wanted, problem.unit) == (
+        "basicPeriod", "2000", "be from 1 to 1000 ms", "ms",
+    )  # fmt: skip
+    assert isinstance(error.value, ValueError)
+
+
+def test_what_cannot_be_written(arm: Any) -> None:
+    with pytest.raises(AttributeError, match="there is no parameter 'basicperiod'"):
+        arm.basicperiod = 3
+    with pytest.raises(AttributeError, match="change through set"):
+        arm.motors[0].vel = 1.0
+    with pytest.raises(AttributeError):
+        arm.now.basicPeriod = 3
+    with pytest.raises(TypeError):
+        arm.offsets["a"] = 1.0
+
+
+def test_listeners_are_told_in_order(arm: Any) -> None:
+    told: list[Any] = []
+
+    def follow(change: Any) -> None:
+        told.append(change)
+        if change.concerns("low"):
+            arm.set("baudRate", 9600)  # a listener may change more
+
+    def broken(change: Any) -> None:
+        raise RuntimeError("a listener's own fault")
+
+    for listener in (broken, follow):
+        arm.listen(listener)
+    arm.change({"low": -1, "motors[0].vel": 1.5})
+    arm.set("low", -1)
+    assert [change.paths for change in told] == [("motors[0].vel", "low"), ("baudRate",)], "what is the same is no news"
+    assert (told[0].before.low, told[0].after.low) == (1, -1)
+    assert told[0].concerns("motors") and not told[1].concerns("low")
+
+
+def test_no_half_of_a_change_is_seen(arm: Any) -> None:
+    """Two parameters that always change together, read while they do."""
+    stop = threading.Event()
+
+    def keep_changing() -> None:
+        turn = 0
+        while not stop.is_set():
+            turn += 1
+            arm.change({"low": turn, "high": turn + 1})
+
+    thread = threading.Thread(target=keep_changing)
+    thread.start()
+    seen = [(now.low, now.high) for now in (arm.now for _ in range(2000))]
+    stop.set()
+    thread.join()
+    assert all(high == low + 1 for low, high in seen)
+
+
+def test_the_command_line_wins_even_over_rows() -> None:
+    arm = started(ARM, CONFIG, {"motors.0.vel": "1", "Arm.Device": "/dev/x", "low": "-7"})
+    assert (arm.motors[0].vel, arm.motors[1].vel, arm.low) == (1.0, 1.0, -7)
+    assert refused(lambda: started(ARM, CONFIG, {"motors.0.vel": "9"})) == [
+        "motors[0].vel is 9 rad/s, and must be from 0 to 2 rad/s"
+    ]
+
+
+def test_all_that_is_wrong_at_the_start_is_said_at_once() -> None:
+    config = {**CONFIG, "Arm.M0": "a,A", "basicPeriod": "0x10", "handler": "", "threshold": "1e0", "2d": "yes"}
+    assert refused(lambda: started(ARM, config)) == [
+        "handler is '', and must be one of Dunkermotoren, Faulhaber",
+        "basicPeriod must be a whole number (ms), and is '0x10'",
+        "threshold is 1e0, and must be at least 0 and below 1",
+        "motors[0] must be a mapping of name, id, invertedSign, min, max, vel, and is 'a,A'",
+        "2d must be true or false, and is 'yes'",
+    ]
+
+
+def test_references_to_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Resolved at the start; shown as references, even in errors."""
+    monkeypatch.setenv("ARM_TOKEN", "s3cret")
+    monkeypatch.setenv("ARM_PERIOD", "33")
+    config = {**CONFIG, "token": "${env:ARM_TOKEN}", "basicPeriod": "${env:ARM_PERIOD}"}
+    made = accessors.store(parameters(ARM)[0], config)
+    assert (made.values.token, made.values.basicPeriod) == ("s3cret", 33)
+    assert (made.entries()["token"].text, made.entries()["basicPeriod"].text) == ("${env:ARM_TOKEN}", "${env:ARM_PERIOD}")
+    made.change({"low": 0})
+    assert made.entries()["token"].text == "${env:ARM_TOKEN}"
+    monkeypatch.setenv("ARM_PERIOD", "s3cret")
+    assert refused(lambda: started(ARM, config)) == [
+        "basicPeriod must be a whole number (ms), and is ${env:ARM_PERIOD}"
+    ]
+    monkeypatch.delenv("ARM_PERIOD")
+    assert refused(lambda: started(ARM, config)) == [
+        "basicPeriod comes from the environment variable ARM_PERIOD, which is not set"
+    ]
+
+
+def test_texts_of_all_values_read_back(arm: Any) -> None:
+    """What getParameterList shows can be given to setParameterList as it is, or with changes."""
+    store = arm.__store__
+    store.change_texts({key: entry.text for key, entry in store.entries().items()})
+    store.change_texts({"motors.size": "1", "offsets.keys": "a%2Eb %", "offsets.a%2Eb": "1", "offsets.%": "2"})
+    assert len(arm.motors) == 1 and dict(arm.offsets) == {"a.b": 1.0, "": 2.0}
+    assert refused(lambda: store.change_texts({"low": "x", "nothing": "1"}))[0] == "there is no parameter 'nothing'"
+
+
+CONSTRAINTS = [
+    "low + 1 < high * 2 - 1 and not high % 2 == 0", "max(low, high) >= 2 or min(ids) > 0", "unique(ids)", "len(names) > 0",
+    "text in ['a', 'b'] or has(limit)", "low < limit", "has(limit) and limit > low", "not (limit < 3) or low == 1",
+    "all(p.x < limit for p in points)", "any(p.x == low for p in points if has(p.tag))", "points[low].x > 0",
+    "all(p.tag != 'bad' for p in points if p.tag != 'skip')", "sum(p.x for p in points) / low > 1.5",
+    "names['a'] == 2", "'a' in names", "all(k != 'b' for k in keys(names))", "sum(values(names)) < 9", "high / (low - 1) > 0",
+    "abs(-low) == low < high", "more[0] > 1", "len(more) > 2", "all(x > 0 for x in more)", "max(x for x in more) > 4",
+    "mode == 'fast' or class == 'a'", "min(limit, low) < 5", "unique(p.tag for p in points)",
+]
+SUBJECT = """\
+types:
+  Mode: {{enum: [slow, fast]}}
+  P: {{struct: {{x: double, tag: {{type: string, optional: true}}}}}}
+parameters:
+  low: int
+  high: int
+  limit: {{type: double, optional: true}}
+  ids: {{list: int}}
+  more: {{list: double, optional: true}}
+  names: {{map: long}}
+  points: {{list: P}}
+  text: string
+  mode: Mode
+  class: string
+constraints: [{that}]
+"""
+CASES: list[dict[str, Any]] = [
+    {"low": 1, "high": 2, "ids": [1, 2], "names": {"a": 2}, "points": [{"x": 1}, {"x": 2.5, "tag": "t"}], "text": "a",
+     "mode": "slow", "class": "a"},
+    {"low": 0, "high": -3, "ids": [], "names": {}, "points": [], "text": "c", "mode": "fast", "class": "", "limit": 2},
+    {"low": 5, "high": 7, "ids": [3, 3], "names": {"b": 9}, "points": [{"x": 5, "tag": "bad"}], "text": "", "mode": "slow",
+     "class": "", "limit": 4.5, "more": [4.5, -1]},
+    {"low": -1, "high": 1, "ids": [0], "names": {"a": 1}, "points": [{"x": 1, "tag": "skip"}, {"x": -1, "tag": "skip"}],
+     "text": "b", "mode": "fast", "class": "b", "more": []},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("that", CONSTRAINTS)
+def test_constraints_mean_what_the_checker_says(that: str) -> None:
+    """Whatever is left out, or divided by zero."""
+    made, faults = parameters(SUBJECT.format(that=repr(that).replace("\\'", "''")))
+    assert not faults
+    table = accessors.python(made).TABLE
+    from generated.runtime import composite  # type: ignore[import-not-found]
+    from generated.runtime.plain import Taking  # type: ignore[import-not-found]
+
+    kind = composite.Recording(table.values)
+    for data in CASES:
+        values = kind.take(data, (), Taking())
+        (constraint,) = table.constraints
+        assert constraint.holds(values) == evaluate.holds(made.constraints[0].expression, data), data
+
+
+AWKWARD = """\
+types:
+  Literal: {enum: [None_, mro]}
+  Values: {struct: {plain: bool, self: {type: string, pattern: '"[\\\\]+"'}, int: int}}
+  Record: {struct: {float: {type: float, default: 1}}}
+parameters:
+  composite: {list: Values, default: []}
+  set: {type: Literal, default: mro}
+  now: {map: Record, default: {}}
+  parameters: {group: {reading: {group: {from: {type: int, default: 1, doc: 'three \"\"\" of them'}}}}}
+  bool: {type: bool, default: true}
+  str: {type: string, default: "\\"\\\\' \\u00e9 \\x07"}
+constraints:
+  - {that: "all(p.self != 'x' for p in composite)", else: 'a "quoted" one'}
+"""
+
+
+def test_awkward_names_and_texts() -> None:
+    made, faults = parameters(AWKWARD)
+    assert not faults
+    text = python_parameters.text(made, "X", "x.pdsl.yaml")
+    ast.parse(text, feature_version=(3, 9))
+    assert max(map(len, text.splitlines())) <= 120
+    live = accessors.live(made, {"composite.0.int": "3", "composite.0.plain": "1", "composite.0.self": '"\\"'})
+    assert (live.composite_[0].int, live.set_, live.parameters.reading.from_, live.bool) == (3, "mro", 1, True)
+    assert live.str == "\"\\' \u00e9 \x07"
+    live.listen(print)
