@@ -2,6 +2,7 @@
 #include "worker.h"
 
 #include "errors.h"
+#include "shutdown.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -63,6 +64,11 @@ void Worker::wake()
 void Worker::turn()
 {
     compute();
+}
+
+void Worker::waitForEnd(Shutdown& shutdown)
+{
+    shutdown.wait();
 }
 
 void Worker::run()

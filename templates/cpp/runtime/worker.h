@@ -22,6 +22,8 @@ namespace runtime
 
 class Connections;
 class Services;
+class Settings;
+class Shutdown;
 
 /// The worker: what GenericWorker, and so the user's SpecificWorker, is built on.
 ///
@@ -84,6 +86,14 @@ protected:
 
 private:
     friend class Application;
+
+    // In the main thread: before the worker's thread begins, and then until the component stops.
+
+    virtual void prepare(const Settings& /*settings*/, bool /*onlyCheck*/)
+    {
+    }
+
+    virtual void waitForEnd(Shutdown& shutdown);
 
     /// Makes the proxies and offers the servants.
     virtual void connect(const Connections& connections, Services& services) = 0;
