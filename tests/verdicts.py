@@ -14,8 +14,8 @@ from robocomp_yaml.values.json_schema import EFFECTIVE, values_schema
 from robocomp_yaml.values.judge import judge
 from robocomp_yaml.values.normalize import cerberus_verdict
 from robocomp_yaml.values.spell_yaml import flow
-from tests import accessors
-from tests.parameters import tree
+import accessors
+from parameters import tree
 
 Judge = Callable[[Parameters, Any], bool]
 

@@ -26,6 +26,7 @@ def checks(program: Program) -> list[Check]:
     kinds = {
         "idsl": program.modules,
         "cdsl": program.components,
+        "machine": any(linked.machine for linked in program.components.values()),
         "pdsl": program.parameters or program.values,
     }
     return [check for kind, documents in kinds.items() if documents for check in checks_of(kind)]

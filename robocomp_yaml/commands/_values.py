@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 
 import click
 
-from robocomp_yaml.check import values as check
+from robocomp_yaml.check.pdsl import values as check
 from robocomp_yaml.commands import _options
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import values as codes

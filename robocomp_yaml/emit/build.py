@@ -10,7 +10,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
-from robocomp_yaml.diag.codes import cdsl, compiling, idsl
+from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.options import Options
@@ -88,7 +88,7 @@ class _State:
         for diagnostic in diagnostics:
             if diagnostic.severity == ERROR:
                 state.faulty.add(diagnostic.span.file)
-            elif diagnostic.code in (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id):
+            elif diagnostic.code in (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id, machines.UNREADABLE.id):
                 state.lowered.add(diagnostic.span.file)
         return state
 
@@ -135,6 +135,10 @@ def _usable(name: str, path: str, modules: Iterable[LinkedModule], state: _State
 
 def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> bool:
     component = linked.component
+    for file in linked.machine_files:
+        if file in state.faulty:
+            result.diagnostics.append(_unresolved(component.name, component.path, file, state))
+            return False
     if linked.broken and component.path not in state.faulty:
         result.diagnostics.append(_unresolved(component.name, component.path, component.path, state))
         return False
@@ -158,7 +162,7 @@ def _unresolved(name: str, path: str, cause: str, state: _State) -> Diagnostic:
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
-        "statemachine": component.statemachine, "gui": component.gui,
+        "gui": component.gui,
         "options": component.options, "compatibility": component.compatibility, "uses": component.has_uses,
     }  # fmt: skip
     for key, value in asked.items():

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan
-from robocomp_yaml.emit.ports import COMMON_BEHAVIOR, Endpoint, Ports, interface_key
-from robocomp_yaml.emit.properties import entry_line
-from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.emit.ports import Endpoint, Ports, interface_key
+from robocomp_yaml.source.properties import entry_line
+from robocomp_yaml.link.program import LinkedComponent
 
 DEFAULT_PERIOD = 100
 

@@ -17,9 +17,9 @@ from dataclasses import dataclass, field
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit import properties
+from robocomp_yaml.source import properties
 from robocomp_yaml.emit.plan import CONFIG
-from robocomp_yaml.emit.properties import Entry
+from robocomp_yaml.source.properties import Entry
 from robocomp_yaml.link.program import LinkedComponent, Port
 
 FIRST, COUNT = 10000, 20000

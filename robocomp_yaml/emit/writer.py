@@ -9,13 +9,14 @@ from dataclasses import replace
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit import atomic, changes, manifest, properties
+from robocomp_yaml.emit import atomic, changes, manifest
 from robocomp_yaml.emit.changes import Change, Changes, RootChanges
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, free_name
 from robocomp_yaml.emit.manifest import Entry, Manifest
 from robocomp_yaml.emit.places import Found
 from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan
 from robocomp_yaml.emit.wanted import WantedRoot, by_root
+from robocomp_yaml.source import properties
 from robocomp_yaml.source.digest import digest
 
 

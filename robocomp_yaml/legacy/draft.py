@@ -49,12 +49,30 @@ class ModuleNames:
     references: list[Reference] = field(default_factory=list)
 
 
+@dataclass(frozen=True, slots=True)
+class MachineDraft:
+    """The state machine that a component names: its path as the file spells it; `entry` is where the new one goes."""
+
+    path: str
+    span: Span
+    entry: Entry
+
+    @property
+    def document(self) -> str:
+        """The path of what it becomes."""
+        return re.sub(r"\.smdsl$", ".scxml", self.path, flags=re.IGNORECASE)
+
+
 @dataclass(slots=True)
 class Draft:
+    """`text` is the whole document where it is no YAML."""
+
     document: Map
     imports: list[ImportDraft]
     around: Notes
     module: ModuleNames | None = None
+    machine: MachineDraft | None = None
+    text: str = ""
 
 
 @dataclass(slots=True, eq=False)

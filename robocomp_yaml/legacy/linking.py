@@ -93,6 +93,22 @@ def _name(
     return spelled.get(stem.lower()) or beside.get(stem.lower())
 
 
+def name_machine(file: Converted, chosen: Mapping[str, str]) -> Iterable[Diagnostic]:
+    """Puts the path of a component's state machine into its document: that of what this run makes of it. Warns where
+    there will be nothing at that path."""
+    machine = file.draft.machine if file.draft is not None else None
+    if machine is None:
+        return
+    home = os.path.dirname(chosen[file.path])
+    legacy = os.path.normpath(os.path.join(os.path.dirname(file.path), machine.path))
+    migrated = next((document for path, document in chosen.items() if os.path.normpath(path) == legacy), None)
+    if migrated is not None:
+        machine.entry.value = os.path.relpath(migrated, home or ".")
+        return
+    if not os.path.isfile(os.path.join(home, machine.document)):
+        yield codes.STATE_MACHINE.at(machine.span, legacy=machine.path, path=machine.document)
+
+
 def not_searched(
     file: Converted, workspace: Workspace, chosen: Mapping[str, str], neighbours: Neighbours
 ) -> Iterable[tuple[str, Diagnostic]]:

@@ -12,7 +12,7 @@ from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.ledger import Entry
-from robocomp_yaml.legacy.linking import Neighbours, name_imports, not_searched, resolve_references
+from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
 from robocomp_yaml.legacy.result import Migration
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.link.workspace import Search
@@ -64,6 +64,7 @@ def _link(
     for file, entry in good:
         document = chosen[file.path]
         entry.diagnostics += name_imports(entry.file, document, known.of(document), neighbours)
+        entry.diagnostics += name_machine(entry.file, chosen)
     told: set[tuple[str, str]] = set()
     for file, entry in good:
         entry.diagnostics += resolve_references(entry.file, neighbours)
@@ -85,16 +86,13 @@ def _plan(
         document, rules, draft = chosen[file.path], entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
         home = known.of(document).root
-        body = yaml.text(draft.document, draft.around)
-        gap = "\n" if draft.around.head else ""
+        home_line = workspaces.modeline(document, home, rules.kind) + ("\n" if draft.around.head else "")
+        text = draft.text or home_line + yaml.text(draft.document, draft.around)
         root = run.root(file.root)
-        output = root.add(
-            os.path.relpath(document, file.root), workspaces.modeline(document, home, rules.kind) + gap + body,
-            force=force,
-        )
+        output = root.add(os.path.relpath(document, file.root), text, force=force)
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
-        if home in written:
+        if home in written and not draft.text:
             written[home].append((rules.kind, document))
     run.tell_failures()
     for folder in known.new:

@@ -21,6 +21,7 @@ class Rules:
     name: str
     title: str
     kind: str
+    document: str
     suffixes: tuple[str, ...]
     rank: int
     signature: re.Pattern[str]
@@ -58,6 +59,7 @@ def _rules(name: str) -> Rules:
         doc_strip=re.compile(doc["strip"], re.MULTILINE),
         doc_drop=doc["drop"],
         order=tuple(data.pop("order", ())),
+        document=data.pop("document", f".{data['kind']}.yaml"),
         **data,
     )
 

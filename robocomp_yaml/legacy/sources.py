@@ -140,11 +140,11 @@ def names(
     for file, rules in sorted(files, key=lambda item: (item[1].rank, item[0].path)):
         base = os.path.basename(file.path)
         stem, suffix = os.path.splitext(base)
-        short = file.document(f"{stem if suffix.lower() in rules.suffixes else base}.{rules.kind}.yaml")
-        own = short if short not in taken else file.document(f"{base}.{rules.kind}.yaml")
+        short = file.document(f"{stem if suffix.lower() in rules.suffixes else base}{rules.document}")
+        own = short if short not in taken else file.document(f"{base}{rules.document}")
         number = 2
         while own in taken:
-            own = file.document(f"{base}.{number}.{rules.kind}.yaml")
+            own = file.document(f"{base}.{number}{rules.document}")
             number += 1
         if own != short:
             said.append(codes.MEETING.at(Span(file.path), other=taken[short], path=short, own=own))

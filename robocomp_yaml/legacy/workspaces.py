@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from robocomp_yaml.diag.codes import cdsl, idsl
+from robocomp_yaml.diag.codes import cdsl, idsl, machines
 from robocomp_yaml.legacy.document import List, Map, Notes, text
 from robocomp_yaml.legacy.outputs import OutputRoot
 from robocomp_yaml.link import workspace as link_workspace
@@ -60,9 +60,9 @@ def file_text(root: str, documents: Iterable[tuple[str, str]]) -> str:
             if folder.isprintable():  # what is not UTF-8 cannot be said
                 listed.put(folder)
         document.put("interfaces", listed)
-    for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT):
+    for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT, machines.UNREADABLE):
         lint.put(row.id, "warning")
-    document.put("lint", lint, Notes(head=["Files that were not there to be migrated are imported still."]))
+    document.put("lint", lint, Notes(head=["Files that were not there to be migrated are named still."]))
     return modeline(os.path.join(root, WORKSPACE_FILE), root, "workspace") + text(document, Notes())
 
 

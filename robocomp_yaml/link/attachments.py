@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import pdsl as codes
@@ -17,6 +17,7 @@ from robocomp_yaml.link.parameters import of_no_document, resolve
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
+from robocomp_yaml.source.discover import kind_of
 
 SUFFIX = ".pdsl.yaml"
 _NAMES_COMPONENT = re.compile(rb"^component:[ \t]*[\"']?([^\"'#\r\n]+?)[\"']?[ \t]*(?:#.*)?\r?$", re.MULTILINE)
@@ -107,7 +108,7 @@ class Attachments:
     def _follow_layers(self, document: Document, model: ValuesDocument) -> Iterator[Document]:
         for layer in model.extends:
             path = os.path.normpath(os.path.join(os.path.dirname(document.path), str(layer.value)))
-            if not (path.endswith(".yaml") and os.path.isfile(path)):
+            if not (path.endswith(".yaml") and os.path.isfile(path) and kind_of(path) in ("config", None)):
                 hint = _similar(path, "config.yaml")
                 self.diagnostics.append(value_codes.NO_LAYER.at(layer.span, name=layer.value, hint=hint))
                 self.program.values[document.real].broken = True
@@ -125,7 +126,7 @@ class Attachments:
                 parameters, found = resolve(document.model)
                 self.diagnostics += found
                 self.program.parameters[document.real] = LinkedParameters(
-                    parameters, document.model, broken=has_errors(found)
+                    parameters, document.model, broken=_hides_types(found)
                 )
         self._join_layers()
 
@@ -147,7 +148,7 @@ class Attachments:
         elif isinstance(document, ParameterDocument):
             parameters, found = resolve(document, period)
             self.diagnostics += found
-            broken = has_errors(found)
+            broken = _hides_types(found)
             component.parameters = LinkedParameters(parameters, document, component, broken)
             component.broken = component.broken or broken
             self.program.parameters.setdefault(reals[0], component.parameters)
@@ -169,8 +170,8 @@ class Attachments:
                     linked.extends.append(values[other])
                     values[other].is_extended = True
         for linked in values.values():
-            for layer in reversed(linked.layers()):  # its own component, else that of the nearest layer
-                target = self._component_of.get(os.path.realpath(layer.document.path))
+            for base in reversed(linked.layers()):  # its own component, else that of the nearest layer
+                target = self._component_of.get(os.path.realpath(base.document.path))
                 if target is not None:
                     linked.parameters = self._parameters(target)
                     break
@@ -190,6 +191,11 @@ class Attachments:
                 seen.add(real)
                 todo += self._extends.get(real, ())
         return False
+
+
+def _hides_types(found: Iterable[Diagnostic]) -> bool:
+    """Whether some parameters have no usable type; a constraint that cannot be read harms no other."""
+    return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
 
 
 def _is(name: object, document: str, real: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from math import isfinite
+from typing import Any
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -53,7 +54,7 @@ def _range(type_: Type, node: Node, found: Found) -> Type:
         return _misfit("range", type_, node, found)
     ends = list(_ends(node))
     for _, _, scalar in ends:
-        if isinstance(scalar.data, str) or not isfinite(scalar.data):  # type: ignore[arg-type]
+        if not _is_number(scalar.data):
             problem = f"needs numbers, not '{scalar.lexeme}'"
             found.append(codes.LIMIT_MISFIT.at(scalar.span, key="range", problem=problem))
             return type_
@@ -97,6 +98,10 @@ def _ends(node: Node) -> Iterator[tuple[str, bool, Scalar]]:
         for key, (end, is_open) in _KEYS.items():
             if isinstance(scalar := node.get(key), Scalar):
                 yield end, is_open, scalar
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int) or (isinstance(value, float) and isfinite(value))
 
 
 _KEYS = {"from": ("low", False), "above": ("low", True), "to": ("high", False), "below": ("high", True)}
@@ -178,15 +183,15 @@ def _values(type_: Type, node: Node, found: Found) -> Type:
         if problem := _unreachable(type_, item, kept):
             found.append(codes.UNREACHABLE.at(item.span, problem=problem))
             continue
-        value = int(item.data) if type_.is_integer else item.data  # type: ignore[call-overload]
-        kept.append(Literal(value, item.lexeme, span=item.span))
+        value: Any = item.data
+        kept.append(Literal(int(value) if type_.is_integer else value, item.lexeme, span=item.span))
     return replace(type_, values=tuple(kept)) if kept else type_
 
 
 def _unreachable(type_: BasicType, item: Scalar, before: list[Literal]) -> str:
-    value = item.data
-    wanted = str if type_.name == "string" else int | float
-    if not isinstance(value, wanted) or (type_.is_integer and value != int(value)):  # type: ignore[call-overload]
+    value: Any = item.data
+    fits = isinstance(value, str) if type_.name == "string" else _is_number(value)
+    if not fits or (type_.is_integer and value != int(value)):
         return f"'{item.lexeme}' is not {kind_in_words(type_)}"
     if any(value == other.value for other in before):
         return f"'{item.lexeme}' stands twice"
@@ -235,7 +240,7 @@ def _size(type_: Type, node: Node, found: Found) -> Type:
     if not isinstance(type_, ListType | MapType):
         return _misfit("size", type_, node, found)
     data, old = node.data, type_.size
-    ends = data if isinstance(data, list) else [data, data]
+    ends: list[Any] = data if isinstance(data, list) else [data, data]
     if isinstance(data, dict):
         ends = [data.get("from", 0), data.get("to")]
     limits = [int(most) for most in (ends[1], old.most) if most is not None]

@@ -64,6 +64,7 @@ class Linker:
             attachments.join()
         for document, component in sorted(components, key=lambda pair: pair[0].path):
             self.diagnostics += link_ports(component, self._suggest_import(document))
+            self._read_machine(component)
         self.program.documents = len(self.documents.read)
         return self.program
 
@@ -86,6 +87,19 @@ class Linker:
                     self.diagnostics += diagnostics
                 self._by_folder[folder] = self.workspaces[real]
         return self._by_folder[folder]
+
+    def _read_machine(self, linked: LinkedComponent) -> None:
+        if linked.component.machine is not None or not linked.component.statemachine:
+            linked.machine = linked.component.machine
+            return
+        from robocomp_yaml.link.machines import MachineReader  # with XML, which few need
+
+        reader = MachineReader(self.documents.overlay, absent=self.search.absent)
+        linked.machine = reader.of(linked.component)
+        linked.machine_files = tuple(reader.contents)
+        linked.broken |= linked.machine is None
+        self.documents.contents.update(reader.contents)
+        self.diagnostics += reader.diagnostics
 
     def _imports(
         self, document: Document, imports: tuple[Import, ...], unresolved: set[str], codes: ModuleType

@@ -19,6 +19,7 @@ from robocomp_yaml.model.interface import (
 if TYPE_CHECKING:
     from robocomp_yaml.model.parameters import Parameters
     from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
+    from robocomp_yaml.model.statemachine import StateMachine
 
 Definition = Constant | TypeDefinition | ExceptionType | Interface
 
@@ -101,7 +102,7 @@ class LinkedParameters:
     document: ParameterDocument | None = None
     component: LinkedComponent | None = None
     broken: bool = False
-    compiled: dict[str, Any] = field(default_factory=dict)
+    compiled: dict[object, Any] = field(default_factory=dict)
 
 
 def _only_the_period() -> LinkedParameters:
@@ -134,7 +135,8 @@ class LinkedValues:
 
 @dataclass(eq=False, slots=True)
 class LinkedComponent:
-    """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled)."""
+    """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled). `machine` is
+    its state machine, from `machine_files` where it does not stand in the component's document."""
 
     component: Component
     imports: list[LinkedModule] = field(default_factory=list)
@@ -144,6 +146,8 @@ class LinkedComponent:
     subscribes: tuple[Port, ...] = ()
     broken: bool = False
     parameters: LinkedParameters = field(default_factory=_only_the_period)
+    machine: StateMachine | None = None
+    machine_files: tuple[str, ...] = ()
 
     @property
     def ports(self) -> Iterator[Port]:

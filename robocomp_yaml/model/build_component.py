@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text
 from robocomp_yaml.model.component import WAIT, Component, Gui, Language, Use
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.statemachine import StateMachine
 
 _SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 _DURATION = re.compile(r"(\d+(?:\.\d*)?|\.\d+)\s*(us|ms|s|min|h)")
@@ -28,15 +32,23 @@ def build(root: Mapping, path: str) -> Component:
         subscribes=tuple(_uses(root, "subscribes")),
         parameters=text(root, "parameters"),
         period=None if period is None else round(period * 1000),
-        statemachine="<inline>" if isinstance(machine, Mapping) else text(root, "statemachine"),
+        statemachine=text(root, "statemachine"),
+        machine=_machine(machine, text(root, "component"), path) if isinstance(machine, Mapping) else None,
         gui=_gui(root.get("gui")),
         options=tuple(item.lexeme for item in items(root, "options") if isinstance(item, Scalar)),
         compatibility=text(root, "compatibility"),
         has_uses=root.get("uses") is not None,
         doc=doc(root),
+        machine_span=span_of(root, "statemachine"),
         span=span_of(root, "component"),
         parameters_span=span_of(root, "parameters"),
     )
+
+
+def _machine(node: Mapping, name: str, path: str) -> StateMachine:
+    from robocomp_yaml.model.build_statemachine import build as build_machine  # few components have a machine
+
+    return build_machine(node, name, path)
 
 
 def seconds(node: Node | None) -> float | None:

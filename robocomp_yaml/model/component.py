@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Import, _span
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.statemachine import StateMachine
 
 WAIT, FAIL, IGNORE = "wait", "fail", "ignore"
 
@@ -46,8 +50,8 @@ class Gui:
 
 @dataclass(frozen=True, slots=True)
 class Component:
-    """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written
-    (`statemachine` is '<inline>' where the machine stands in the document), or ''."""
+    """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written,
+    or ''; `machine` is the state machine that stands in the document."""
 
     name: str
     path: str
@@ -60,10 +64,12 @@ class Component:
     parameters: str = ""
     period: int | None = None
     statemachine: str = ""
+    machine: StateMachine | None = None
     gui: Gui | None = None
     options: tuple[str, ...] = ()
     compatibility: str = ""
     has_uses: bool = False
     doc: str = ""
+    machine_span: Span = _span()
     span: Span = _span()
     parameters_span: Span = _span()

@@ -67,7 +67,9 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
             closed: list[OSError] = []
             below = list(documents_below(path, found.roots, closed.append))
             found.diagnostics += [
-                codes.UNREADABLE.at(Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower())
+                codes.UNREADABLE.at(
+                    Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower()
+                )
                 for error in closed
             ]
             if not below and not closed:

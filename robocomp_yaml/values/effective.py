@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,16 +48,32 @@ def effective(values: LinkedValues) -> tuple[Effective | None, list[Diagnostic]]
     data = data_of(place, root)
     layers = values.layers()
     # A single layer that is effective as it stands is right as a layer, too: one look is enough.
-    is_right = len(layers) == 1 and fits(linked, EFFECTIVE, values.document.root.data.get("parameters"))
+    is_right = len(layers) == 1 and fits(linked, EFFECTIVE, _own_data(values))
     found = [] if is_right else [fault for layer in layers for fault in _layer_faults(layer, linked)]
+    if not is_right and not values.broken and not fits(linked, EFFECTIVE, data):
+        found += _not_misspelled(found, _incomplete(root, place, (), _head(values)))
     if found or linked.broken or values.broken:
         return None, found
-    if not is_right and not fits(linked, EFFECTIVE, data):
-        return None, list(_incomplete(root, place, (), _head(values)))
     # All judges agree (a test sees to it); were Cerberus ever to differ, the schema's verdict stands.
     complete = normalized(linked, data) or evaluate.with_defaults(root, data)
     found = list(_broken_constraints(linked.parameters, complete, place, _head(values)))
     return (None if found else Effective(complete, place, linked.parameters)), found
+
+
+def _not_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """What is missing, but for what stands there misspelled: that is one cause, not two."""
+    meant = set()
+    for fault in found:
+        if fault.code == codes.UNKNOWN_PARAMETER.id and fault.hint.startswith("did you mean"):
+            around = fault.message.split("'")[1].rpartition(".")[0]
+            name = fault.hint.split("'")[1]
+            meant.add(f"{around}.{name}" if around else name)
+    return [fault for fault in missing_ones if fault.message.partition(" ")[0] not in meant]
+
+
+def _own_data(values: LinkedValues) -> object:
+    entry = values.document.root.entries.get("parameters")
+    return entry[1].data if entry is not None else None
 
 
 def _layer_faults(layer: LinkedValues, linked: LinkedParameters) -> list[Diagnostic]:

@@ -62,12 +62,12 @@ def shown(node: Node) -> str:
     return f"the text '{text}'" if isinstance(node.data, str) else text
 
 
-def _at(code: Code, node: Node, key: Scalar | None, **facts: object) -> Diagnostic:
+def _at(code: Code, node: Node, key: Scalar | None, *, hint: str = "", **facts: str) -> Diagnostic:
     """At the value; at its key where the value is empty or fills many lines."""
     span = node.span
     empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
-    hint = str(facts.pop("hint", ""))
-    return code.at(key.span if key is not None and (empty or span.line != span.end_line) else span, hint=hint, **facts)
+    at_key = key is not None and (empty or span.line != span.end_line)
+    return code.at(key.span if key is not None and at_key else span, hint=hint, related=(), more="", **facts)
 
 
 def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:

@@ -143,7 +143,7 @@ def _separated(spelling: Spelling, type_: ListType, holes: tuple[str, ...]) -> s
 def exact_keys(parameters: Parameters) -> Iterator[tuple[str, str, bool]]:
     """Each property that a parameter always has: (path, property, whether it is spelled by the table). For a list or
     map by its path it is the stem; rows have only their count."""
-    for path, member in leaves(parameters.root):
+    for path, _ in leaves(parameters.root):
         spelling = parameters.spelling(path)
         if spelling is None:
             yield path, path, False

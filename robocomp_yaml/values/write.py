@@ -241,8 +241,8 @@ class Writer:
             text = self.text(type_, item[name], self.here(record, where, name), (*path, name)) if name in item else ""
             if text is None:
                 return None
-            member = record.member(name)
-            if name in item and text == "" and member is not None and member.optional:
+            column = record.member(name)
+            if name in item and text == "" and column is not None and column.optional:
                 self.fault(step(where, name), (*path, name), _EMPTY_OPTIONAL)
                 return None
             texts[name] = text

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from robocomp_yaml.emit import properties
+from robocomp_yaml.source import properties
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")
 

@@ -14,8 +14,8 @@ from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties
 from robocomp_yaml.values.read import properties_to_values
-from tests import accessors
-from tests.parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
+import accessors
+from parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")
 RELAXED = settings(

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from robocomp_yaml.values import evaluate
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.normalize import cerberus_verdict, normalized
-from tests.parameters import Data, documents, linked, mutated, values
-from tests.verdicts import JUDGES
+from parameters import Data, documents, linked, mutated, values
+from verdicts import JUDGES
 
 RELAXED = settings(
     max_examples=200, deadline=None, suppress_health_check=list(HealthCheck),

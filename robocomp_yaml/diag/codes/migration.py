@@ -126,7 +126,8 @@ MIDDLEWARE = Code(
 )  # fmt: skip
 STATE_MACHINE = Code(
     "RC5019", WARNING, "the state machine '{legacy}' is not migrated with the component; it has to be at '{path}'",
-    "A component's document names its state machine as an SCXML file beside it.",
+    "A component's document names its state machine as an SCXML file. An `.smdsl` file of the same run becomes one; "
+    "any other has to be put there.",
     _cdsl("language python;", 'language python;\n    statemachine "speech.smdsl";'), _BOTH, _MIGRATE,
 )  # fmt: skip
 MEETING = Code(

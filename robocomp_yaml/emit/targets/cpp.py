@@ -12,8 +12,9 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import cpp_parameters
+from robocomp_yaml.emit.targets import cpp_parameters, cpp_statemachine
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.emit.targets.cpp_statemachine import MachineView
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
@@ -53,14 +54,18 @@ class View:
     libraries: str
     slice_stems: str
     sources: list[str]
+    machine: MachineView | None
+    base: str
 
 
 def plan(component: LinkedComponent) -> list[FilePlan]:
     """The component's files but for `slice/` and `etc/`."""
-    view = _view(component)
+    machine = cpp_statemachine.files(component)
+    view = _view(component, machine)
     return [
         *_runtime(_unused(component)),
         *cpp_parameters.plan(component),
+        *machine,
         *(
             FilePlan(f"generated/{name}", render(f"cpp/{name}.j2", view))
             for name in ("interfaces.h", "genericworker.h", "genericworker.cpp", "main.cpp", "component.cmake")
@@ -88,7 +93,7 @@ def _runtime(unused: frozenset[str]) -> tuple[FilePlan, ...]:
     )
 
 
-def _view(linked: LinkedComponent) -> View:
+def _view(linked: LinkedComponent, machine: list[FilePlan]) -> View:
     component = linked.component
     ports = Ports(linked)
     has_topics = bool(ports.publishes or ports.subscribes)
@@ -99,7 +104,7 @@ def _view(linked: LinkedComponent) -> View:
     doc = f"{component.name}: {component.doc}" if component.doc else component.name
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if has_services else "/*services*/"
-    runtime = [file.path.removeprefix("generated/") for file in _runtime(_unused(linked)) if file.path.endswith(".cpp")]
+    copied = [file.path.removeprefix("generated/") for file in (*_runtime(_unused(linked)), *machine)]
     ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
@@ -121,5 +126,7 @@ def _view(linked: LinkedComponent) -> View:
         ice_components=" ".join(ice),
         libraries=" ".join(f"Ice::{name}" for name in ice),
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
-        sources=["genericworker.cpp", "parameters.cpp", *runtime],
+        sources=["genericworker.cpp", "parameters.cpp", *(path for path in copied if path.endswith(".cpp"))],
+        machine=cpp_statemachine.view(linked.machine) if linked.machine else None,
+        base="machine::Worker" if linked.machine else "runtime::Worker",
     )

@@ -15,9 +15,10 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import python_parameters
+from robocomp_yaml.emit.targets import python_parameters, python_statemachine
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
+from robocomp_yaml.emit.targets.python_statemachine import MachineView
 from robocomp_yaml.emit.targets.python_stubs import ModuleStub, stub
 from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.emit.targets.slice import file_name
@@ -63,6 +64,8 @@ class View:
     requires: list[AccessorView]
     publishes: list[AccessorView]
     accessors: list[AccessorView]
+    machine: MachineView | None
+    base: str
     imports: str = ""
 
 
@@ -77,6 +80,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     stubs = [*signatures, *(method.value for method in methods)]
     return [
         *_runtime(),
+        *python_statemachine.files(component),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
         FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
         python_parameters.plan(component),
@@ -130,6 +134,8 @@ def _view(linked: LinkedComponent) -> View:
         requires=ports.requires,
         publishes=ports.publishes,
         accessors=[*ports.requires, *ports.publishes],
+        machine=python_statemachine.view(linked.machine) if linked.machine else None,
+        base="MachineWorker" if linked.machine else "Worker",
     )
 
 

@@ -22,8 +22,9 @@ WORKER_ATTRIBUTES = frozenset(
 
 # Names that stand in the generated files beside the Slice modules.
 _TAKEN = frozenset(
-    "COMPONENT Component Context GenericWorker Implemented Method Parameters Published Required SpecificWorker "
-    "Subscribed Worker annotations bool bytes dict float int list load main str super tuple".split()
+    "COMPONENT Component Context Events GenericWorker Implemented MACHINE MODELS MachineWorker Method Parameters "
+    "Published Required SpecificWorker Subscribed "
+    "Worker annotations bool bytes dict float int list load main str super tuple".split()
 )
 
 

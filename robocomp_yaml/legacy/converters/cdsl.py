@@ -10,7 +10,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
-from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.draft import Draft, MachineDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
 
 LISTS = ("implements", "requires", "publishes", "subscribesto")
@@ -28,6 +28,7 @@ class _Converter:
         self.reader = reader
         self.entries: dict[str, Entry] = {}
         self.seen: dict[str, Tree[Token]] = {}
+        self.machine: MachineDraft | None = None
 
     def document(self, tree: Tree[Token], component: Tree[Token]) -> Draft:
         reader, notes = self.reader, self.reader.notes(component)
@@ -53,7 +54,7 @@ class _Converter:
         around = reader.placed.around
         rest = [words(node) for node in trees(tree, "lenient_rest")]
         around.foot[:0] = [*notes.foot, *rest]
-        return Draft(document, imports, around)
+        return Draft(document, imports, around, machine=self.machine)
 
     def _once(self, clause: Tree[Token]) -> None:
         """A clause stands at most once; of two, nobody knows which one holds."""
@@ -154,9 +155,9 @@ class _Converter:
         literal = token(clause, "STRING")
         assert literal is not None
         legacy = literal[1:-1].strip()
-        path = legacy[: -len(".smdsl")] + ".scxml" if legacy.lower().endswith(".smdsl") else legacy
-        self._put("statemachine", path, self.reader.notes(clause))
-        self.reader.diagnostics.append(codes.STATE_MACHINE.at(self.reader.span(literal), legacy=legacy, path=path))
+        entry = self._put("statemachine", legacy, self.reader.notes(clause))
+        self.machine = MachineDraft(legacy, self.reader.span(literal), entry)
+        entry.value = self.machine.document
         visual = token(clause, "VISUAL")
         if visual is not None:
             self._no_place(clause, "visual", "true")

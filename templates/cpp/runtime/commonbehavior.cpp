@@ -5,6 +5,10 @@
 #include "log.h"
 #include "worker.h"
 
+#include <Ice/Communicator.h>
+#include <Ice/ObjectAdapter.h>
+#include <Ice/Properties.h>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -14,6 +18,17 @@ namespace runtime
 
 using RoboCompCommonBehavior::ParameterList;
 using RoboCompCommonBehavior::State;
+
+namespace
+{
+
+/// What the component says of itself while it runs: the states of its state machine, if it has one.
+Ice::PropertyDict liveProperties(const Ice::Current& current)
+{
+    return current.adapter->getCommunicator()->getProperties()->getPropertiesForPrefix("statemachine.");
+}
+
+}
 
 CommonBehavior::CommonBehavior(
     Worker& worker, Store& store, const CommandLine& commandLine, const Log& log, Shutdown& shutdown)
@@ -57,9 +72,13 @@ void CommonBehavior::killYourSelf(const Ice::Current&)
     shutdown_.request();
 }
 
-ParameterList CommonBehavior::getParameterList(const Ice::Current&)
+ParameterList CommonBehavior::getParameterList(const Ice::Current& current)
 {
     ParameterList result;
+    for (const auto& [key, text] : liveProperties(current))
+    {
+        result[key] = {false, text, "string"};
+    }
     for (const auto& [key, text] : store_.others())
     {
         result[key] = {false, text, "string"};
@@ -71,8 +90,9 @@ ParameterList CommonBehavior::getParameterList(const Ice::Current&)
     return result;
 }
 
-void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Current&)
+void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Current& current)
 {
+    const auto live = liveProperties(current);
     const auto others = store_.others();
     const auto before = store_.entries();
     Texts changes;
@@ -82,7 +102,7 @@ void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Curre
         const auto entry = before.find(key);
         const bool isSame = entry != before.end() ? entry->second.text == parameter.value
                                                   : other != others.end() && other->second == parameter.value;
-        if (!isSame)
+        if (!isSame && live.count(key) == 0)
         {
             changes[key] = parameter.value;
         }

@@ -35,10 +35,10 @@ public:
     void killYourSelf(const Ice::Current&) override;
 
     /// The parameters by their dotted paths; and the other properties, which nobody can change.
-    RoboCompCommonBehavior::ParameterList getParameterList(const Ice::Current&) override;
+    RoboCompCommonBehavior::ParameterList getParameterList(const Ice::Current& current) override;
 
     /// All of them, or none: then the log says why.
-    void setParameterList(RoboCompCommonBehavior::ParameterList parameters, const Ice::Current&) override;
+    void setParameterList(RoboCompCommonBehavior::ParameterList parameters, const Ice::Current& current) override;
 
     /// Reads the config again: all that it changes takes effect, or nothing does and the log says why.
     void reloadConfig(const Ice::Current&) override;

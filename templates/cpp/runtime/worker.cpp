@@ -3,6 +3,7 @@
 
 #include "errors.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace runtime
@@ -49,14 +50,29 @@ void Worker::killYourSelf()
     }
 }
 
+void Worker::wake()
+{
+    {
+        const std::lock_guard lock(stateMutex_);
+        woken_ = true;
+    }
+    stateChanged_.notify_all();
+}
+
+void Worker::turn()
+{
+    compute();
+}
+
 void Worker::run()
 {
+    begin();
     lastTurn_ = Clock::now();
     while (waitForTurn())
     {
         try
         {
-            compute();
+            turn();
         }
         catch (const std::exception& problem)
         {
@@ -67,6 +83,7 @@ void Worker::run()
             log.error("compute() failed");
         }
     }
+    end();
 }
 
 /// A turn that came late does not move those after it; turns that were missed altogether are left out.
@@ -75,7 +92,15 @@ bool Worker::waitForTurn()
     std::unique_lock lock(stateMutex_);
     while (!stopping_ && Clock::now() < lastTurn_ + period_)
     {
-        stateChanged_.wait_until(lock, lastTurn_ + period_);
+        woken_ = false;
+        lock.unlock();
+        const auto pause = between();
+        lock.lock();
+        const auto next = lastTurn_ + period_;
+        if (!stopping_ && !woken_)
+        {
+            stateChanged_.wait_until(lock, pause ? std::min(next, Clock::now() + *pause) : next);
+        }
     }
     lastTurn_ += (Clock::now() - lastTurn_) / period_ * period_;
     return !stopping_;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace Ice
@@ -61,6 +62,27 @@ protected:
     /// What the generated accessors read and change.
     Store& parameterStore();
 
+    /// There is something to do before the next turn.
+    void wake();
+
+    // What else there is to do in the worker's thread: before the first turn, whenever it wakes up between two turns
+    // (and in what time it is to do so again), in a turn, after the last one.
+
+    virtual void begin()
+    {
+    }
+
+    virtual std::optional<std::chrono::steady_clock::duration> between()
+    {
+        return std::nullopt;
+    }
+
+    virtual void turn();
+
+    virtual void end()
+    {
+    }
+
 private:
     friend class Application;
 
@@ -80,6 +102,7 @@ private:
     std::chrono::milliseconds period_;
     std::chrono::steady_clock::time_point lastTurn_;
     bool stopping_ = false;
+    bool woken_ = false;
     Store store_;
     std::function<void()> requestShutdown_;
 };

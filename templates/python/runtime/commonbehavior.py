@@ -62,13 +62,15 @@ class Behavior:
         listed = {key: parameter(False, text, "string") for key, text in sorted(self._store.unread.items())}
         for key, entry in self._store.entries().items():
             listed[key] = parameter(entry.is_editable, entry.text, entry.type)
-        return listed
+        return listed | {key: parameter(False, text, "string") for key, text in _live(current).items()}
 
     def setParameterList(self, parameters: dict[str, Any], current: Ice.Current) -> None:
         """All of them, or none: then the log says why."""
+        live = _live(current)
         before = self._store.entries()
         known = {**self._store.unread, **{key: entry.text for key, entry in before.items()}}
-        changes = {key: given.value for key, given in parameters.items() if known.get(key) != given.value}
+        given = {key: parameter.value for key, parameter in parameters.items() if key not in live}
+        changes = {key: value for key, value in given.items() if known.get(key) != value}
         try:
             self._store.change_texts(changes)
         except ParameterError as error:
@@ -91,6 +93,12 @@ class Behavior:
     def getState(self, current: Ice.Current) -> Any:
         states = self._component.behavior.State
         return states.Running if self.is_running else states.Starting
+
+
+def _live(current: Ice.Current) -> dict[str, str]:
+    """What the component says of itself while it runs: the states of its state machine, if it has one."""
+    properties = current.adapter.getCommunicator().getProperties()
+    return dict(properties.getPropertiesForPrefix("statemachine."))
 
 
 def servant(

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
 
 from generated.runtime.stopping import Stopping
 
@@ -33,17 +34,23 @@ class Schedule:
         """The next turn is one period from now."""
         self._last = time.monotonic()
 
-    def wait(self) -> bool:
-        """Until the next turn; False when the component stops.
+    def wake(self) -> None:
+        """There is something to do before the next turn."""
+        self._wake_up.set()
+
+    def wait(self, between: Callable[[], float | None]) -> bool:
+        """Until the next turn; False when the component stops. Whenever it wakes up, it calls `between`, which says in
+        how many seconds it wants to be called again.
 
         A turn that came late does not move those after it; turns that were missed altogether are left out.
         """
         while not self._stopping.is_requested():
+            pause = between()
             period = self._period / 1000
             late = time.monotonic() - self._last - period
             if late >= 0:
                 self._last += period * (1 + int(late / period))
                 return True
-            self._wake_up.wait(-late)
+            self._wake_up.wait(-late if pause is None else min(-late, pause))
             self._wake_up.clear()
         return False

@@ -62,12 +62,29 @@ class Worker:
         """Stops the component in order."""
         self._stopping.request()
 
+    # What else there is to do in the worker's thread: before the first turn, whenever it wakes up between two turns
+    # (and in how many seconds it is to do so again), in a turn, after the last one.
+
+    def _begin(self) -> None:
+        pass
+
+    def _between(self) -> float | None:
+        return None
+
+    def _turn(self) -> None:
+        self.compute()
+
+    def _end(self) -> None:
+        pass
+
 
 def run(worker: Worker, schedule: Schedule) -> None:
     """Calls `compute()` until the component stops. An exception in there is logged, and the next turn comes."""
+    worker._begin()
     schedule.restart()
-    while schedule.wait():
+    while schedule.wait(worker._between):
         try:
-            worker.compute()
+            worker._turn()
         except Exception:
             worker.log.exception("compute() failed")
+    worker._end()

@@ -7,10 +7,11 @@ from pathlib import Path
 import pytest
 from talk import component, workspace
 
-from robocomp_yaml.emit import config, ports, properties
+from robocomp_yaml.emit import config, ports
 from robocomp_yaml.emit.plan import ONCE
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.pipeline import analyse
+from robocomp_yaml.source import properties
 
 @pytest.fixture(autouse=True)
 def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -123,8 +123,6 @@ def test_lists_keep_order_and_multiplicity(tmp_path: Path, listed: str, written:
      ["1:29 'qt4' means nothing any more; it is kept as `x-legacy-use-qt`"]),
     ("Component C { Communications { requires A(ros); }; language cpp; };",
      ["1:41 'A' is to speak ROS, but components speak Ice; kept as `x-middleware: ros`"]),
-    ('Component C { language cpp; statemachine "c.scxml"; };',
-     ["1:42 the state machine 'c.scxml' is not migrated with the component; it has to be at 'c.scxml'"]),
     ("Component C { language cpp; ; };", ["1:29 a ';' too many is left out"]),
 ])  # fmt: skip
 def test_faults_of_real_files_are_repaired(tmp_path: Path, source: str, said: list[str]) -> None:

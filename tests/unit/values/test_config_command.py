@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from tests.conftest import write_tree
+from conftest import write_tree
 
 PDSL = """\
 component: speech.cdsl.yaml

@@ -10,7 +10,7 @@ import pytest
 from click.testing import Result
 
 from robocomp_yaml.source import properties
-from tests.conftest import ROOT
+from conftest import ROOT
 
 PAPER = {
     "JointMotor.NumMotors": "2", "JointMotor.Handler": "Dunkermotoren", "JointMotor.Device": "/dev/ttyUSB0",

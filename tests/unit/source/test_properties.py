@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from robocomp_yaml.emit import properties
+from robocomp_yaml.source import properties
 
 
 def test_entries_have_their_place_and_the_last_one_counts() -> None:

@@ -1,0 +1,184 @@
+"""State machines: states that nothing leads to, circles without an end, events that are lost or never come."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import machines as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.program import Program
+from robocomp_yaml.model.machine_index import MachineIndex, matches
+from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
+
+_PLATFORM = ("done.", "error", "*", ".*")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    for linked in program.components.values():
+        if linked.machine is not None and linked.machine.root.states:
+            yield from _of(linked.machine)
+
+
+def _of(machine: StateMachine) -> Iterator[Diagnostic]:
+    index = MachineIndex(machine)
+    yield from _unreachable(index)
+    yield from _endless(index)
+    yield from _unheard(index)
+    yield from _never_sent(index)
+    for invoked in index.invoked():
+        if invoked.root.states:
+            yield from _of(invoked)
+
+
+def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
+    """The outermost ones. Not told where a name is wrong: then everything behind it would be."""
+    if index.machine.strays or any(
+        target.text not in index.by_id
+        for state in index.states
+        for transition in (*state.transitions, *((state.initial,) if state.initial else ()))
+        for target in transition.targets
+    ):
+        return
+    reached: set[int] = set()
+    todo = [index.machine.root]
+    while todo:
+        state = todo.pop()
+        if id(state) in reached:
+            continue
+        reached.add(id(state))
+        if state.kind == HISTORY:
+            todo += index.targets(state.initial) if state.initial else index.defaults(index.parents[id(state)])
+            continue
+        around = index.ancestors(state)
+        todo += around
+        for parent in around:
+            if parent.kind == PARALLEL:
+                todo += index.defaults(parent)
+        todo += index.defaults(state) if not _entered_inside(index, state, reached) else []
+        for transition in state.transitions:
+            todo += index.targets(transition)
+    for state in index.machine.states:
+        lost = id(state) not in reached
+        if lost and state.kind != HISTORY and id(index.parents[id(state)]) in reached:
+            yield codes.UNREACHABLE.at(state.span, id=state.id or "(without a name)")
+
+
+def _entered_inside(index: MachineIndex, state: State, reached: set[int]) -> bool:
+    """Whether a state has been reached only because one in it was: then its initial state need not be."""
+    return any(id(child) in reached for child in state.states) and not any(
+        state in index.targets(transition) for _, transition in index.transitions()
+    )
+
+
+def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
+    """Transitions that are taken at once, and lead back to where they came from."""
+    told: set[int] = set()
+    for start in index.machine.states:
+        path: list[State] = []
+        state: State | None = start
+        while state is not None and state not in path and id(state) not in told:
+            path.append(state)
+            state = _at_once(index, state)
+        if state is not None and state in path:
+            circle = path[path.index(state) :]
+            told |= {id(member) for member in circle}
+            place = next(t.span for s in _sources(index, state) for t in s.transitions if not t.events)
+            names = " → ".join(member.id or "(without a name)" for member in (*circle, state))
+            yield codes.ENDLESS.at(place, circle=names, hint="give one of the transitions an event or a condition")
+
+
+def _sources(index: MachineIndex, state: State) -> list[State]:
+    return [state, *index.ancestors(state)]
+
+
+def _at_once(index: MachineIndex, state: State) -> State | None:
+    """Where the machine goes from an atomic state whatever happens; None where that depends, or it stays."""
+    while state.states:
+        inner = index.defaults(state)
+        if state.kind == PARALLEL or len(inner) != 1 or inner[0].kind == HISTORY:
+            return None
+        state = inner[0]
+    ancestors = _sources(index, state)
+    if any(ancestor.kind == PARALLEL for ancestor in ancestors):
+        return None
+    transition = next((t for source in ancestors for t in source.transitions if not t.events), None)
+    if transition is None or transition.condition is not None:
+        return None
+    found = index.targets(transition) if transition.targets else [state]
+    return found[0] if len(found) == 1 and found[0].kind != HISTORY else None
+
+
+def _sent(machine: StateMachine) -> tuple[list[Text], bool]:
+    """The events that a machine and those it invokes raise and send, and whether these are all."""
+    index = MachineIndex(machine)
+    found, complete = [], True
+    for action in index.actions():
+        if isinstance(action, Raise):
+            found.append(action.event)
+        elif isinstance(action, Send):
+            complete &= action.event.expr is None
+            if action.event.literal:
+                found.append(Text(action.event.literal, action.event.span))
+    complete &= all(invoke.source.expr is None for invoke in index.invokes())
+    for invoked in index.invoked():
+        inner, inner_complete = _sent(invoked)
+        found += inner
+        complete &= inner_complete
+    return found, complete
+
+
+def _unheard(index: MachineIndex) -> Iterator[Diagnostic]:
+    """What the machine sends to itself, and no transition waits for."""
+    heard = [event.text for _, transition in index.transitions() for event in transition.events]
+    for action in index.actions():
+        if isinstance(action, Raise):
+            event = action.event
+        elif isinstance(action, Send) and action.event.literal and _to_itself(action):
+            event = Text(action.event.literal, action.event.span)
+        else:
+            continue
+        if not any(matches(descriptor, event.text) for descriptor in heard):
+            close = suggest(event.text, [descriptor for descriptor in heard if not descriptor.startswith(_PLATFORM)])
+            hint = f"did you mean '{close}'?" if close else ""
+            yield codes.UNHEARD.at(event.span, event=event.text, hint=hint)
+
+
+def _to_itself(send: Send) -> bool:
+    return send.target.expr is None and send.target.literal in (None, "", "#_internal")
+
+
+def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
+    sent, complete = _sent(index.machine)
+    fired = [event.text for event in index.machine.events]
+    known = [*fired, *(event.text for event in sent)]
+    for _, transition in index.transitions():
+        for event in transition.events:
+            if event.text.startswith(_PLATFORM):
+                yield from _platform(index, transition, event)
+            elif fired and complete and not any(matches(event.text, one) for one in known):
+                close = suggest(event.text, known)
+                yield codes.NEVER_SENT.at(
+                    event.span, event=event.text, why="", hint=f"did you mean '{close}'?" if close else
+                    "list it under `events:`, for the component's code to fire it",
+                )  # fmt: skip
+
+
+def _platform(index: MachineIndex, transition: Transition, event: Text) -> Iterator[Diagnostic]:
+    kind, _, rest = event.text.removesuffix(".*").partition(".")
+    what, _, name = rest.partition(".")
+    if kind != "done" or not name:
+        return
+    if what == "state":
+        state = index.by_id.get(name)
+        if state is None:
+            close = suggest(name, index.by_id)
+            hint = f"did you mean 'done.state.{close}'?" if close else ""
+            yield codes.NEVER_SENT.at(event.span, event=event.text, why=f": there is no state '{name}'", hint=hint)
+        elif not index.can_be_done(state):
+            why = f": '{name}' has no final state in " + ("each of its parts" if state.kind == PARALLEL else "it")
+            yield codes.NEVER_SENT.at(event.span, event=event.text, why=why)
+    elif what == "invoke":
+        invokes = list(index.invokes())
+        if all(invoke.id and not matches(name, invoke.id) for invoke in invokes):
+            yield codes.NEVER_SENT.at(event.span, event=event.text, why=": nothing is invoked under this name")

@@ -1,0 +1,83 @@
+"""State machines: what states, events, guards and actions are called in code."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import machines as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.link.program import Program
+from robocomp_yaml.model import machine_names as names
+from robocomp_yaml.model.machine_index import MachineIndex
+from robocomp_yaml.model.statemachine import Raise, Send, StateMachine, Text
+
+_EVENT = re.compile(r"(?!__)[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
+_CPP = frozenset(
+    "alignas alignof and_eq asm auto bitand bitor bool case catch char compl concept const consteval constexpr "
+    "constinit const_cast co_await co_return co_yield decltype default delete do double dynamic_cast enum explicit "
+    "export extern false float friend goto inline int long mutable namespace new noexcept not_eq nullptr operator "
+    "private protected public register reinterpret_cast requires short signed sizeof static static_assert "
+    "static_cast struct switch template this thread_local throw true typedef typeid typename union unsigned using "
+    "virtual void volatile wchar_t xor xor_eq".split()
+)
+_WORKERS = frozenset(
+    "communicator compute events getPeriod initialize killYourSelf log mutex self setPeriod statemachine worker".split()
+)
+_RESERVED = _CPP | _WORKERS | frozenset(keyword.kwlist)
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    for linked in program.components.values():
+        if linked.machine is not None:
+            yield from _events(linked.machine)
+            yield from _in_code(linked.machine)
+
+
+def _events(machine: StateMachine) -> Iterator[Diagnostic]:
+    """Names that are none; a transition's may end in `.*` or be `*`."""
+    index = MachineIndex(machine)
+    for _, transition in index.transitions():
+        for event in transition.events:
+            plain = event.text.removesuffix(".*").removesuffix(".")
+            if event.text not in ("*", ".*") and not _EVENT.fullmatch(plain):
+                yield codes.EVENT_NAME.at(event.span, event=event.text)
+    said = list(machine.events)
+    for action in index.actions():
+        if isinstance(action, Raise):
+            said.append(action.event)
+        elif isinstance(action, Send) and action.event.literal:
+            said.append(Text(action.event.literal, action.event.span))
+    for event in said:
+        if not _EVENT.fullmatch(event.text):
+            yield codes.EVENT_NAME.at(event.span, event=event.text)
+
+
+def _in_code(machine: StateMachine) -> Iterator[Diagnostic]:
+    taken: dict[str, names.Named] = {}
+    guards, actions = names.guards(machine), names.actions(machine)
+    for named in (*guards, *actions):
+        is_own = named.kind == names.ACTION and named.name in names.CALLABLE
+        if named.name in _RESERVED and not is_own:
+            yield codes.METHOD_NAME.at(named.text.span, name=named.name)
+    handlers = [
+        names.Named(names.STATE, Text(state.id, state.span), name)
+        for state in {state.id: state for state in names.with_handler(machine)}.values()
+        for name in (names.entered(state.id), names.left(state.id), names.every_period(state.id))
+    ]
+    for named in (*handlers, *guards, *actions):
+        yield from _clash(named, taken)
+    fired: dict[str, names.Named] = {}
+    for event in names.events(machine):
+        yield from _clash(event, fired)
+
+
+def _clash(named: names.Named, taken: dict[str, names.Named]) -> Iterator[Diagnostic]:
+    first = taken.setdefault(named.name, named)
+    if first is not named:
+        yield codes.SAME_IN_CODE.at(
+            named.text.span, first=f"{first.kind} '{first.text}'", second=f"{named.kind} '{named.text}'",
+            name=named.name, hint="give one of them another name",
+            related=[Related(f"{first.kind} '{first.text}'", first.text.span)],
+        )

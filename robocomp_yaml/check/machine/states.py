@@ -1,0 +1,125 @@
+"""State machines: the names of states, and where transitions go."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import machines as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.program import Program
+from robocomp_yaml.model.machine_index import MachineIndex
+from robocomp_yaml.model.statemachine import FINAL, HISTORY, PARALLEL, State, StateMachine, Text, Transition
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    for linked in program.components.values():
+        if linked.machine is not None:
+            yield from _of(linked.machine, is_invoked=False)
+
+
+def _of(machine: StateMachine, is_invoked: bool) -> Iterator[Diagnostic]:
+    index = MachineIndex(machine)
+    if not any(state.kind != HISTORY for state in machine.root.states):
+        yield codes.NO_STATE.at(machine.span)
+        return
+    yield from _names(index, is_invoked)
+    yield from _strays(index)
+    for state in index.states:
+        yield from _kind(index, state)
+        yield from _initial(index, state)
+    for _, transition in index.transitions():
+        yield from _targets(index, transition)
+    for invoked in index.invoked():
+        yield from _of(invoked, is_invoked=True)
+
+
+def _names(index: MachineIndex, is_invoked: bool) -> Iterator[Diagnostic]:
+    for state in index.machine.states:
+        first = index.by_id.get(state.id, state)
+        if first is not state:
+            yield codes.DUPLICATE_STATE.at(state.span, id=state.id, related=[Related("the first one", first.span)])
+        elif state.id and not is_invoked and not _NAME.fullmatch(state.id):
+            mended = re.sub(r"\W", "_", state.id, flags=re.ASCII)
+            hint = f"call it '{mended}'" if _NAME.fullmatch(mended) else ""
+            yield codes.STATE_NAME.at(state.span, id=state.id, hint=hint)
+
+
+def _unknown(index: MachineIndex, name: Text) -> Diagnostic:
+    close = suggest(name.text, index.by_id)
+    return codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=f"did you mean '{close}'?" if close else "")
+
+
+def _strays(index: MachineIndex) -> Iterator[Diagnostic]:
+    for name in index.machine.strays:
+        yield _unknown(index, name)
+
+
+def _kind(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
+    """What a final state and a history may have; SCXML's shape says this for documents of its own."""
+    lists = {
+        "states": state.states, "transitions": state.transitions, "entry or exit actions": state.entry or state.exit
+    }  # fmt: skip
+    if state.kind == FINAL:
+        for what in ("states", "transitions"):
+            if lists[what]:
+                place = state.transitions[0].span if what == "transitions" else state.span
+                yield codes.FINAL_LEFT.at(place, id=state.id, what=what)
+    if state.kind == HISTORY:
+        for what, found in lists.items():
+            if found:
+                yield codes.INLINE_HISTORY.at(state.span, what=what)
+        if index.parents[id(state)] is index.machine.root:
+            yield codes.NO_PARENT.at(state.span)
+
+
+def _initial(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
+    """The initial state is there and stands inside; a history may also lead to a state beside it."""
+    what = f"the state '{state.id}'" if state.id else "the machine"
+    children = [child for child in state.states if child.kind != HISTORY]
+    home = index.parents[id(state)] if state.kind == HISTORY else state
+    if state.initial is not None:
+        yield from _targets(index, state.initial)
+        for target in state.initial.targets:
+            found = index.by_id.get(target.text)
+            if found is not None and home not in index.ancestors(found):
+                around = f"the state '{home.id}'" if home.id else "the machine"
+                yield codes.INITIAL_OUTSIDE.at(target.span, id=target.text, what=around)
+    elif state.kind == HISTORY:
+        if index.machine.inline:
+            yield codes.NO_INITIAL.at(
+                state.span, what=f"the history '{state.id}'",
+                hint=f"write transitions: {{{state.id}: …}}, for when there is nothing to remember yet",
+            )
+    elif state.kind not in (PARALLEL, FINAL) and children:
+        names = [child.id for child in children if child.id]
+        if index.machine.inline:
+            yield codes.NO_INITIAL.at(state.span, what=what, hint=f"write initial: {names[0]}" if names else "")
+        elif len(children) > 1:
+            hint = f'write initial="{names[0]}"' if names and children[0].id else ""
+            yield codes.IMPLICIT_INITIAL.at(state.span, what=what, first=children[0].id, hint=hint)
+
+
+def _targets(index: MachineIndex, transition: Transition) -> Iterator[Diagnostic]:
+    for target in transition.targets:
+        if target.text not in index.by_id:
+            yield _unknown(index, target)
+    found = index.targets(transition)
+    for number, first in enumerate(found):
+        for second in found[number + 1 :]:
+            if not _together(index, first, second):
+                place = transition.targets[0].span
+                yield codes.NOT_TOGETHER.at(place, first=first.id, second=second.id)
+                return
+
+
+def _together(index: MachineIndex, first: State, second: State) -> bool:
+    """Whether both can be active: the nearest state around both is parallel."""
+    if first is second:
+        return True
+    around = index.ancestors(first)
+    nearest = next(state for state in [second, *index.ancestors(second)] if state in [first, *around])
+    return nearest.kind == PARALLEL and nearest is not first and nearest is not second

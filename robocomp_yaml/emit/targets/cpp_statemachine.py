@@ -1,0 +1,82 @@
+"""The state machine of a C++ component: its tables and events, and the interpreter that is copied along."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+from robocomp_yaml import resources
+from robocomp_yaml.emit.machines import lower, text
+from robocomp_yaml.emit.plan import FilePlan
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.targets.cpp_names import parameter
+from robocomp_yaml.emit.targets.cpp_text import one_line
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model import machine_names as names
+from robocomp_yaml.model.statemachine import StateMachine
+
+
+@dataclass(frozen=True, slots=True)
+class EventView:
+    name: str
+    method: str
+
+
+@dataclass(frozen=True, slots=True)
+class MachineView:
+    """What the worker has of a machine: names of states, guards and actions; `called` are all actions, also those that
+    every worker has. `fires` is an example of how to fire an event."""
+
+    states: list[str]
+    guards: list[str]
+    actions: list[str]
+    called: list[str]
+    fires: str
+
+
+@dataclass(frozen=True, slots=True)
+class TablesView:
+    source: str
+    events: list[EventView]
+    functions: str
+
+
+def view(machine: StateMachine) -> MachineView:
+    called = [action.name for action in names.actions(machine)]
+    return MachineView(
+        [state.id for state in names.with_handler(machine)],
+        [guard.name for guard in names.guards(machine)],
+        [name for name in called if name not in names.CALLABLE],
+        called,
+        next((f"events.{event.method}()" for event in _events(machine)), "there are none"),
+    )
+
+
+def files(linked: LinkedComponent) -> list[FilePlan]:
+    """Nothing for a component without a machine."""
+    machine = linked.machine
+    if machine is None:
+        return []
+    shown = TablesView(
+        source=one_line(machine.path.rpartition("/")[2]),
+        events=_events(machine),
+        functions=text.cpp_functions(lower.lower(machine), "makeTables"),
+    )
+    return [
+        *_runtime(),
+        FilePlan("generated/statemachine.h", render("cpp/statemachine.h.j2", shown)),
+        FilePlan("generated/statemachine.cpp", render("cpp/statemachine.cpp.j2", shown)),
+    ]
+
+
+def _events(machine: StateMachine) -> list[EventView]:
+    return [EventView(event.text.text, parameter(event.name)) for event in names.events(machine)]
+
+
+@cache
+def _runtime() -> tuple[FilePlan, ...]:
+    folder = resources.folder("templates") / "cpp" / "machine"
+    return tuple(
+        FilePlan(f"generated/machine/{file.name}", file.read_text(encoding="utf-8"))
+        for file in sorted(folder.iterdir())
+    )

@@ -1,0 +1,105 @@
+"""The state machine of a Python component: its tables and events, and the interpreter that is copied along.
+
+The part that evaluates Python text is copied only where the machine's data model asks for it.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cache
+
+from robocomp_yaml import resources
+from robocomp_yaml.emit.machines import lower, text
+from robocomp_yaml.emit.plan import FilePlan
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.targets.python_names import python_name
+from robocomp_yaml.emit.targets.python_text import one_line
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model import machine_names as names
+from robocomp_yaml.model.machine_index import MachineIndex
+from robocomp_yaml.model.statemachine import PYTHON, StateMachine
+
+_SCRIPTING = "scripting.py"
+
+
+@dataclass(frozen=True, slots=True)
+class EventView:
+    name: str
+    method: str
+
+
+@dataclass(frozen=True, slots=True)
+class MachineView:
+    """What the worker has of a machine: names of states, guards and actions. `fires` is an example of an event."""
+
+    states: list[str]
+    guards: list[str]
+    actions: list[str]
+    fires: str
+
+
+@dataclass(frozen=True, slots=True)
+class TablesView:
+    source: str
+    name: str
+    scripting: bool
+    tables: str
+    events: list[EventView]
+    machine: str
+
+
+def view(machine: StateMachine) -> MachineView:
+    return MachineView(
+        [state.id for state in names.with_handler(machine)],
+        [guard.name for guard in names.guards(machine)],
+        [action.name for action in names.actions(machine) if action.name not in names.CALLABLE],
+        next((f"self.events.{event.method}()" for event in _events(machine)), "there are none"),
+    )
+
+
+def files(linked: LinkedComponent) -> list[FilePlan]:
+    """Nothing for a component without a machine."""
+    machine = linked.machine
+    if machine is None:
+        return []
+    return [*_runtime(_scripts(machine)), FilePlan("generated/statemachine.py", tables(machine, linked.component.name))]
+
+
+def tables(machine: StateMachine, component: str) -> str:
+    """The module that holds the tables."""
+    literal = text.python(lower.lower(machine))
+    return render(
+        "python/statemachine.py.j2",
+        TablesView(
+            source=one_line(machine.path.rpartition("/")[2]),
+            name=component,
+            scripting=_scripts(machine),
+            tables=", ".join(sorted(set(re.findall(r"\b([A-Z][a-z]+)\(", _without_texts(literal))))),
+            events=_events(machine),
+            machine=literal,
+        ),
+    )
+
+
+def _without_texts(literal: str) -> str:
+    return re.sub(r"""'(?:[^'\\\n]|\\.)*'|"(?:[^"\\\n]|\\.)*\"""", "''", literal)
+
+
+def _events(machine: StateMachine) -> list[EventView]:
+    return [EventView(event.text.text, python_name(event.name)) for event in names.events(machine)]
+
+
+def _scripts(machine: StateMachine) -> bool:
+    """Whether it, or a machine that it invokes, has expressions of Python."""
+    return machine.datamodel == PYTHON or any(map(_scripts, MachineIndex(machine).invoked()))
+
+
+@cache
+def _runtime(scripting: bool) -> tuple[FilePlan, ...]:
+    folder = resources.folder("templates") / "python" / "machine"
+    return tuple(
+        FilePlan(f"generated/machine/{file.name}", file.read_text(encoding="utf-8"))
+        for file in sorted(folder.glob("*.py"))
+        if scripting or file.name != _SCRIPTING
+    )

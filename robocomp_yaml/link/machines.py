@@ -1,0 +1,108 @@
+"""A component's state machine, read from the SCXML file that its document names, with the files that this includes."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import machines as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.build_scxml import Files, build
+from robocomp_yaml.model.component import Component
+from robocomp_yaml.model.scxml_shape import misshapen
+from robocomp_yaml.model.statemachine import StateMachine
+from robocomp_yaml.source import xml
+from robocomp_yaml.source.text import decode, read_bytes
+
+MAX_INCLUDED = 8  # machines that invoke machines, each from its own file
+
+_SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
+
+
+@dataclass(slots=True)
+class MachineReader:
+    """Reads a machine; `overlay` has contents, by real path, that count instead of the disk's. `contents` are the bytes
+    of each file read, `absent` are the paths that there are not."""
+
+    overlay: Mapping[str, bytes] = field(default_factory=dict)
+    contents: dict[str, bytes] = field(default_factory=dict)
+    absent: set[str] = field(default_factory=set)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    _open: list[str] = field(default_factory=list)
+
+    def of(self, component: Component) -> StateMachine | None:
+        """The machine that a component's document names; None where it cannot be built."""
+        path = os.path.normpath(os.path.join(os.path.dirname(component.path), component.statemachine))
+        reason = self._unreadable(path)
+        if reason:
+            said = codes.UNREADABLE.at(component.machine_span, path=component.statemachine, reason=reason)
+            self.diagnostics.append(said)
+            return None
+        return self._machine(path)
+
+    def _unreadable(self, path: str) -> str:
+        if not os.path.lexists(path):
+            self.absent.add(path)
+            return "there is no such file"
+        return "" if os.path.isfile(path) else "it is no file"
+
+    def _machine(self, path: str) -> StateMachine | None:
+        text = self._text(path)
+        if text is None:
+            return None
+        root, said = xml.parse(path, text)
+        if root is not None:
+            said += misshapen(root)
+        self.diagnostics += said
+        if root is None or has_errors(said):
+            return None
+        self._open.append(path)
+        before = len(self.diagnostics)
+        machine = build(root, path, Files(self._included_text, self._included_machine))
+        self._open.pop()
+        return None if has_errors(self.diagnostics[before:]) else machine
+
+    def _text(self, path: str) -> str | None:
+        raw = self.overlay.get(os.path.realpath(path))
+        if raw is None:
+            raw, said = read_bytes(path)
+            self.diagnostics += said
+        if raw is None:
+            return None
+        self.contents[path] = raw
+        text, said = decode(path, raw)
+        self.diagnostics += said
+        return text
+
+    def _included_text(self, src: str, span: Span) -> str | None:
+        path = self._included(src, span)
+        return self._text(path) if path else None
+
+    def _included_machine(self, src: str, span: Span) -> StateMachine | None:
+        path = self._included(src, span)
+        if path is None:
+            return None
+        if path in self._open or len(self._open) >= MAX_INCLUDED:
+            reason = "it includes itself" if path in self._open else "too many files include each other"
+            self.diagnostics.append(codes.BAD_SOURCE.at(span, src=src, reason=reason))
+            return None
+        return self._machine(path)
+
+    def _included(self, src: str, span: Span) -> str | None:
+        """The file beside or below the document that a `src` names."""
+        name = src.strip().removeprefix("file:")
+        folder = os.path.dirname(self._open[-1])
+        path = os.path.normpath(os.path.join(folder, name))
+        if _SCHEME.match(name) or name.startswith("//"):
+            reason = "only files can be"
+        elif os.path.isabs(name) or os.path.relpath(os.path.realpath(path), os.path.realpath(folder)).startswith(".."):
+            reason = "it does not stand below the document's folder"
+        else:
+            reason = self._unreadable(path)
+        if reason:
+            self.diagnostics.append(codes.BAD_SOURCE.at(span, src=src, reason=reason))
+            return None
+        return path

@@ -1,0 +1,212 @@
+"""An SCXML document's elements as a `StateMachine`. The elements have SCXML's shape."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.scxml_shape import OURS, ours
+from robocomp_yaml.model.statemachine import (
+    FINAL,
+    HISTORY,
+    PARALLEL,
+    STATE,
+    Action,
+    Assign,
+    Block,
+    Cancel,
+    Data,
+    Foreach,
+    If,
+    Invoke,
+    Log,
+    Param,
+    Payload,
+    Raise,
+    Script,
+    Send,
+    State,
+    StateMachine,
+    Text,
+    Transition,
+    Value,
+)
+from robocomp_yaml.source.xml import Element
+
+Include = Callable[[str, Span], str | None]
+IncludeMachine = Callable[[str, Span], StateMachine | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Files:
+    """What `src` names, read by the caller, who also tells of what cannot be read (then it is None)."""
+
+    text: Include
+    machine: IncludeMachine
+
+
+def build(root: Element, path: str, files: Files) -> StateMachine:
+    """The machine of an <scxml> element."""
+    return _Builder(path, files).machine(root)
+
+
+class _Builder:
+    def __init__(self, path: str, files: Files) -> None:
+        self.path = path
+        self.files = files
+
+    def machine(self, root: Element) -> StateMachine:
+        events = root.get(f"{OURS} events")
+        place = root.place(f"{OURS} events")
+        return StateMachine(
+            name=root.get("name") or "",
+            path=self.path,
+            root=self.state(root),
+            datamodel=root.get("datamodel") or "",
+            late=root.get("binding") == "late",
+            scripts=tuple(self.action(child) for child in ours(root) if child.name == "script"),
+            events=tuple(Text(word, place) for word in (events or "").split()),
+            span=root.span,
+        )
+
+    def state(self, element: Element) -> State:
+        children = list(ours(element))
+
+        def each(name: str) -> list[Element]:
+            return [child for child in children if child.name == name]
+
+        done = each("donedata")
+        kind = STATE if element.name == "scxml" else element.name
+        return State(
+            id=element.get("id") or "",
+            kind=kind,
+            states=tuple(self.state(c) for c in children if c.name in (STATE, PARALLEL, FINAL, HISTORY)),
+            transitions=() if kind == HISTORY else tuple(self.transition(child) for child in each("transition")),
+            initial=self.initial(element, children),
+            deep=element.get("type") == "deep",
+            entry=tuple(self.block(child) for child in each("onentry")),
+            exit=tuple(self.block(child) for child in each("onexit")),
+            data=tuple(self.data(item) for model in each("datamodel") for item in ours(model)),
+            invokes=tuple(self.invoke(child) for child in each("invoke")),
+            done=self.payload(done[0]) if done else Payload(),
+            span=element.place("id"),
+        )
+
+    def initial(self, element: Element, children: list[Element]) -> Transition | None:
+        """What `initial=` says, or <initial>; for a history, its transition."""
+        if element.get("initial") is not None:
+            return Transition(targets=_words(element, "initial"), span=element.place("initial"))
+        for child in children:
+            if child.name == "initial":
+                return self.transition(next(ours(child)))
+            if child.name == "transition" and element.name == HISTORY:
+                return self.transition(child)
+        return None
+
+    def transition(self, element: Element) -> Transition:
+        return Transition(
+            events=_words(element, "event"),
+            condition=_text(element, "cond") if (element.get("cond") or "").strip() else None,
+            targets=_words(element, "target"),
+            internal=element.get("type") == "internal",
+            actions=self.block(element),
+            span=element.span,
+        )
+
+    def block(self, element: Element) -> Block:
+        return tuple(self.action(child) for child in ours(element))
+
+    def action(self, e: Element) -> Action:
+        match e.name:
+            case "raise":
+                return Raise(_text(e, "event") or Text(""), span=e.span)
+            case "send":
+                return Send(
+                    _value(e, "event"), _value(e, "target"), _value(e, "type"), _value(e, "delay"), e.get("id") or "",
+                    _text(e, "idlocation"), self.payload(e), span=e.span,
+                )  # fmt: skip
+            case "cancel":
+                return Cancel(_value(e, "sendid"), span=e.span)
+            case "log":
+                return Log(e.get("label") or "", Value(expr=_text(e, "expr"), span=e.span), span=e.span)
+            case "assign":
+                return Assign(_text(e, "location") or Text(""), self.content(e), span=e.span)
+            case "script":
+                code = self.files.text(e.attributes["src"], e.place("src")) if "src" in e.attributes else e.text
+                return Script(Text(code or "", e.span), span=e.span)
+            case "if":
+                return If(self.branches(e), span=e.span)
+            case _:
+                return Foreach(
+                    _text(e, "array") or Text(""), _text(e, "item") or Text(""), _text(e, "index"), self.block(e),
+                    span=e.span,
+                )  # fmt: skip
+
+    def branches(self, element: Element) -> tuple[tuple[Text | None, Block], ...]:
+        found: list[tuple[Text | None, list[Action]]] = [(_text(element, "cond"), [])]
+        for child in ours(element):
+            if child.name in ("elseif", "else"):
+                found.append((_text(child, "cond"), []))
+            else:
+                found[-1][1].append(self.action(child))
+        return tuple((condition, tuple(inner)) for condition, inner in found)
+
+    def data(self, element: Element) -> Data:
+        if "src" in element.attributes:
+            value = Value(literal=self.files.text(element.attributes["src"], element.place("src")), span=element.span)
+        else:
+            value = self.content(element)
+        return Data(_text(element, "id") or Text(""), value, span=element.span)
+
+    def content(self, element: Element) -> Value:
+        """An expression, a machine, or the text that stands in the element."""
+        if element.get("expr") is not None:
+            return Value(expr=_text(element, "expr"), span=element.span)
+        for child in ours(element):
+            if child.name == "scxml":
+                return Value(literal=child.raw, machine=self.machine(child), span=element.span)
+        literal = "".join(item if isinstance(item, str) else item.raw for item in element.content)
+        return Value(literal=literal if literal.strip() else None, span=element.span)
+
+    def payload(self, element: Element) -> Payload:
+        params = [Param(name.text, Value(expr=name, span=name.span), name.span) for name in _words(element, "namelist")]
+        content = None
+        for child in ours(element):
+            if child.name == "param":
+                expr = _text(child, "expr") or _text(child, "location")
+                params.append(Param(child.get("name") or "", Value(expr=expr, span=child.span), child.span))
+            elif child.name == "content":
+                content = self.content(child)
+        return Payload(tuple(params), content)
+
+    def invoke(self, element: Element) -> Invoke:
+        source = _value(element, "src")
+        if source.literal is not None:
+            machine = self.files.machine(source.literal, element.place("src"))
+            source = Value(literal=source.literal, machine=machine, span=source.span)
+        final = [child for child in ours(element) if child.name == "finalize"]
+        return Invoke(
+            type=_value(element, "type"),
+            source=source,
+            id=element.get("id") or "",
+            id_location=_text(element, "idlocation"),
+            payload=self.payload(element),
+            autoforward=element.get("autoforward") == "true",
+            finalize=self.block(final[0]) if final else None,
+            span=element.span,
+        )
+
+
+def _text(element: Element, name: str) -> Text | None:
+    value = element.get(name)
+    return None if value is None else Text(value.strip(), element.place(name))
+
+
+def _words(element: Element, name: str) -> tuple[Text, ...]:
+    return tuple(Text(word, element.place(name)) for word in (element.get(name) or "").split())
+
+
+def _value(element: Element, name: str) -> Value:
+    """The attribute as it stands, or the expression in the one beside it."""
+    return Value(_text(element, f"{name}expr"), element.get(name), span=element.place(name))

@@ -1,0 +1,103 @@
+"""What follows from the tree of a state machine: who holds whom, what is entered, what names there are in code."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.model.statemachine import (
+    FINAL,
+    HISTORY,
+    PARALLEL,
+    Action,
+    Invoke,
+    State,
+    StateMachine,
+    Transition,
+    actions,
+    blocks,
+)
+
+
+@dataclass(slots=True)
+class MachineIndex:
+    """States are told apart by identity: an id may be missing, or, in a faulty machine, stand twice."""
+
+    machine: StateMachine
+    by_id: dict[str, State] = field(default_factory=dict)
+    parents: dict[int, State] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        todo = [self.machine.root]
+        while todo:
+            state = todo.pop()
+            for child in state.states:
+                self.parents[id(child)] = state
+            todo += reversed(state.states)
+        for state in self.machine.states:
+            if state.id:
+                self.by_id.setdefault(state.id, state)
+
+    @property
+    def states(self) -> Iterator[State]:
+        """The root and all states, in the document's order."""
+        yield self.machine.root
+        yield from self.machine.states
+
+    def ancestors(self, state: State) -> list[State]:
+        """From the nearest to the root."""
+        found = []
+        parent = self.parents.get(id(state))
+        while parent is not None:
+            found.append(parent)
+            parent = self.parents.get(id(parent))
+        return found
+
+    def targets(self, transition: Transition) -> list[State]:
+        return [self.by_id[target.text] for target in transition.targets if target.text in self.by_id]
+
+    def defaults(self, state: State) -> list[State]:
+        """What is entered with a state when nothing says otherwise."""
+        children = [child for child in state.states if child.kind != HISTORY]
+        if state.kind == PARALLEL:
+            return children
+        if state.initial is not None:
+            return self.targets(state.initial)
+        return children[:1]
+
+    def transitions(self) -> Iterator[tuple[State, Transition]]:
+        """Every transition with the state it belongs to, those of `initial` left out."""
+        for state in self.states:
+            for transition in state.transitions:
+                yield state, transition
+
+    def actions(self) -> Iterator[Action]:
+        """Every action of the machine, not of those that it invokes."""
+        yield from actions(self.machine.scripts)
+        for state in self.states:
+            for block in blocks(state):
+                yield from actions(block)
+
+    def invokes(self) -> Iterator[Invoke]:
+        for state in self.states:
+            yield from state.invokes
+
+    def invoked(self) -> Iterator[StateMachine]:
+        """The machines that it invokes, as far as the document holds them."""
+        for invoke in self.invokes():
+            for value in (invoke.source, invoke.payload.content):
+                if value is not None and value.machine is not None:
+                    yield value.machine
+
+    def can_be_done(self, state: State) -> bool:
+        """Whether `done.state.X` can come."""
+        if state.kind == PARALLEL:
+            children = [child for child in state.states if child.kind != HISTORY]
+            return bool(children) and all(self.can_be_done(child) for child in children)
+        return any(child.kind == FINAL for child in state.states)
+
+
+def matches(descriptor: str, event: str) -> bool:
+    """`door` matches `door` and `door.open`; `*` matches everything."""
+    plain = descriptor[:-2] if descriptor.endswith(".*") else descriptor.rstrip(".")
+    return plain in ("", "*") or event == plain or event.startswith(f"{plain}.")

@@ -1,0 +1,94 @@
+"""What the parts of a state machine are called in code: the same in every language."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from robocomp_yaml.model import conditions
+from robocomp_yaml.model.machine_index import MachineIndex
+from robocomp_yaml.model.statemachine import HISTORY, PYTHON, If, Script, State, StateMachine, Text
+
+STATE, GUARD, ACTION, EVENT = "the state", "the guard", "the action", "the event"
+
+# Methods that every worker has and an action may call.
+CALLABLE = frozenset(["compute", "killYourSelf"])
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A part of a machine, under the name that it has in the document and in code."""
+
+    kind: str
+    text: Text
+    name: str
+
+
+def entered(state: str) -> str:
+    """RoboComp's name for the method that is called when a state is entered."""
+    return f"sm_{state}"
+
+
+def left(state: str) -> str:
+    return f"sm_{state}_exit"
+
+
+def every_period(state: str) -> str:
+    return f"sm_{state}_period"
+
+
+def with_handler(machine: StateMachine) -> list[State]:
+    """The states that have handlers."""
+    return [state for state in machine.states if state.id and state.kind != HISTORY]
+
+
+def events(machine: StateMachine) -> list[Named]:
+    """What the component's code may fire: what transitions wait for, unless it comes from the machine itself."""
+    found: dict[str, Named] = {}
+    listed = [event for _, transition in MachineIndex(machine).transitions() for event in transition.events]
+    for event in (*machine.events, *listed):
+        name = event.text.removesuffix(".*").rstrip(".")
+        if name not in ("", "*", "error") and not name.startswith(("done.", "error.")):
+            found.setdefault(name, Named(EVENT, Text(name, event.span), re.sub(r"[.-]", "_", name)))
+    return list(found.values())
+
+
+def guards(machine: StateMachine) -> list[Named]:
+    """Methods that say whether a condition holds."""
+    return list({named.name: named for named in _methods(machine) if named.kind == GUARD}.values())
+
+
+def actions(machine: StateMachine) -> list[Named]:
+    """Methods that do something on the way."""
+    return list({named.name: named for named in _methods(machine) if named.kind == ACTION}.values())
+
+
+def _methods(machine: StateMachine) -> Iterator[Named]:
+    index = MachineIndex(machine)
+    if machine.datamodel != PYTHON:
+        texts = [transition.condition for _, transition in index.transitions()]
+        for action in index.actions():
+            if isinstance(action, If):
+                texts += [condition for condition, _ in action.branches]
+            elif isinstance(action, Script):
+                for name in _read(conditions.script, action.code):
+                    yield Named(ACTION, Text(name, action.code.span), name)
+        for text in texts:
+            if text is not None:
+                for name in _read(_guards, text):
+                    yield Named(GUARD, Text(name, text.span), name)
+    for invoked in index.invoked():
+        yield from _methods(invoked)
+
+
+def _guards(text: str) -> list[str]:
+    return list(conditions.names(conditions.condition(text), conditions.GUARD))
+
+
+def _read(read: Callable[[str], list[str]], text: Text) -> list[str]:
+    """Nothing where the text is wrong, of which another one tells."""
+    try:
+        return read(text.text)
+    except conditions.NotInLanguage:
+        return []

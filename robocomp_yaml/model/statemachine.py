@@ -1,0 +1,231 @@
+"""The model of a state machine: what SCXML says (https://www.w3.org/TR/scxml/), from a file or written in the CDSL.
+
+Expressions are kept as they are spelled: what they mean depends on the data model. `null` is the one that both
+languages have: conditions are names of guards joined by `and`, `or` and `not`, values are literals, a script is a list
+of names of actions. With `python`, expressions are Python's, run by the component.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.span import Span
+
+STATE, PARALLEL, FINAL, HISTORY = "state", "parallel", "final", "history"
+NULL, PYTHON = "null", "python"
+
+
+def _span() -> Span:
+    return field(default=Span(""), compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A piece of the document with its place: a name, or an expression."""
+
+    text: str
+    span: Span = _span()
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """What may be given as an expression or as it stands; `machine` where it is a whole machine."""
+
+    expr: Text | None = None
+    literal: str | None = None
+    machine: StateMachine | None = None
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Param:
+    """A named value of an event or of an invocation; from `location` where it has no value."""
+
+    name: str
+    value: Value
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Payload:
+    """What goes along: named values, or one content."""
+
+    params: tuple[Param, ...] = ()
+    content: Value | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Raise:
+    event: Text
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Send:
+    """`event`, `target`, `type` and `delay` are literals or, in the fields beside them, expressions. `delay` is as
+    spelled: `100ms`, `1.5s`."""
+
+    event: Value
+    target: Value
+    type: Value
+    delay: Value
+    id: str = ""
+    id_location: Text | None = None
+    payload: Payload = Payload()
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Cancel:
+    id: Value
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Log:
+    label: str
+    value: Value | None = None
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Assign:
+    location: Text
+    value: Value
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Script:
+    """A piece of the data model's language; with `null`, names of actions."""
+
+    code: Text
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class If:
+    """Conditions with what is done under them; the last one may have none."""
+
+    branches: tuple[tuple[Text | None, Block], ...]
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Foreach:
+    array: Text
+    item: Text
+    index: Text | None
+    actions: Block
+    span: Span = _span()
+
+
+Action = Raise | Send | Cancel | Log | Assign | Script | If | Foreach
+Block = tuple[Action, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Transition:
+    """Without `events` it is taken as soon as its condition holds; without `targets` the state stays."""
+
+    events: tuple[Text, ...] = ()
+    condition: Text | None = None
+    targets: tuple[Text, ...] = ()
+    internal: bool = False
+    actions: Block = ()
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Data:
+    id: Text
+    value: Value
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Invoke:
+    """A machine that runs while its state is active."""
+
+    type: Value
+    source: Value
+    id: str = ""
+    id_location: Text | None = None
+    payload: Payload = Payload()
+    autoforward: bool = False
+    finalize: Block | None = None
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """A state, of a `kind`; `id` is '' where it has none. `initial` is what is entered with it. A history's `initial`
+    is what it stands for before anything is remembered."""
+
+    id: str
+    kind: str = STATE
+    states: tuple[State, ...] = ()
+    transitions: tuple[Transition, ...] = ()
+    initial: Transition | None = None
+    deep: bool = False
+    entry: tuple[Block, ...] = ()
+    exit: tuple[Block, ...] = ()
+    data: tuple[Data, ...] = ()
+    invokes: tuple[Invoke, ...] = ()
+    done: Payload = Payload()
+    doc: str = ""
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class StateMachine:
+    """`root` holds the states. `events` are those that the component's code is said to fire; empty: any. `inline` where
+    the machine stands in the CDSL, the document at `path`; `strays` are then names under `transitions:` that no state
+    has."""
+
+    name: str
+    path: str
+    root: State
+    datamodel: str = ""
+    late: bool = False
+    scripts: Block = ()
+    events: tuple[Text, ...] = ()
+    inline: bool = False
+    strays: tuple[Text, ...] = ()
+    span: Span = _span()
+
+    @property
+    def states(self) -> Iterator[State]:
+        """All states in the document's order, without the root."""
+        yield from walk(self.root.states)
+
+
+def walk(states: tuple[State, ...]) -> Iterator[State]:
+    for state in states:
+        yield state
+        yield from walk(state.states)
+
+
+def blocks(state: State) -> Iterator[Block]:
+    """Every block of actions of a state, not of those in it."""
+    yield from state.entry
+    yield from state.exit
+    for transition in (*state.transitions, *((state.initial,) if state.initial else ())):
+        yield transition.actions
+    for invoke in state.invokes:
+        yield invoke.finalize or ()
+
+
+def actions(block: Block) -> Iterator[Action]:
+    """The actions of a block with those inside of them."""
+    for action in block:
+        yield action
+        if isinstance(action, If):
+            for _, inner in action.branches:
+                yield from actions(inner)
+        elif isinstance(action, Foreach):
+            yield from actions(action.actions)

@@ -1,0 +1,80 @@
+"""Both interpreters outside of a component: what they make of tables, in a clock that jumps."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+from conftest import ROOT
+from robocomp_yaml.emit.machines import lower, text
+from robocomp_yaml.emit.targets.python_statemachine import tables
+from robocomp_yaml.model.statemachine import StateMachine
+
+HERE = Path(__file__).resolve().parent
+PYTHON = ROOT / "templates" / "python" / "machine"
+CPP = ROOT / "templates" / "cpp" / "machine"
+_OF_WORKERS = {"worker.cpp", "worker.h"}  # they need Ice
+
+
+def package(folder: Path) -> Path:
+    """The package `generated` with the interpreter."""
+    generated = folder / "generated"
+    shutil.copytree(PYTHON, generated / "machine", ignore=shutil.ignore_patterns("__pycache__"))
+    (generated / "__init__.py").touch()
+    return generated
+
+
+def run_python(machines: Mapping[str, StateMachine], folder: Path) -> dict[str, str]:
+    """The last state that each machine entered."""
+    generated = package(folder)
+    for name, machine in machines.items():
+        (generated / f"{name}.py").write_text(tables(machine, name), encoding="utf-8")
+    return json.loads(python(HERE / "run_cases.py", *machines, folder=folder))
+
+
+def python(script: Path, *arguments: str, folder: Path) -> str:
+    """Runs a script that imports `generated`. Returns what it prints."""
+    done = subprocess.run(
+        [sys.executable, "-W", "error", str(script), *arguments],
+        env={**os.environ, "PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"},
+        capture_output=True, text=True, timeout=120,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def run_cpp(machines: Mapping[str, StateMachine], folder: Path) -> dict[str, str]:
+    """The same, with one program for all."""
+    (folder / "cases.h").write_text(
+        '#pragma once\n#include "machine/tables.h"\n#include <map>\n'
+        "namespace machine { const std::map<std::string, Machine>& cases(); }\n"
+    )
+    functions = "\n".join(text.cpp_functions(lower.lower(machine), name) for name, machine in machines.items())
+    entries = ", ".join(f'{{"{name}", {name}()}}' for name in machines)
+    (folder / "cases.cpp").write_text(
+        f'#include "cases.h"\nnamespace machine {{\nnamespace {{\n{functions}\n}}\n'
+        "const std::map<std::string, Machine>& cases()\n"
+        f"{{\nstatic const std::map<std::string, Machine> all = {{{entries}}};\nreturn all;\n}}\n}}\n",
+        encoding="utf-8",
+    )
+    program = build_cpp(folder, "run_cases", folder / "cases.cpp")
+    done = subprocess.run([program], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return dict(line.split(" ", 1) for line in done.stdout.splitlines())
+
+
+def build_cpp(folder: Path, program: str, *sources: Path) -> Path:
+    """The program of this folder's `PROGRAM.cpp` with the interpreter; any warning fails."""
+    shutil.copytree(CPP, folder / "machine")
+    interpreter = [path for path in sorted((folder / "machine").glob("*.cpp")) if path.name not in _OF_WORKERS]
+    command = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-O0", "-I", folder, "-o", folder / program]
+    done = subprocess.run(
+        [*command, HERE / f"{program}.cpp", *sources, *interpreter], capture_output=True, text=True, timeout=600
+    )
+    assert done.returncode == 0, done.stderr
+    return folder / program

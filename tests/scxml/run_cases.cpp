@@ -1,0 +1,71 @@
+// Runs C++'s tables: prints the state in which each machine ended, a case a line.
+#include "cases.h"
+#include "machine/sessions.h"
+
+#include <chrono>
+#include <iostream>
+#include <string>
+
+namespace
+{
+
+/// Keeps the last state that was entered; cases have neither guards nor actions.
+class Host : public machine::Host
+{
+public:
+    bool guard(const std::string& name) override
+    {
+        throw machine::Failure(name);
+    }
+
+    void act(const std::string& name) override
+    {
+        throw machine::Failure(name);
+    }
+
+    void entered(const std::string& state) override
+    {
+        last = state;
+    }
+
+    void left(const std::string&) override
+    {
+    }
+
+    void log(const std::string&, const std::string&) override
+    {
+    }
+
+    void complain(const std::string&) override
+    {
+    }
+
+    std::string last;
+};
+
+std::string run(const machine::Machine& tables)
+{
+    machine::TimePoint now;
+    const auto longest = now + std::chrono::minutes(1); // no case needs so much
+    Host host;
+    machine::Sessions sessions(host, [&now] { return now; });
+    const auto session = sessions.open(tables);
+    session->interpreter.start();
+    sessions.run();
+    for (auto due = sessions.nextDue(); session->interpreter.isRunning && due && *due < longest; due = sessions.nextDue())
+    {
+        now = *due;
+        sessions.run();
+    }
+    return host.last;
+}
+
+}
+
+int main()
+{
+    for (const auto& [name, tables] : machine::cases())
+    {
+        std::cout << name << ' ' << run(tables) << '\n';
+    }
+}
