@@ -134,7 +134,8 @@ def test_what_it_is_told(turns: list[str | Path], start: Start, behavior: Ask, p
     config.write_text("period.compute = soon\n")
     asked.reloadConfig()
     assert asked.getPeriod() == 30
-    running.wait_for("WARNING Turns: reloadConfig refused: ").wait_for("period.compute must be a whole number (ms), and is 'soon'")
+    running.wait_for("WARNING Turns: reloadConfig refused: ")
+    running.wait_for("period.compute must be a whole number (ms), and is 'soon'")
     asked.killYourSelf()
     assert running.exit_code(2) == 0
     assert "INFO Turns: asked to stop" in running.output

@@ -5,6 +5,8 @@
 #include <Ice/LocalException.h>
 #include <Ice/Properties.h>
 
+#include <utility>
+
 namespace machine
 {
 

@@ -98,6 +98,10 @@ void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Curre
     Texts changes;
     for (const auto& [key, parameter] : parameters)
     {
+        if (key.rfind("statemachine.", 0) == 0)
+        {
+            continue;
+        }
         const auto other = others.find(key);
         const auto entry = before.find(key);
         const bool isSame = entry != before.end() ? entry->second.text == parameter.value
