@@ -5,7 +5,6 @@
 #include "shutdown.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace runtime

@@ -61,6 +61,9 @@ protected:
     std::shared_ptr<Ice::Communicator> communicator;
     const Log log;
 
+    /// What the generated accessors read and change.
+    Store& parameterStore();
+
     /// There is something to do before the next turn.
     void wake();
 
@@ -81,8 +84,6 @@ protected:
     virtual void end()
     {
     }
-    /// What the generated accessors read and change.
-    Store& parameterStore();
 
 private:
     friend class Application;
