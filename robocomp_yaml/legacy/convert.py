@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import unicodedata
 from dataclasses import dataclass, field
 
 from lark import Token, Tree
@@ -79,5 +80,12 @@ def _review(tree: Tree[Token], source: Source, rules: Rules) -> list[Diagnostic]
     for token in tree.scan_values(lambda value: isinstance(value, Token) and value.type == "NAME"):
         if not rules.names.fullmatch(plain(token)):
             at = source.span(token.start_pos or 0, token.end_pos or 0)
-            said.append(codes.BAD_NAME.at(at, name=plain(token)))
+            said.append(codes.BAD_NAME.at(at, name=plain(token), hint=_name_hint(plain(token))))
     return said
+
+
+def _name_hint(name: str) -> str:
+    """How a name could be written, where accents are all that is wrong with it."""
+    bare = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    hint = "a name has the letters A to Z without accents, digits and underscores"
+    return f"{hint}: for instance '{bare}'" if bare.isidentifier() else hint

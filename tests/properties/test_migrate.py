@@ -13,7 +13,7 @@ from robocomp_yaml.legacy import document, ledger
 from robocomp_yaml.legacy.convert import Converted, convert
 from robocomp_yaml.legacy.yamltext import scalar
 from robocomp_yaml.model import build_component, build_interface
-from robocomp_yaml.model.component import Component, Gui, Language, Use
+from robocomp_yaml.model.component import Component, Gui, Language, Option, Use
 from robocomp_yaml.model.interface import (
     BASIC_TYPES,
     Enum,
@@ -228,7 +228,7 @@ def components(draw: st.DrawFn) -> Component:
         tuple(Import(name) for name in draw(st.lists(NAMES, max_size=3, unique=True))),
         ports(), ports(), ports(), ports(),
         gui=draw(st.none() | st.sampled_from(["QWidget", "QDialog"]).map(lambda base: Gui("qt", base))),
-        options=tuple(draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True))),
+        options=tuple(map(Option, draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True)))),
     )  # fmt: skip
 
 
@@ -247,7 +247,7 @@ def cdsl_text(draw: st.DrawFn, component: Component) -> str:
     if component.gui:
         clauses.append(f"gui Qt({component.gui.base});")
     if component.options:
-        clauses.append(f"options {', '.join(component.options)};")
+        clauses.append(f"options {', '.join(option.name for option in component.options)};")
     for clause in draw(st.permutations(clauses)):
         out.space()
         out.put(clause)
