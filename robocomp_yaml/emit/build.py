@@ -155,7 +155,8 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
 def _unresolved(document: Module | Component, cause: str, state: _State) -> Diagnostic:
     related = [Related("this document has errors, or imports what is not there", Span(cause))]
     told = compiling.UNRESOLVED.at(
-        document.span, name=document.name, related=related if cause != document.path else (), hint="`rcyaml check` says what is missing; mend that first"
+        document.span, name=document.name, related=related if cause != document.path else (),
+        hint="`rcyaml check` says what is missing; mend that first",
     )
     # Where the cause is an error already, this only says what follows from it.
     return told if cause in state.lowered else told.as_severity(NOTE)
