@@ -16,8 +16,9 @@ def idsl(name: str, kind: str = "interfaces") -> str:
     return f"module: RoboComp{name}\n{kind}:\n  {name}:\n    methods:\n      tell: {{in: {{text: string}}}}\n"
 
 
+NAMES = ("AGMExecutive", "AGMCommonBehavior", "AGMWorldModel", "Arm")
 INTERFACES = {
-    **{f"interfaces/{name}.idsl.yaml": idsl(name) for name in ("AGMExecutive", "AGMCommonBehavior", "AGMWorldModel", "Arm")},
+    **{f"interfaces/{name}.idsl.yaml": idsl(name) for name in NAMES},
     "interfaces/AGMExecutiveTopic.idsl.yaml": idsl("AGMExecutiveTopic", "topics"),
 }
 
