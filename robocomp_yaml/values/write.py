@@ -27,7 +27,7 @@ from robocomp_yaml.model.pdsl import Spelling
 from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.values import lexemes, rows
-from robocomp_yaml.values.evaluate import with_defaults
+from robocomp_yaml.values.defaults import with_defaults
 from robocomp_yaml.values.layers import Place, child
 from robocomp_yaml.values.paths import Step, escaped, in_words
 from robocomp_yaml.values.spelling import Template
@@ -123,14 +123,13 @@ class Writer:
         if text is None or (text == "" and not self.quote):
             return
         is_text = isinstance(type_, EnumType) or type_.name == "string"
+        read: Callable[[str], Any] | None = None if is_text else lambda other: lexemes.read(type_, other)
         if self.quote and is_text and '"' not in text:
-            text = f'"{text}"'
+            text, read = f'"{text}"', unquoted
         elif self.quote and is_text and unquoted(text) != text:
             self.fault(where, path, "in quotes, it would be read without them")
             return
-        yield from self.checked(Property(
-            key, text, span_of(where), None if is_text else lambda other: lexemes.read(type_, other)
-        ), where, path)
+        yield from self.checked(Property(key, text, span_of(where), read), where, path)
 
     def checked(self, made: Property, where: Where, path: Path) -> Iterator[Property]:
         if problem := unwritable(made.key, made.value):
@@ -214,7 +213,10 @@ class Writer:
         texts = self.columns(spelling, record, item, where, path)
         if texts is None:
             return
-        text = spelling.separator.join(texts.values())
+        filled = list(texts.values())
+        while filled and not filled[-1] and rows.is_optional(record, spelling.columns[len(filled) - 1]):
+            del filled[-1]  # what is optional at the end of a row may be left out
+        text = spelling.separator.join(filled)
         if not self.reads_back(rows.read_row(record, spelling.columns, text, spelling.separator), texts, record):
             self.fault(where, path, f"its row, '{text}', would be read differently")
             return

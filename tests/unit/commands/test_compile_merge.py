@@ -105,7 +105,7 @@ def test_a_merge_brings_it_in(component: Path, rcyaml: Run) -> None:
 def test_looking_writes_nothing(component: Path, rcyaml: Run) -> None:
     change(component, "      stop:\n", f"      stop:\n{SING}")
     before = read_tree(component)
-    assert "would merge  src/specificworker." in rcyaml("compile", "--merge", "--dry-run").stdout
+    assert "would merge   src/specificworker." in rcyaml("compile", "--merge", "--dry-run").stdout
     assert "Speech_sing" in rcyaml("compile", "--merge", "--diff").stdout
     assert rcyaml("compile", "--merge", "--check").exit_code == 1
     assert read_tree(component) == before
