@@ -81,13 +81,14 @@ class Writer:
                 assert isinstance(member.type, RecordType)
                 yield from self.record(member.type, data[member.name], given, inner, stem, name, top=top)
                 continue
-            spelling = self.parameters.spelling(name) if top else None
+            spelling, told = self.parameters.spelling(name) if top else None, len(self.faults)
             if spelling is None:
                 written = list(self.value(member.type, data[member.name], here, inner, stem))
             else:
                 written = list(self.spelled(spelling, member.type, data[member.name], here, inner))
             yield from written
-            self.check_empty(member, data[member.name], bool(written), here, inner)
+            if told == len(self.faults):
+                self.check_empty(member, data[member.name], bool(written), here, inner)
 
     def check_empty(self, member: Member, value: Any, is_written: bool, where: Where, path: Path) -> None:
         """What is empty has no property (or, as a list, must not count on one), and reads as if it were not given."""
@@ -133,7 +134,7 @@ class Writer:
 
     def checked(self, made: Property, where: Where, path: Path) -> Iterator[Property]:
         if problem := unwritable(made.key, made.value):
-            self.fault(where, path, problem.removeprefix("a property's value ").removeprefix("a property "))
+            self.fault(where, path, problem.replace("a property's value", "it").replace("a property", "it"))
         else:
             yield made
 
@@ -283,10 +284,11 @@ class Writer:
                     self.fault(here or where, inner, "its rows have no property for it")
                 continue
             assert isinstance(member.type, BasicType | EnumType)
-            key = Template(keys[member.name]).fill({"i": number})
+            key, told = Template(keys[member.name]).fill({"i": number}), len(self.faults)
             written = list(self.scalar(member.type, value, here, inner, key))
             yield from written
-            self.check_empty(member, value, bool(written), here, inner)
+            if told == len(self.faults):
+                self.check_empty(member, value, bool(written), here, inner)
 
     def separated(self, spelling: Spelling, type_: Type, data: Any, where: Where, path: Path) -> Iterator[Property]:
         texts = self.texts(spelling, type_, data, where, path)
