@@ -136,7 +136,10 @@ Session::Session(Sessions& sessions, const Machine& machine, std::string id, Ses
 void Session::put(const Event& event)
 {
     const std::lock_guard lock(mutex_);
-    inbox_.push_back(event);
+    if (!isOver_)
+    {
+        inbox_.push_back(event);
+    }
 }
 
 bool Session::work()
@@ -235,6 +238,10 @@ void Session::finished(const Data& data)
 
 void Session::ended()
 {
+    {
+        const std::lock_guard lock(mutex_);
+        isOver_ = true;
+    }
     sessions_.forget(*this);
     sessions_.close(id_);
     const auto children = std::move(children_);

@@ -81,7 +81,7 @@ public:
     Session(
         Sessions& sessions, const Machine& machine, std::string id, Session* parent, std::string invokeid);
 
-    /// An event from outside, from any thread.
+    /// An event from outside, from any thread; one that comes after the end is lost.
     void put(const Event& event);
 
     /// Handles one event. Returns whether there was one.
@@ -127,6 +127,7 @@ private:
     Session* parent_;
     const std::string invokeid_;
     bool isHeard_ = true;
+    bool isOver_ = false;
     std::mutex mutex_;
     std::deque<Event> inbox_;
     std::map<std::string, Child> children_;

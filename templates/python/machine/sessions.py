@@ -98,6 +98,7 @@ class Session:
         self._parent = parent
         self._invokeid = invokeid
         self._is_heard = True
+        self._is_over = False
         self._inbox: deque[Event] = deque()
         self._children: dict[str, Child] = {}
         self._numbers = {state.id: number for number, state in enumerate(machine.states) if state.id}
@@ -112,8 +113,9 @@ class Session:
         return self._numbers.get(state) in self.interpreter.configuration
 
     def put(self, event: Event) -> None:
-        """An event from outside, from any thread."""
-        self._inbox.append(event)
+        """An event from outside, from any thread; one that comes after the end is lost."""
+        if not self._is_over:
+            self._inbox.append(event)
 
     def work(self) -> bool:
         """Handles one event; whether there was one."""
@@ -163,6 +165,7 @@ class Session:
             self.to_parent(Event(f"done.invoke.{self._invokeid}", EXTERNAL, data))
 
     def ended(self) -> None:
+        self._is_over = True
         self._sessions.forget(self)
         self._sessions.all.pop(self.id, None)
         for child in list(self._children.values()):
