@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from robocomp_yaml.legacy.settings.entries import INT, Item, Leaf, Setting, guess
+from robocomp_yaml.legacy.settings.entries import INT, TOML, Item, Leaf, Setting, guess
 from robocomp_yaml.legacy.settings.families import families
 from robocomp_yaml.legacy.settings.headers import sanitized, unique
 from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan, Spelled
 from robocomp_yaml.legacy.settings.rows import could_be_list, is_list, joiner, separators, split
-from robocomp_yaml.legacy.settings.shapes import retyped, shape_of
+from robocomp_yaml.legacy.settings.shapes import becomes_text, retyped, shape_of
 
 _PERIODS = {("period",): "compute", ("Period", "Compute"): "compute", ("Period", "Emergency"): "emergency",
             ("period", "compute"): "compute", ("period", "emergency"): "emergency"}
@@ -30,6 +30,9 @@ def plans(configs: Sequence[Config], guesses: Guesses) -> list[Plan]:
     for plan in kept:
         plan.optional = len(plan.given) < len(configs)
         assert plan.shape is not None
+        mixed = [c.name for c in configs if c.sorted.dialect == TOML and c.name in plan.given]
+        if not plan.guessed and any(becomes_text(plan.shape, plan.given[name].item.value) for name in mixed):
+            plan.guessed = "it is text in one place and a number in another, so it is text from now on"
         plan.shape = retyped(plan.shape, ".".join(plan.path), guesses.types)
     return kept
 

@@ -158,7 +158,7 @@ parameters:
 legacy: {file: config}
 """
     parameters = text(PARAMETERS)
-    assert "      zero: {type: float, doc: in radians}\n      positive_range: {type: bool, doc: Positive Range}\n" in parameters
+    assert "      zero: {type: float, doc: in radians}\n      positive_range: {type: bool, doc: Positive" in parameters
     assert "M: {list: M}  # rcyaml: guessed\n" in parameters
     assert 'Arm.M: {key: "Arm.M{i}", columns: [name, id, zero, positive_range], separator: ", "}' in parameters
     assert _codes(tmp_path) == {"RC5028"}
