@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from robocomp_yaml.legacy.settings.entries import INT, TOML, Item, Leaf, Setting, guess
 from robocomp_yaml.legacy.settings.families import families
-from robocomp_yaml.legacy.settings.headers import sanitized, unique
+from robocomp_yaml.legacy.settings.headers import free, sanitized
 from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan, Spelled
 from robocomp_yaml.legacy.settings.rows import could_be_list, is_list, joiner, separators, split
 from robocomp_yaml.legacy.settings.shapes import becomes_text, retyped, shape_of
@@ -82,7 +82,7 @@ def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
         else:
             plan.path = tuple(_legal(part) for part in original)
         if plan.shape is not None and plan.spelled is not None and plan.path in taken | groups:
-            plan.path = (*plan.path[:-1], unique([*(p[-1] for p in taken | groups), f"{plan.path[-1]}_list"])[-1])
+            plan.path = (*plan.path[:-1], free(f"{plan.path[-1]}_list", {path[-1] for path in taken | groups}))
         if plan.shape is None or plan.path in taken or (plan.path in groups and not plan.built_in):
             give_back(plan, configs)
             continue
