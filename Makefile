@@ -5,6 +5,7 @@ VENV ?= .venv
 PYTHON ?= $(shell test -x /usr/bin/python3 && echo /usr/bin/python3 || echo python3)
 JOBS ?= 2
 ICE := zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 python3-zeroc-ice
+QT := qt6-base-dev
 TOOLS := python3-venv cmake g++ make nodejs npm git
 
 .PHONY: help demo test fast lint bench clean
@@ -42,7 +43,7 @@ $(VENV)/tests: pyproject.toml $(VENV)/rcyaml
 .PHONY: system
 system:
 	@missing=""; \
-	for package in $(ICE) $(TOOLS); do \
+	for package in $(ICE) $(QT) $(TOOLS); do \
 	  case $$package in nodejs) command -v node >/dev/null && continue;; npm) command -v npm >/dev/null && continue;; esac; \
 	  dpkg-query -W -f '$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$package"; done; \
 	if [ -n "$$missing" ]; then \

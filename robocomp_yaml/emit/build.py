@@ -10,6 +10,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
+from robocomp_yaml.check.forms import FORM
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
@@ -144,6 +145,10 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
     if linked.broken and component.path not in state.faulty:
         result.diagnostics.append(_unresolved(component, component.path, state))
         return False
+    form = os.path.normpath(os.path.join(os.path.dirname(component.path), FORM))
+    if component.gui and form in state.faulty:
+        result.diagnostics.append(_unresolved(component, form, state))
+        return False
     document = linked.parameters.document
     if document is not None and document.path in state.faulty:
         if component.path not in state.faulty:
@@ -165,7 +170,7 @@ def _unresolved(document: Module | Component, cause: str, state: _State) -> Diag
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
-        "gui": component.gui, "compatibility": component.compatibility,
+        "statemachine": component.statemachine and component.compatibility,  # RoboComp's own had other names
     }  # fmt: skip
     for key, value in asked.items():
         if value:

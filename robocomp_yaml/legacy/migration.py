@@ -18,6 +18,7 @@ from robocomp_yaml.legacy.result import Migration
 from robocomp_yaml.legacy.settings.components import Inferred, settle
 from robocomp_yaml.legacy.settings.plan import Guesses
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
+from robocomp_yaml.legacy.upgrade import upgrade
 from robocomp_yaml.link.workspace import Search
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
@@ -51,6 +52,7 @@ def migrate(
     _link(run, good, chosen, known, extra)
     inferred = settle(good, chosen, run.remembers, guesses, exact=exact)
     _plan(run, good, chosen, known, inferred, force)
+    upgrade(run, paths)
     return run
 
 

@@ -26,6 +26,8 @@ class Migration:
     general: list[Diagnostic] = field(default_factory=list)
     homes: dict[str, list[Output]] = field(default_factory=dict)
     """The documents of each workspace, whose first line names a schema there."""
+    upgrades: list[tuple[str, Output]] = field(default_factory=list)
+    """Older documents of ours, by their paths."""
     _documents: list[tuple[Entry, OutputRoot, Output]] = field(default_factory=list)
 
     @property
@@ -78,6 +80,9 @@ class Migration:
         for root in self.roots.values():
             root.write()
         self.tell_failures()
+        for path, output in self.upgrades:
+            if output.state == FAILED:
+                self.general.append(codes.NOT_WRITTEN.at(Span(path), path=path, reason=output.problem))
         for home, outputs in sorted(self.homes.items()):
             if any(output.state not in (FAILED, TAKEN) for output in outputs):
                 with contextlib.suppress(OSError):  # a workspace that cannot be written to has migrated all the same

@@ -57,6 +57,7 @@ class Rules:
     keys: Texts = field(default_factory=dict)
     values: Mapping[str, Texts] = field(default_factory=dict)
     defaults: Texts = field(default_factory=dict)
+    code: Texts = field(default_factory=dict)
     order: tuple[str, ...] = ()
     is_made: bool = False
     weak: bool = False

@@ -15,6 +15,7 @@ from robocomp_yaml.emit.places import contents, in_words
 from robocomp_yaml.legacy.formats import by_name, candidate
 from robocomp_yaml.legacy.rules import Rules, formats
 from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.source.discover import documents_below, kind_of
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 
@@ -55,12 +56,14 @@ def find(paths: Sequence[str], output: str | None) -> Found:
     seen: set[str] = set()
     for path in paths:
         is_folder = os.path.isdir(path)
+        if not is_folder and kind_of(path) is not None and os.path.isfile(path):
+            continue  # a document of ours: it may be an older one
         below = list(_below(path, found.diagnostics)) if is_folder else [os.path.normpath(path)]
         root = output or (os.path.normpath(path) if is_folder else _root_of(path))
         if is_folder:
             if root not in found.folders:
                 found.folders.append(root)
-            if not below:
+            if not below and next(documents_below(path), None) is None:
                 suffixes = "the suffixes are known: " + ", ".join(sorted(_suffixes()))
                 found.diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=suffixes))
         for file in below:

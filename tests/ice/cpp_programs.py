@@ -62,15 +62,23 @@ def locked(file: Path) -> Iterator[None]:
 @pytest.fixture(scope="session")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> Programs:
     """`programs("Server")`: built by the first test that asks, in whichever of pytest-xdist's processes."""
-    base = tmp_path_factory.getbasetemp()
+    sources = {name: {"src/specificworker.cpp": source} for name, source in SOURCES.items()}
+    return shared_programs(tmp_path_factory.getbasetemp(), "c++ ñ", DOCUMENTS, sources)  # with a blank and more
+
+
+def shared_programs(
+    base: Path, name: str, documents: Mapping[str, str], sources: Mapping[str, Mapping[str, str]]
+) -> Programs:
+    """Programs of these documents, with the user's files of each component, in a folder of this name that pytest-xdist's
+    processes share."""
     shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
-    folder = shared / "c++ ñ"  # with a blank and more
+    folder = shared / name
     folder.mkdir(exist_ok=True)
-    with locked(shared / "documents.lock"):
+    with locked(shared / f"{name}.documents.lock"):
         if not (folder / "Arm.idsl.yaml").is_file():
-            for name, component in build(DOCUMENTS, folder).items():
-                if source := SOURCES.get(name):
-                    (component.root / "src" / "specificworker.cpp").write_text(source)
+            for component in build(documents, folder).values():
+                for path, text in sources.get(component.name, {}).items():
+                    (component.root / path).write_text(text)
 
     def program(name: str) -> Program:
         found = Program(name, folder / name.lower())

@@ -46,6 +46,7 @@ def run(root: Path) -> tuple[list[str], int]:
     import generated.runtime.slices
     from generated.runtime.application import Application
     from generated.runtime.settings import Settings
+    from generated.runtime.stage import Stage
     from generated.runtime.stopping import Stopping
 
     generated.__path__[:] = [str(root / "generated")]
@@ -56,6 +57,7 @@ def run(root: Path) -> tuple[list[str], int]:
     logging.basicConfig(level=logging.WARNING, handlers=[Listener(wrong)])
     try:
         from generated.component import COMPONENT
+        from generated.parameters import TABLE, Parameters
         from specificworker import SpecificWorker
 
         class Caller(SpecificWorker):
@@ -66,8 +68,8 @@ def run(root: Path) -> tuple[list[str], int]:
                 finally:
                     self.killYourSelf()
 
-        application = Application(COMPONENT, Caller, Settings([root / "etc" / "config"], []), Stopping())
-        code = application.run(only_check=False)
+        stage = Stage(COMPONENT, Settings([root / "etc" / "config"], []), Stopping(), only_check=False)
+        code = Application(COMPONENT, Caller, (TABLE, Parameters), stage).run()
         wrong += [f"exit code {code}"] if code else []
     except BaseException:
         wrong.append(traceback.format_exc())

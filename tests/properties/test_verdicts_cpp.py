@@ -13,15 +13,16 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
+import accessors
 from conftest import ROOT
+from constraints import CASES, CONSTRAINTS, subject
+from parameters import Data, documents, linked, mutated, parameters, values
+
 from robocomp_yaml.emit.targets import cpp_parameters
 from robocomp_yaml.model.parameters import Parameters, RecordType
 from robocomp_yaml.values import evaluate
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties
-from tests import accessors
-from tests.constraints import CASES, CONSTRAINTS, subject
-from tests.parameters import Data, documents, linked, mutated, parameters, values
 
 pytestmark = [
     pytest.mark.slow, pytest.mark.skipif(shutil.which("g++") is None, reason="there is no g++ here"),

@@ -131,7 +131,7 @@ NOT_COMPILED_YET = Code(
     "warning",
     "`{key}` is checked and kept, but this version of rcyaml does not compile it yet",
     "The document is right, and what is compiled from the rest of it runs; what this key asks for is missing in it.",
-    _component("imports: [Speech]\nimplements: [Speech]\ngui: {toolkit: qt, base: QWidget}\n"),
+    _component("imports: [Speech]\nimplements: [Speech]\noptions: [dsr]\n"),
     _RIGHT,
     "compile .",
 )

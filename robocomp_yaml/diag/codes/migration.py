@@ -206,3 +206,16 @@ NO_PDSL = Code(
         "speech.pdsl": "ComponentParams Speech{\n  volume int 5 0:10;\n}\n",
     }, _MIGRATE,
 )  # fmt: skip
+_OLDER = "component: SpeechComp\nlanguage: python\nimports: [Speech]\nsubscribesTo: [Speech]  # all of it\n"
+_NEWER = _OLDER.replace("subscribesTo", "subscribes")
+UPGRADED = Code(
+    "RC5031", NOTE, "{what}",
+    "Our own documents change too, if rarely. `migrate` brings older ones up to date in their place: it changes the "
+    "word that is spelled differently now, and nothing else.",
+    {**_RIGHT, "speech.cdsl.yaml": _OLDER}, {**_RIGHT, "speech.cdsl.yaml": _NEWER}, _MIGRATE,
+)  # fmt: skip
+BOTH_KEYS = Code(
+    "RC5032", ERROR, "'{old}' is called '{new}' now, and stands here beside it",
+    "An older document would be brought up to date, but it has the old key and the new one. Make one of the two.",
+    {**_RIGHT, "speech.cdsl.yaml": _OLDER + "subscribes: []\n"}, {**_RIGHT, "speech.cdsl.yaml": _NEWER}, _MIGRATE,
+)  # fmt: skip

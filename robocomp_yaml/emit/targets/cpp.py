@@ -12,8 +12,9 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import cpp_parameters, cpp_statemachine
+from robocomp_yaml.emit.targets import cpp_parameters, cpp_qt, cpp_statemachine
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.emit.targets.cpp_qt import QtView, RobocompView
 from robocomp_yaml.emit.targets.cpp_statemachine import MachineView
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
 from robocomp_yaml.emit.targets.slice import file_name
@@ -54,18 +55,22 @@ class View:
     libraries: str
     slice_stems: str
     sources: list[str]
+    qt: QtView | None
+    robocomp: RobocompView | None
     machine: MachineView | None
     base: str
 
 
 def plan(component: LinkedComponent) -> list[FilePlan]:
     """The component's files but for `slice/` and `etc/`."""
-    machine = cpp_statemachine.files(component)
-    view = _view(component, machine)
+    copied = [*cpp_statemachine.files(component), *cpp_qt.files(component)]
+    view = _view(component, copied)
+    if view.robocomp:
+        return _robocomp(component, view, copied)
     return [
         *_runtime(_unused(component)),
         *cpp_parameters.plan(component),
-        *machine,
+        *copied,
         *(
             FilePlan(f"generated/{name}", render(f"cpp/{name}.j2", view))
             for name in ("interfaces.h", "genericworker.h", "genericworker.cpp", "main.cpp", "component.cmake")
@@ -82,6 +87,31 @@ def _unused(component: LinkedComponent) -> frozenset[str]:
     return unused if component.publishes or component.subscribes else unused | _TOPICS
 
 
+def _robocomp(component: LinkedComponent, view: View, copied: list[FilePlan]) -> list[FilePlan]:
+    """As plan(), where the user's code is written for RoboComp's own tool."""
+    names = {
+        "generated/interfaces.h": "interfaces.h",
+        "generated/genericworker.h": "robocomp_genericworker.h",
+        "generated/genericworker.cpp": "robocomp_genericworker.cpp",
+        "generated/main.cpp": "robocomp_main.cpp",
+        "generated/robocomp/enumerators.h": "robocomp_enumerators.h",
+        "generated/component.cmake": "component.cmake",
+        "generated/CMakeLists.txt": "robocomp_CMakeLists.txt",
+    }
+    own = {
+        "src/specificworker.h": "robocomp_specificworker.h",
+        "src/specificworker.cpp": "robocomp_specificworker.cpp",
+        "CMakeLists.txt": "CMakeLists.txt",
+    }
+    return [
+        *_runtime(_unused(component)),
+        *cpp_parameters.plan(component),
+        *copied,
+        *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
+        *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE) for path, name in own.items()),
+    ]
+
+
 @cache
 def _runtime(unused: frozenset[str]) -> tuple[FilePlan, ...]:
     """The files that are the same in every component."""
@@ -93,7 +123,7 @@ def _runtime(unused: frozenset[str]) -> tuple[FilePlan, ...]:
     )
 
 
-def _view(linked: LinkedComponent, machine: list[FilePlan]) -> View:
+def _view(linked: LinkedComponent, copied: list[FilePlan]) -> View:
     component = linked.component
     ports = Ports(linked)
     has_topics = bool(ports.publishes or ports.subscribes)
@@ -104,7 +134,7 @@ def _view(linked: LinkedComponent, machine: list[FilePlan]) -> View:
     doc = f"{component.name}: {component.doc}" if component.doc else component.name
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if has_services else "/*services*/"
-    copied = [file.path.removeprefix("generated/") for file in (*_runtime(_unused(linked)), *machine)]
+    sources = [file.path.removeprefix("generated/") for file in (*_runtime(_unused(linked)), *copied)]
     ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
@@ -126,7 +156,15 @@ def _view(linked: LinkedComponent, machine: list[FilePlan]) -> View:
         ice_components=" ".join(ice),
         libraries=" ".join(f"Ice::{name}" for name in ice),
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
-        sources=["genericworker.cpp", "parameters.cpp", *(path for path in copied if path.endswith(".cpp"))],
+        sources=["genericworker.cpp", "parameters.cpp", *(path for path in sources if path.endswith(".cpp"))],
         machine=cpp_statemachine.view(linked.machine) if linked.machine else None,
-        base="machine::Worker" if linked.machine else "runtime::Worker",
+        base=_base(linked),
+        qt=cpp_qt.qt_view(linked),
+        robocomp=cpp_qt.robocomp_view(linked, ports),
     )
+
+
+def _base(linked: LinkedComponent) -> str:
+    """What GenericWorker is derived from."""
+    base = "machine::Worker" if linked.machine else "runtime::Worker"
+    return f"runtime::WindowWorker<{base}>" if linked.component.gui else base

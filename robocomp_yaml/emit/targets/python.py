@@ -15,7 +15,7 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import python_parameters, python_statemachine
+from robocomp_yaml.emit.targets import python_parameters, python_qt, python_statemachine
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
 from robocomp_yaml.emit.targets.python_statemachine import MachineView
@@ -43,8 +43,9 @@ class SliceModule:
 class View:
     """What the templates show: each file is about the same few things.
 
-    `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `imports`
-    names the modules that the file at hand uses.
+    `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `stage`,
+    `window`, `qt_base`, `sequences` and `spread` are for components in Qt's event loop; `imports` names the modules
+    that the file at hand uses.
     """
 
     source: str
@@ -64,9 +65,14 @@ class View:
     requires: list[AccessorView]
     publishes: list[AccessorView]
     accessors: list[AccessorView]
+    stage: str
+    window: str
+    qt_base: str
+    sequences: list[str]
     machine: MachineView | None
     base: str
     imports: str = ""
+    spread: tuple[str, ...] = ()
 
 
 def plan(component: LinkedComponent) -> list[FilePlan]:
@@ -85,9 +91,23 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
         FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
         python_parameters.plan(component),
         FilePlan("generated/component.py", _rendered("component.py", view, table)),
-        FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
-        FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
+        *python_qt.files(component),
+        *(_robocomp(view) if component.component.compatibility else [
+            FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
+            FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
+        ]),
         FilePlan(f"bin/{view.name}", _rendered("launcher", view), ONCE, executable=True),
+    ]
+
+
+def _robocomp(view: View) -> list[FilePlan]:
+    """What code written for RoboComp's own tool imports, and a skeleton like its own."""
+    every = tuple(module.variable for module in view.modules)
+    view = replace(view, imports=", ".join(every), spread=every)
+    return [
+        FilePlan("generated/robocomp/genericworker.py", render("python/robocomp_genericworker.py.j2", view)),
+        FilePlan("generated/robocomp/interfaces.py", render("python/robocomp_interfaces.py.j2", view)),
+        FilePlan("src/specificworker.py", render("python/robocomp_specificworker.py.j2", view), ONCE),
     ]
 
 
@@ -134,9 +154,20 @@ def _view(linked: LinkedComponent) -> View:
         requires=ports.requires,
         publishes=ports.publishes,
         accessors=[*ports.requires, *ports.publishes],
+        stage=python_qt.stage(linked),
+        window=component.gui.base if component.gui else "",
+        qt_base=python_qt.qt_base(linked),
+        sequences=python_qt.sequences(linked),
         machine=python_statemachine.view(linked.machine) if linked.machine else None,
-        base="MachineWorker" if linked.machine else "Worker",
+        base=_base(linked),
     )
+
+
+def _base(linked: LinkedComponent) -> str:
+    """What GenericWorker is derived from."""
+    machine = "MachineWorker" if linked.machine else ""
+    window = "WindowWorker" if linked.component.gui else ""
+    return ", ".join(base for base in (window, machine) if base) or "Worker"
 
 
 def _identifiers(linked: LinkedComponent) -> Iterator[str]:

@@ -17,7 +17,8 @@ _FORGOTTEN = _KEYWORDS - ICE_ESCAPES
 
 # Attributes of every worker: accessors and methods called so get another name.
 WORKER_ATTRIBUTES = frozenset(
-    "communicator compute getPeriod initialize killYourSelf log mutex parameters setPeriod".split()
+    "communicator compute getPeriod initialize initializeGui killYourSelf log mutex parameters runInGui runInWorker "
+    "setPeriod ui window".split()
 )
 
 # Names that stand in the generated files beside the Slice modules.

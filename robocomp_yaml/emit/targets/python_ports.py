@@ -27,12 +27,15 @@ IN = "    "
 
 @dataclass(frozen=True, slots=True)
 class MethodView:
-    """A method of the worker that a servant calls; `value` is what its stub returns, '' where there is nothing."""
+    """A method of the worker that a servant calls; `value` is what its stub returns, '' where there is nothing;
+    `plain_signature` has no hints."""
 
     operation: str
     name: str
     signature: str
+    plain_signature: str
     throws: str
+    is_tuple: str
     docstring: str
     summary: str
     value: str
@@ -134,7 +137,9 @@ class Ports:
             operation=ice_name(method.name),
             name=name,
             signature=signature(name, typed, result_hint(method, scope), IN),
+            plain_signature=f"def {name}({', '.join(['self', *names])}):",
             throws=_throws(throws),
+            is_tuple=", is_tuple=True" if len(results(method)) > 1 else "",
             docstring=docstring(f"{doc}\n\n{details}", IN * 2),
             summary=docstring(one_line(doc.strip().partition("\n")[0]), IN * 2),
             value=", ".join(zero(ref, scope) for ref in results(method)),

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
 
 from lark import Token, Tree
 
@@ -47,6 +50,8 @@ class _Converter:
             elif clause.data in CLAUSES:
                 self._once(clause)
                 CLAUSES[str(clause.data)](self, clause)
+        if self._has_code_of_robocomp():
+            self._put("compatibility", "robocomp", Notes())
         if "language" not in self.entries:
             at = reader.span(token(component, "NAME") or component)
             reader.diagnostics.append(codes.NO_LANGUAGE.at(at, name=name))
@@ -55,6 +60,15 @@ class _Converter:
         rest = [words(node) for node in trees(tree, "lenient_rest")]
         around.foot[:0] = [*notes.foot, *rest]
         return Draft(document, imports, around, machine=self.machine)
+
+    def _has_code_of_robocomp(self) -> bool:
+        """Whether the user's code beside the file was written against what RoboComp's own tool generates."""
+        folder = Path(self.reader.source.path).parent
+        for name, pattern in self.reader.rules.code.items():
+            with suppress(OSError):  # it is not there, or it is none of our business
+                if re.search(pattern, (folder / name).read_text(encoding="utf-8", errors="replace")):
+                    return True
+        return False
 
     def _once(self, clause: Tree[Token]) -> None:
         """A clause stands at most once; of two, nobody knows which one holds."""

@@ -19,11 +19,12 @@ public:
     Worker(const std::string& name, int period, runtime::Table parameters, const Machine& machine);
 
 protected:
+    std::optional<std::chrono::steady_clock::duration> between() override;
+
     StateMachine statemachine;
 
 private:
     void begin() override;
-    std::optional<std::chrono::steady_clock::duration> between() override;
     void turn() override;
     void end() override;
 };

@@ -70,6 +70,7 @@ Application::Application(
 void Application::run()
 {
     const auto& communicator = communicator_.communicator();
+    worker_->prepare(settings_, commandLine_.onlyCheck);
     const auto worker = std::async(std::launch::async, [this] { work(); });
     // Ice.Admin's shutdown (IceGrid uses it) is a request to stop, too.
     const auto ice = std::async(
@@ -79,7 +80,7 @@ void Application::run()
             communicator->waitForShutdown();
             shutdown_.request();
         });
-    shutdown_.wait();
+    worker_->waitForEnd(shutdown_);
     gate_.close();
     worker_->stop();
     worker.wait_for(500ms);

@@ -19,8 +19,8 @@ namespace runtime
 
 /// The component's life: start, run, stop in order.
 ///
-/// The main thread waits for the request to stop, so that a signal is seen whatever happens; all else is done in the
-/// worker's thread and in Ice's.
+/// The main thread waits for the request to stop, or runs the event loop of a window; all else is done in the worker's
+/// thread and in Ice's.
 class Application
 {
 public:

@@ -19,6 +19,17 @@ namespace runtime
 using RoboCompCommonBehavior::ParameterList;
 using RoboCompCommonBehavior::State;
 
+namespace
+{
+
+/// What the component says of itself while it runs: the states of its state machine, if it has one.
+Ice::PropertyDict liveProperties(const Ice::Current& current)
+{
+    return current.adapter->getCommunicator()->getProperties()->getPropertiesForPrefix("statemachine.");
+}
+
+}
+
 CommonBehavior::CommonBehavior(
     Worker& worker, Store& store, const CommandLine& commandLine, const Log& log, Shutdown& shutdown)
     : worker_(worker), store_(store), commandLine_(commandLine), log_(log), shutdown_(shutdown)
@@ -63,12 +74,10 @@ void CommonBehavior::killYourSelf(const Ice::Current&)
 
 ParameterList CommonBehavior::getParameterList(const Ice::Current& current)
 {
-    // What the component says of itself while it runs: the states of its state machine, if it has one.
-    const auto live = current.adapter->getCommunicator()->getProperties()->getPropertiesForPrefix("statemachine.");
     ParameterList result;
-    for (const auto& [key, value] : live)
+    for (const auto& [key, text] : liveProperties(current))
     {
-        result[key] = {false, value, "string"};
+        result[key] = {false, text, "string"};
     }
     for (const auto& [key, text] : store_.others())
     {
@@ -81,8 +90,9 @@ ParameterList CommonBehavior::getParameterList(const Ice::Current& current)
     return result;
 }
 
-void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Current&)
+void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Current& current)
 {
+    const auto live = liveProperties(current);
     const auto others = store_.others();
     const auto before = store_.entries();
     Texts changes;
@@ -96,7 +106,7 @@ void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Curre
         const auto entry = before.find(key);
         const bool isSame = entry != before.end() ? entry->second.text == parameter.value
                                                   : other != others.end() && other->second == parameter.value;
-        if (!isSame)
+        if (!isSame && live.count(key) == 0)
         {
             changes[key] = parameter.value;
         }

@@ -38,7 +38,7 @@ public:
     RoboCompCommonBehavior::ParameterList getParameterList(const Ice::Current& current) override;
 
     /// All of them, or none: then the log says why.
-    void setParameterList(RoboCompCommonBehavior::ParameterList parameters, const Ice::Current&) override;
+    void setParameterList(RoboCompCommonBehavior::ParameterList parameters, const Ice::Current& current) override;
 
     /// Reads the config again: all that it changes takes effect, or nothing does and the log says why.
     void reloadConfig(const Ice::Current&) override;

@@ -377,7 +377,13 @@ std::string Kind::limit(const Value& value) const
         : name == "float" ? largestFloat
                           : std::numeric_limits<double>::max();
     const auto least = form == Form::whole ? -most - 1 : -most;
-    return number >= least && number <= most ? "" : "be a number that " + name + " can hold";
+    if (number >= least && number <= most)
+    {
+        return "";
+    }
+    const auto said = [&](long double end)
+    { return form == Form::whole ? std::to_string(static_cast<long long>(end)) : shortest(static_cast<double>(end)); };
+    return "be from " + said(least) + " to " + said(most) + " (" + name + ")";
 }
 
 std::string Kind::range() const

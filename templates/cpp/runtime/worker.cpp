@@ -2,9 +2,9 @@
 #include "worker.h"
 
 #include "errors.h"
+#include "shutdown.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace runtime
@@ -63,6 +63,11 @@ void Worker::wake()
 void Worker::turn()
 {
     compute();
+}
+
+void Worker::waitForEnd(Shutdown& shutdown)
+{
+    shutdown.wait();
 }
 
 void Worker::run()

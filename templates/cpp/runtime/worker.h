@@ -22,6 +22,8 @@ namespace runtime
 
 class Connections;
 class Services;
+class Settings;
+class Shutdown;
 
 /// The worker: what GenericWorker, and so the user's SpecificWorker, is built on.
 ///
@@ -59,6 +61,9 @@ protected:
     std::shared_ptr<Ice::Communicator> communicator;
     const Log log;
 
+    /// What the generated accessors read and change.
+    Store& parameterStore();
+
     /// There is something to do before the next turn.
     void wake();
 
@@ -79,11 +84,17 @@ protected:
     virtual void end()
     {
     }
-    /// What the generated accessors read and change.
-    Store& parameterStore();
 
 private:
     friend class Application;
+
+    // In the main thread: before the worker's thread begins, and then until the component stops.
+
+    virtual void prepare(const Settings& /*settings*/, bool /*onlyCheck*/)
+    {
+    }
+
+    virtual void waitForEnd(Shutdown& shutdown);
 
     /// Makes the proxies and offers the servants.
     virtual void connect(const Connections& connections, Services& services) = 0;

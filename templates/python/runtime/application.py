@@ -17,11 +17,11 @@ from generated.runtime.ports import Component, Subscribed
 from generated.runtime.proxies import connect
 from generated.runtime.schedule import Schedule
 from generated.runtime.settings import Settings
+from generated.runtime.stage import Stage, WorkerClass
 from generated.runtime.stopping import Stopping
 from generated.runtime.topics import Topics
 from generated.runtime.waiting import reason
 
-WorkerClass = Callable[[worker.Context], worker.Worker]
 Parameters = tuple[Table, Callable[[Store], Live]]
 
 # What differs from Ice's own defaults, unless the config says otherwise.
@@ -34,20 +34,19 @@ ICE_DEFAULTS = {
 class Application:
     """One component in one process.
 
-    The main thread waits for the request to stop, so that a signal is seen whatever happens; all else is done in the
-    worker's thread and in Ice's.
+    The main thread is the stage's (most wait there for the request to stop); all else is done in the worker's thread
+    and in Ice's.
     """
 
-    def __init__(
-        self, component: Component, worker_class: WorkerClass, parameters: Parameters, settings: Settings,
-        stopping: Stopping,
-    ) -> None:  # fmt: skip
+    def __init__(self, component: Component, worker_class: WorkerClass, parameters: Parameters, stage: Stage) -> None:
+        settings, stopping = stage.settings, stage.stopping
         self._component = component
         self._worker_class = worker_class
+        self._stage = stage
         self._settings = settings
         self._stopping = stopping
-        self._log = logging.getLogger(component.name)
-        self._gate = servants.Gate()
+        self._log = stage.log
+        self._gate = servants.Gate(self._log)
         self._topics: Topics | None = None
         table, live = parameters
         self._store = configuration.load(table, settings)
@@ -56,13 +55,14 @@ class Application:
         configuration.drive(self._schedule, self._store)
         self._communicator = Ice.initialize(_initialization(settings))
 
-    def run(self, only_check: bool) -> int:
-        """Until the component is asked to stop; the exit code. `only_check`: it stops as soon as it has started."""
-        work = threading.Thread(target=self._work, args=(only_check,), name="worker", daemon=True)
+    def run(self) -> int:
+        """Until the component is asked to stop; the exit code."""
+        work = threading.Thread(target=self._work, name="worker", daemon=True)
         watch = threading.Thread(target=self._watch_ice, name="shutdown", daemon=True)
         for thread in (work, watch):
             thread.start()
-        self._stopping.wait()
+        self._stage.wait()
+        self._stopping.request()
         self._gate.close()
         work.join(0.5)
         if self._topics:
@@ -81,7 +81,7 @@ class Application:
             pass  # it was told to stop before it had started
         self._stopping.request()
 
-    def _work(self, only_check: bool) -> None:
+    def _work(self) -> None:
         try:
             running = self._start()
         except Exception as error:
@@ -92,11 +92,11 @@ class Application:
                     self._log.exception("cannot start")
                 self._stopping.request(1)
         else:
-            if only_check:
+            if self._stage.only_check:
                 self._log.info("%s starts as it should", self._component.name)
             else:
                 self._log.info("%s is running", self._component.name)
-                worker.run(running, self._schedule)
+                self._stage.run(running, self._schedule)
         finally:
             self._stopping.request()  # also where the user's code called sys.exit()
 
@@ -114,8 +114,7 @@ class Application:
         context = worker.Context(
             self._component.name, self._communicator, self._schedule, self._stopping, self._parameters, proxies
         )
-        running = self._worker_class(context)
-        running.initialize()
+        running = self._stage.create(self._worker_class, context)
         self._gate.open(running)
         for port, subscriber in subscribers:
             self._topics.subscribe(port, subscriber)

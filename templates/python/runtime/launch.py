@@ -25,13 +25,14 @@ def launch(name: str, files: Sequence[Path], properties: Sequence[str], only_che
         from generated.component import COMPONENT
         from generated.parameters import TABLE, Parameters
         from generated.runtime.application import Application
-        from specificworker import SpecificWorker
+        from generated.runtime.stage import Stage
 
-        application = Application(COMPONENT, SpecificWorker, (TABLE, Parameters), settings, stopping)
+        stage = (COMPONENT.stage or Stage)(COMPONENT, settings, stopping, only_check)
+        application = Application(COMPONENT, stage.worker_class(), (TABLE, Parameters), stage)
     except StartError as error:
         logging.getLogger(name).error(error)
         return 1
     except Ice.LocalException as error:
         logging.getLogger(name).error("Ice cannot be initialized from %s: %s", settings.where, error)
         return 1
-    return application.run(only_check)
+    return application.run()

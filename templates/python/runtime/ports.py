@@ -3,17 +3,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from types import ModuleType
+from typing import Any
 
 
 @dataclass(frozen=True)
 class Method:
-    """An operation (as Ice's Python mapping spells it), the worker's method that it calls, and what that may throw."""
+    """An operation (as Ice's Python mapping spells it), the worker's method that it calls, and what that may throw.
+    `is_tuple`: it gives back several values, and the worker may do so in a list."""
 
     operation: str
     calls: str
     throws: tuple[type, ...] = ()
+    is_tuple: bool = False
 
 
 @dataclass(frozen=True)
@@ -59,7 +63,8 @@ class Subscribed:
 
 @dataclass(frozen=True)
 class Component:
-    """`period` is in milliseconds; `behavior` is the Slice module RoboCompCommonBehavior."""
+    """`period` is in milliseconds; `behavior` is the Slice module RoboCompCommonBehavior; `stage` is a subclass of
+    `Stage`, where the worker does not live in the usual one; `base` is the class of Qt that its window is of."""
 
     name: str
     period: int
@@ -68,3 +73,5 @@ class Component:
     requires: tuple[Required, ...] = ()
     publishes: tuple[Published, ...] = ()
     subscribes: tuple[Subscribed, ...] = ()
+    stage: Callable[..., Any] | None = None
+    base: str = ""

@@ -18,6 +18,7 @@ class Schedule:
         self._stopping = stopping
         self._last = time.monotonic()
         self._wake_up = threading.Event()
+        self.told: Callable[[int], None] = lambda milliseconds: None  # of each new period
         stopping.wakes(self._wake_up)
 
     @property
@@ -29,6 +30,7 @@ class Schedule:
     def period(self, milliseconds: int) -> None:
         self._period = milliseconds
         self._wake_up.set()
+        self.told(milliseconds)
 
     def restart(self) -> None:
         """The next turn is one period from now."""

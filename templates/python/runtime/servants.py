@@ -24,7 +24,8 @@ class Gate:
     wait for each other do not lock up.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, log: logging.Logger) -> None:
+        self.log = log
         self._lock = threading.Lock()
         self._worker: Worker | None = None
         self._early: list[tuple[Call, Ice.Future]] = []
@@ -73,18 +74,19 @@ def servant(interface: type, methods: Sequence[Method], gate: Gate) -> Ice.Objec
 def _operation(method: Method, gate: Gate) -> Callable[..., Any]:
     def operation(self: Ice.Object, *arguments: Any) -> Any:
         inputs = arguments[:-1]  # the last one is Ice's `current`
-        return gate.enter(lambda worker: _call(worker, method, inputs))
+        return gate.enter(lambda worker: _call(worker, method, inputs, gate.log))
 
     return operation
 
 
-def _call(worker: Worker, method: Method, inputs: Sequence[Any]) -> Any:
+def _call(worker: Worker, method: Method, inputs: Sequence[Any], log: logging.Logger) -> Any:
     """Exceptions that the interface declares travel to the caller; any other one is logged here."""
     try:
-        return getattr(worker, method.calls)(*inputs)
+        result = getattr(worker, method.calls)(*inputs)
+        return tuple(result) if method.is_tuple else result
     except method.throws:
         raise
     except Exception as error:
-        logging.getLogger(worker.log.name).exception("%s() failed", method.calls)
+        log.exception("%s() failed", method.calls)
         summary = " ".join(f"{method.calls}: {type(error).__name__}: {error}".split())
         raise Ice.UnknownException(ALREADY_LOGGED + summary) from None

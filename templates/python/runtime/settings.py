@@ -37,6 +37,10 @@ class Settings:
             properties.setProperty(key, unquoted(value))
         return properties
 
+    def stay(self) -> None:
+        """The same files, wherever the process goes from here."""
+        self._files = [file.absolute() for file in self._files]
+
     @property
     def where(self) -> str:
         """The config file, for messages."""

@@ -10,14 +10,17 @@ import threading
 import time
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
+REQUEST = b"\0"  # no signal has this number
+WAKES = {REQUEST, *(bytes([number]) for number in SIGNALS)}
 GRACE = 1.5  # seconds from the request to the end, however stuck a method may be
 
 
 class Stopping:
     """The request to stop, which anyone may make at any time.
 
-    A signal's handler may interrupt any line of Python, so it takes no lock: it writes to a pipe. A thread reads from
-    there, tells all who wait, and then counts to `GRACE`.
+    A signal's handler may interrupt any line of Python, so it takes no lock: Python itself writes the signal's number to
+    a pipe (at once, even while the main thread is in the event loop of a window). A thread reads from there, tells all
+    who wait, and then counts to `GRACE`.
     """
 
     def __init__(self) -> None:
@@ -30,7 +33,8 @@ class Stopping:
 
     def on_signals(self) -> None:
         for number in SIGNALS:
-            signal.signal(number, lambda *_: self.request())
+            signal.signal(number, lambda *_: None)
+        signal.set_wakeup_fd(self._outbox, warn_on_full_buffer=False)
 
     def done(self) -> None:
         """All is in order: one more signal must not kill what is left of the process."""
@@ -41,7 +45,7 @@ class Stopping:
         """Stop, and end with this code (the first that is not 0 wins)."""
         self.exit_code = self.exit_code or exit_code
         try:
-            os.write(self._outbox, b".")
+            os.write(self._outbox, REQUEST)
         except BlockingIOError:
             pass  # it has been asked for 65,536 times already
 
@@ -57,7 +61,8 @@ class Stopping:
         self._wake_ups.append(event)
 
     def _watch(self) -> None:
-        os.read(self._inbox, 1)
+        while os.read(self._inbox, 1) not in WAKES:
+            pass  # another signal, which is the user's
         self._requested.set()
         for event in self._wake_ups:
             event.set()

@@ -92,6 +92,18 @@ def test_files(diagnostics: Check, scxml: str, messages: list[str]) -> None:
     assert said(diagnostics, scxml) == messages
 
 
+def test_guards_and_methods_of_interfaces_share_a_class(diagnostics: Check) -> None:
+    files = {
+        "c/c.cdsl.yaml": "component: C\nlanguage: cpp\nimports: [A]\nrequires: [A]\nimplements: [A]\n"
+        "statemachine: {initial: a, transitions: {a: {to: a, if: A_f or a_proxy}}}\n",
+        "c/A.idsl.yaml": "module: M\ninterfaces: {A: {methods: {f: }}}\n",
+    }
+    assert [(d["code"], d["message"]) for d in diagnostics(files)] == [
+        ("RC2231", "the method 'A_f' and the guard 'A_f' would both be called 'A_f' in code"),
+        ("RC2231", "the proxy 'A' and the guard 'a_proxy' would both be called 'a_proxy' in code"),
+    ]
+
+
 def test_no_script_language_in_cpp(diagnostics: Check) -> None:
     text = machine('<state id="a"/>', 'initial="a" datamodel="python"')
     assert said(diagnostics, text, "cpp") == ["1:1 RC2216 the data model 'python' is not available in C++"]

@@ -9,11 +9,12 @@ from typing import Any
 
 import pytest
 
+import accessors
+from constraints import CASES, CONSTRAINTS, subject
+from parameters import parameters
+
 from robocomp_yaml.emit.targets import python_parameters
 from robocomp_yaml.values import evaluate
-from tests import accessors
-from tests.constraints import CASES, CONSTRAINTS, subject
-from tests.parameters import parameters
 
 ARM = """\
 doc: What the arm needs.

@@ -128,3 +128,26 @@ def test_lists_keep_order_and_multiplicity(tmp_path: Path, listed: str, written:
 def test_faults_of_real_files_are_repaired(tmp_path: Path, source: str, said: list[str]) -> None:
     assert migrated(tmp_path, source, "c.cdsl").startswith("component: C\nlanguage: cpp")
     assert warnings(tmp_path, source, "c.cdsl") == said
+
+
+OURS = "from generated.genericworker import GenericWorker\n"
+
+
+@pytest.mark.parametrize(
+    ("file", "code", "is_theirs"),
+    [
+        ("specificworker.py", "import sys\nfrom genericworker import *\n", True),
+        ("specificworker.py", OURS, False),
+        ("specificworker.py", b"# \xe9\xff\nfrom genericworker import *\n", True),
+        ("specificworker.h", "SpecificWorker(TuplePrx tprx, bool startup_check);\n", True),
+        ("specificworker.h", "SpecificWorker(MapPrx& mprx, bool startup_check);\n", True),
+        ("specificworker.h", "class SpecificWorker : public GenericWorker {};\n", False),
+        ("specificworker.cpp", "SpecificWorker::SpecificWorker(MapPrx& mprx)\n", True),
+        ("specificworker.cpp", "#include \"specificworker.h\"\n", False),
+    ],
+)
+def test_code_of_robocomps_own_tool(tmp_path: Path, file: str, code: str | bytes, is_theirs: bool) -> None:
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / file).write_bytes(code if isinstance(code, bytes) else code.encode())
+    document = migrated(tmp_path, "Component A { Communications {}; language python; };", "a.cdsl")
+    assert ("compatibility: robocomp" in document) == is_theirs

@@ -128,7 +128,7 @@ def test_flat_toml_connections(tmp_path: Path) -> None:
     assert held == {
         "Endpoints.CommonBehavior": '"tcp -p 1"', "Proxies.Mouth": '"mouth:tcp -p 2"', "head": '"head:tcp -p 3"',
         "Proxies.TopicManager": '"IceStorm/TopicManager:default -p 9999"', "Proxies.HeardPrefix": '"lab"',
-        "Proxies.SaidPrefix": '""', "Logger": '"LoggerTopic"', "Ice.Warn.Connections": '"0"',
+        "Proxies.SaidPrefix": '""', "Logger": '"LoggerTopic"', "Ice.Warn.Connections": "0",
         "Ice.MessageSizeMax": '"2000"', "x y": "1.50", "Bus.Device": '"a"', "note": '""', "speed": ".5",
     }
 

@@ -1,0 +1,22 @@
+"""The form of a component's window, `src/mainUI.ui`: written once, then drawn with Qt Designer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from robocomp_yaml.emit.render import render
+
+PATH = "src/mainUI.ui"
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """`base` is a class of Qt; `is_main` says that its widgets stand in a central one."""
+
+    base: str
+    title: str
+    is_main: bool
+
+
+def text(base: str, title: str) -> str:
+    return render("qt/mainUI.ui.j2", View(base, title, base == "QMainWindow"))

@@ -1,0 +1,87 @@
+"""A form of Qt Designer, as far as a component promises it: its class and its outermost widget.
+
+Read without trust: no DTD and no entities; the parser keeps no stack, so depth costs nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from xml.parsers import expat
+
+from robocomp_yaml.diag.codes import forms as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+
+
+@dataclass(slots=True)
+class Form:
+    """`class_name` is the text of `<class>`, `widget` the class of the outermost widget and `name` how it is called;
+    each is '' where there is none. The spans are those of their tags."""
+
+    class_name: str = ""
+    widget: str = ""
+    name: str = ""
+    class_span: Span = Span("")
+    widget_span: Span = Span("")
+
+
+class _Refused(Exception):
+    def __init__(self, what: str) -> None:
+        super().__init__(what)
+        self.what = what
+
+
+def read(path: str, raw: bytes) -> tuple[Form | None, list[Diagnostic]]:
+    """None with the reason where it is no form at all."""
+    reader = _Reader(path)
+    try:
+        reader.parser.Parse(raw, True)
+    except _Refused as refused:
+        return None, [codes.REFUSED.at(reader.here(), what=refused.what)]
+    except (expat.ExpatError, ValueError, LookupError) as error:  # the latter two: an encoding that nobody knows
+        reason = expat.ErrorString(error.code) if isinstance(error, expat.ExpatError) else str(error)
+        return None, [codes.NOT_A_FORM.at(reader.here(), reason=reason)]
+    if reader.root != "ui":
+        return None, [codes.NOT_A_FORM.at(Span(path), reason=f"it is a <{reader.root}>, not a <ui>")]
+    return reader.form, []
+
+
+class _Reader:
+    def __init__(self, path: str) -> None:
+        self.path = path
+        self.form = Form(class_span=Span(path), widget_span=Span(path))
+        self.root = ""
+        self._depth = 0
+        self._in_class = False
+        self.parser = parser = expat.ParserCreate()
+        parser.buffer_text = True
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.CharacterDataHandler = self._characters
+        parser.StartDoctypeDeclHandler = self._doctype
+
+    def here(self, length: int = 1) -> Span:
+        line, column = self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1
+        return Span(self.path, line, column, line, column + length)
+
+    def _doctype(self, *_: object) -> None:
+        raise _Refused("document type (<!DOCTYPE …>)")
+
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        self._depth += 1
+        if self._depth == 1:
+            self.root = name
+        elif self._depth == 2 and name == "class":
+            self._in_class = True
+            self.form.class_span = self.here(len(name) + 2)
+        elif self._depth == 2 and name == "widget" and not self.form.widget:
+            self.form.widget, self.form.name = attributes.get("class", ""), attributes.get("name", "")
+            self.form.widget_span = self.here(len(name) + 1)
+
+    def _end(self, _: str) -> None:
+        self._depth -= 1
+        self._in_class = False
+
+    def _characters(self, text: str) -> None:
+        if self._in_class:
+            self.form.class_name += text.strip()
