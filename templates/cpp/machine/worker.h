@@ -22,10 +22,10 @@ protected:
     StateMachine statemachine;
 
 private:
-    void begin() override;
-    std::optional<std::chrono::steady_clock::duration> between() override;
-    void turn() override;
-    void end() override;
+    void beforeTurns() override;
+    std::optional<std::chrono::steady_clock::duration> betweenTurns() override;
+    void takeTurn() override;
+    void afterTurns() override;
 };
 
 }

@@ -59,20 +59,20 @@ void Worker::wake()
     stateChanged_.notify_all();
 }
 
-void Worker::turn()
+void Worker::takeTurn()
 {
     compute();
 }
 
 void Worker::run()
 {
-    begin();
+    beforeTurns();
     lastTurn_ = Clock::now();
     while (waitForTurn())
     {
         try
         {
-            turn();
+            takeTurn();
         }
         catch (const std::exception& problem)
         {
@@ -83,7 +83,7 @@ void Worker::run()
             log.error("compute() failed");
         }
     }
-    end();
+    afterTurns();
 }
 
 /// A turn that came late does not move those after it; turns that were missed altogether are left out.
@@ -94,7 +94,7 @@ bool Worker::waitForTurn()
     {
         woken_ = false;
         lock.unlock();
-        const auto pause = between();
+        const auto pause = betweenTurns();
         lock.lock();
         const auto next = lastTurn_ + period_;
         if (!stopping_ && !woken_)
