@@ -123,7 +123,6 @@ def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
     """One line a file; of many alike in one folder, one line for all. What did not change is for the curious, and so
     is what is the user's, where nothing beside it changed."""
     words = _WOULD if outcome.planned else _DONE
-    width = 11 if outcome.planned else 7
     groups: dict[tuple[str, str, str], list[File]] = {}
     changed = {file.root for file in outcome.files if file.action in CHANGED}
     for file in outcome.files:
@@ -133,6 +132,7 @@ def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
         top, slash, _ = os.path.relpath(file.path, file.root).partition("/")
         folder = os.path.normpath(os.path.join(file.root, top)) if slash else file.root
         groups.setdefault((file.root, file.action, folder), []).append(file)
+    width = max(11 if outcome.planned else 7, *(len(words[action]) for _, action, _ in groups), 0)
     for (_, action, folder), group in groups.items():
         if len(group) > SHOWN and not verbose:
             yield f"{words[action]:<{width}}  {folder}/ ({len(group)} files)"

@@ -53,7 +53,7 @@ def load(ctx: click.Context, file: str, include: tuple[str, ...], overlay: dict[
     if values is None and not has_errors(told):
         raise click.UsageError(f"{file} is no values document: it is called config.yaml (in etc/, beside a component) "
                                "or NAME.config.yaml")
-    if values is not None and values.parameters is not None:
+    if values is not None and values.parameters is not None and check.is_only_layer(values):
         told += check.of_document(values, complete=True)
     return Loaded(values, in_order(told), program.documents)
 

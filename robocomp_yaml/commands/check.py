@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
 import click
 
 from robocomp_yaml.commands import _options
 
+if TYPE_CHECKING:
+    from robocomp_yaml.diag.diagnostic import Diagnostic
+    from robocomp_yaml.pipeline import Analysis
+
 
 @click.command(short_help="Report everything that is wrong with the documents.")
 @_options.paths
+@click.option("--environment", is_flag=True, help="Also say which of the libraries they name are not installed.")
 @_options.include
 @_options.format_
 @click.pass_context
-def command(ctx: click.Context, paths: tuple[str, ...], include: tuple[str, ...], format_: str) -> None:
+def command(
+    ctx: click.Context, paths: tuple[str, ...], environment: bool, include: tuple[str, ...], format_: str
+) -> None:  # fmt: skip
     """Report everything that is wrong with the documents at PATHS (by default, below this folder).
 
     A folder means all documents below it. Documents that they import are looked at too.
@@ -22,9 +32,15 @@ def command(ctx: click.Context, paths: tuple[str, ...], include: tuple[str, ...]
     paths = paths or (".",)
     with _options.progress("reading", paths) as on_read:
         analysis = analyse(paths, include, on_read)
-    told = analysis.diagnostics
-    if analysis.program.components:
+    told, components = analysis.diagnostics, analysis.program.components.values()
+    if components:
         from robocomp_yaml.emit import ports
 
-        told = analysis.with_more(ports.clashes(analysis.program.components.values()))
+        told = analysis.with_more([*ports.clashes(components), *(_missing(analysis) if environment else ())])
     _options.report(ctx, format_, told, analysis.program.documents)
+
+
+def _missing(analysis: Analysis) -> Iterator[Diagnostic]:
+    from robocomp_yaml.emit.environment import missing
+
+    return missing(analysis.program.components.values(), analysis.linker.workspace_of)

@@ -30,25 +30,38 @@ LONG = 50
               help="Write what became of each line of each file, as JSON.")
 @click.option("--strict", is_flag=True, help="Fail when a line of a source is lost.")
 @click.option("--force", is_flag=True, help="Overwrite documents that were edited since, showing the difference first.")
+@click.option("--exact", is_flag=True, help="Keep the blanks around the separators of records and lists.")
+@click.option("--names", multiple=True, metavar="KEY=a,b,c",
+              help="What the columns of the rows KEY0, KEY1… are called.")
+@click.option("--rules", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
+              help="Corrections of what is guessed: `names:` and `types:` by key, `text:` for keys that are no lists.")
 @_options.include
 @_options.format_
 @click.pass_context
 def command(
     ctx: click.Context, paths: tuple[str, ...], output: str | None, dry_run: bool, show_diff: bool,
-    report: str | None, strict: bool, force: bool, include: tuple[str, ...], format_: str,
+    report: str | None, strict: bool, force: bool, exact: bool, names: tuple[str, ...], rules: str | None,
+    include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
-    """Write documents for the legacy files at PATHS: IDSL and Slice interfaces, CDSL components.
+    """Write documents for the legacy files at PATHS: IDSL and Slice interfaces, CDSL components, their configs.
 
     A folder means all legacy files below it, and becomes a workspace. Comments come along. Nothing that you wrote or
     edited is overwritten, and the sources stay as they are.
     """
     from robocomp_yaml.legacy.ledger import as_json
     from robocomp_yaml.legacy.migration import migrate
+    from robocomp_yaml.legacy.settings.corrections import Wrong, corrections
     from robocomp_yaml.pipeline import search_folders
 
+    try:
+        guesses = corrections(names, rules)
+    except (Wrong, OSError, UnicodeDecodeError) as error:
+        raise click.UsageError(str(error)) from None
     if report is not None:
         _refuse_to_overwrite(report)
-    run = migrate(paths, output, search_folders(include), force=force, progress=_progress)
+    run = migrate(
+        paths, output, search_folders(include), force=force, progress=_progress, guesses=guesses, exact=exact
+    )
     shown = run.changes() if show_diff else run.forced()
     for path, change in list(shown):
         click.echo(change.diff(path), nl=False, err=format_ != "text" or report == "-")

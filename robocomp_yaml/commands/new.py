@@ -159,6 +159,7 @@ def _create(ctx: click.Context, make: Callable[[Path], NewDocument]) -> None:
     try:
         if root is None:
             root = Path()
+            make(root)  # what is refused leaves no workspace behind
             _workspace.make(ctx, root)
         document = make(root)
         write(ctx, document)

@@ -19,6 +19,8 @@ from robocomp_yaml.emit.plan import FilePlan, RootPlan
 from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.model.component import Component
+from robocomp_yaml.model.interface import Module
 
 
 @dataclass(slots=True)
@@ -48,7 +50,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
 
     asked = {program.modules[real] for real in program.asked & program.modules.keys()}
     for linked in sorted(asked, key=lambda linked: linked.module.path):
-        if options.wants("slice") and _usable(linked.module.name, linked.module.path, [linked], state, result):
+        if options.wants("slice") and _usable(linked.module, [linked], state, result):
             root = slice_root(linked)
             owner = os.path.relpath(linked.module.path, root)
             needed = [linked, *_imports(linked, lambda other, root=root: other in asked and slice_root(other) == root)]
@@ -122,14 +124,14 @@ def _imports(linked: LinkedModule, covered: Callable[[LinkedModule], bool]) -> I
             yield scope
 
 
-def _usable(name: str, path: str, modules: Iterable[LinkedModule], state: _State, result: Build) -> bool:
+def _usable(document: Module | Component, modules: Iterable[LinkedModule], state: _State, result: Build) -> bool:
     """Whether a document has no error, nor anything that it imports; when only the latter, says what follows."""
-    if path in state.faulty:
+    if document.path in state.faulty:
         return False
     for linked in modules:
         cause = state.cause(linked)
         if cause:
-            result.diagnostics.append(_unresolved(name, path, cause, state))
+            result.diagnostics.append(_unresolved(document, cause, state))
             return False
     return True
 
@@ -138,27 +140,28 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
     component = linked.component
     for file in linked.machine_files:
         if file in state.faulty:
-            result.diagnostics.append(_unresolved(component.name, component.path, file, state))
+            result.diagnostics.append(_unresolved(component, file, state))
             return False
     if linked.broken and component.path not in state.faulty:
-        result.diagnostics.append(_unresolved(component.name, component.path, component.path, state))
+        result.diagnostics.append(_unresolved(component, component.path, state))
         return False
     form = os.path.normpath(os.path.join(os.path.dirname(component.path), FORM))
     if component.gui and form in state.faulty:
-        result.diagnostics.append(_unresolved(component.name, component.path, form, state))
+        result.diagnostics.append(_unresolved(component, form, state))
         return False
     document = linked.parameters.document
     if document is not None and document.path in state.faulty:
         if component.path not in state.faulty:
-            result.diagnostics.append(_unresolved(component.name, component.path, document.path, state))
+            result.diagnostics.append(_unresolved(component, document.path, state))
         return False
-    return _usable(component.name, component.path, linked.imports, state, result)
+    return _usable(component, linked.imports, state, result)
 
 
-def _unresolved(name: str, path: str, cause: str, state: _State) -> Diagnostic:
-    related = [Related("this document has errors, or imports what is not there", Span(cause))] if cause != path else []
+def _unresolved(document: Module | Component, cause: str, state: _State) -> Diagnostic:
+    related = [Related("this document has errors, or imports what is not there", Span(cause))]
     told = compiling.UNRESOLVED.at(
-        Span(path), name=name, related=related, hint="`rcyaml check` says what is missing; mend that first"
+        document.span, name=document.name, related=related if cause != document.path else (),
+        hint="`rcyaml check` says what is missing; mend that first",
     )
     # Where the cause is an error already, this only says what follows from it.
     return told if cause in state.lowered else told.as_severity(NOTE)
@@ -168,7 +171,6 @@ def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
     asked = {
         "statemachine": component.statemachine and component.compatibility,  # RoboComp's own had other names
-        "options": component.options, "uses": component.has_uses,
     }  # fmt: skip
     for key, value in asked.items():
         if value:

@@ -6,12 +6,13 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 
 from robocomp_yaml import resources
-from robocomp_yaml.emit import config, parameter_files
+from robocomp_yaml.emit import config, parameter_files, uses
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
 from robocomp_yaml.emit.ports import assign
 from robocomp_yaml.emit.targets import languages
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
+from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.model.pdsl import ValuesDocument
 
 
@@ -33,6 +34,8 @@ def component_plan(
             plan.files.append(FilePlan("slice/CommonBehavior.ice", common))
     if options.wants(component.language.name):
         plan.files += languages()[component.language.name].plan(linked)
+        if component.sources or component.libraries:
+            plan.files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
     if options.wants("config"):
         written = os.path.lexists(os.path.join(root, CONFIG))
         table = assign([linked]) if written else options.ports(linked)
@@ -44,6 +47,12 @@ def component_plan(
     if options.wants("docs"):
         plan.files += parameter_files.docs(linked)
     return plan
+
+
+def places(linked: LinkedComponent, workspace: Workspace, root: str) -> list[str]:
+    """Where files of the repository are looked for, relative to `root`: beside the document, then in the workspace."""
+    folder = os.path.dirname(linked.component.path) or "."
+    return list(dict.fromkeys(os.path.relpath(place, root) for place in (folder, workspace.root or ".")))
 
 
 def values_of(linked: LinkedComponent, program: Program) -> list[ValuesDocument]:

@@ -68,4 +68,5 @@ def _fields(entry: Entry) -> dict[str, object]:
 
 
 def _json(value: object) -> str:
-    return json.dumps(value, ensure_ascii=False)
+    """As UTF-8, whatever the names of files are: bytes in them that are no text are escaped."""
+    return json.dumps(value, ensure_ascii=False).encode("utf-8", "backslashreplace").decode()

@@ -1,4 +1,4 @@
-"""Parameters for the people and generators of accessors: what is said of each, and the records that they use."""
+"""What generators of accessors need to know of parameters: what is said of each, and which records they use."""
 
 from __future__ import annotations
 

@@ -27,7 +27,13 @@ def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:
     """The JSON Schemas of a component's values."""
     for path, mode in ((SCHEMA, DOCUMENT), (EFFECTIVE_SCHEMA, EFFECTIVE)):
         made = document_schema(linked.parameters.parameters, linked, mode)
-        yield FilePlan(path, json.dumps(made, indent=2, ensure_ascii=False) + "\n")
+        yield FilePlan(path, _lines(made))
+
+
+def _lines(schema: dict[str, object]) -> str:
+    """A JSON object with a line for each key: json indents in Python, ten times slower than it writes."""
+    rows = (f"  {json.dumps(key)}: {json.dumps(value, ensure_ascii=False)}" for key, value in schema.items())
+    return "{\n" + ",\n".join(rows) + "\n}\n"
 
 
 def docs(linked: LinkedComponent) -> Iterator[FilePlan]:

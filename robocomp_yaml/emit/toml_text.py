@@ -16,13 +16,15 @@ from robocomp_yaml.model.parameters import (
     Type,
     leaves,
 )
+from robocomp_yaml.source.properties import unquoted
 from robocomp_yaml.source.tree import Scalar
 from robocomp_yaml.values.effective import Effective
-from robocomp_yaml.values.properties import Section, properties
+from robocomp_yaml.values.properties import Section, legacy_file, properties
 from robocomp_yaml.values.spelling import Template
 from robocomp_yaml.values.spell_yaml import quoted
 from robocomp_yaml.values.write import Where, node_of, step
 
+_NUMBER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][-+]?[0-9]+)?\Z")
 _BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
 Table = dict[str, Any]
 
@@ -30,8 +32,9 @@ Table = dict[str, Any]
 def toml_text(values: LinkedValues, effective: Effective) -> str:
     """The text of a TOML file: tables by the first part of each key; under `Ice` keys stay dotted, and text."""
     table: Table = {}
-    connections = [section for section in properties(values, effective)[0] if section.title != "Parameters"]
-    for key, literal in [*_connections(connections), *_parameters(effective)]:
+    sections = properties(values, effective, quoted=True)[0]
+    connections = [section for section in sections if section.title != "Parameters"]
+    for key, literal in [*_connections(connections), *_parameters(effective, bool(legacy_file(values)))]:
         _put(table, key, literal)
     top = {key: value for key, value in table.items() if not isinstance(value, dict)}
     blocks = ["".join(f"{_key(key)} = {value}\n" for key, value in top.items())] if top else []
@@ -52,18 +55,19 @@ def _connections(sections: list[Section]) -> Iterator[tuple[list[str], str]]:
                 key = "Proxies.TopicManager"
             elif key.endswith("Proxy") and "." not in key and key != "Proxy":
                 key = f"Proxies.{key.removesuffix('Proxy')}"
-            value = made.value[1:-1] if made.value.startswith('"') and made.value.endswith('"') else made.value
-            yield key.split(".", 1), quoted(value)
+            is_bare = made.value in ("true", "false") or _NUMBER.match(made.value)
+            yield key.split(".", 1), made.value if is_bare else quoted(unquoted(made.value))
 
 
-def _parameters(effective: Effective) -> Iterator[tuple[list[str], str]]:
+def _parameters(effective: Effective, as_given: bool) -> Iterator[tuple[list[str], str]]:
+    """`as_given`: a migrated document says again what the file said, without defaults, and as it spelled it."""
     for path, member in leaves(effective.parameters.root):
         data: Any = effective.data
         where: Where = effective.place
         for name in path.split("."):
             data = data.get(name) if isinstance(data, dict) else None
             where = step(where, name) if where is not None else None
-        if data is None:
+        if data is None or (as_given and where is None):
             continue
         spelling = effective.parameters.spelling(path)
         is_plain = spelling is not None and bool(spelling.key) and not Template(spelling.key).holes

@@ -120,7 +120,10 @@ def _dedented(lines: list[str]) -> list[str]:
 
 
 def _one_line(text: str) -> str:
-    body = re.sub(r"^///?<?", "", text) if _DOC.match(text) else text.lstrip("/")
+    if text[0] == "#":  # of which each may be meant: `#~`, `##`
+        body = text[1:].removeprefix(" ")
+    else:
+        body = re.sub(r"^///?<?", "", text) if _DOC.match(text) else text.lstrip("/")
     indent = len(body) - len(body.lstrip())
     return (body[:indent].expandtabs(4) + body[indent:]).rstrip()
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import importlib
+import unicodedata
 from dataclasses import dataclass, field
 
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import comments, directives
 from robocomp_yaml.legacy.draft import Draft, Reader, plain
 from robocomp_yaml.legacy.formats import by_name, recognize
-from robocomp_yaml.legacy.grammar import Parsed, marked, parse, words
+from robocomp_yaml.legacy.grammar import MAX_DEPTH, Parsed, depth, marked, parse, words
 from robocomp_yaml.legacy.reading import Source, read
 from robocomp_yaml.legacy.rules import Rules
 
@@ -50,6 +52,10 @@ def _convert(result: Converted, source: Source, rules: Rules) -> None:
     said += parsed.diagnostics
     if parsed.tree is None:
         return
+    if depth(parsed.tree) > MAX_DEPTH:
+        parsed.tree = None
+        said.append(codes.SYNTAX.at(Span(result.path), problem="this file nests things too deeply", hint=""))
+        return
     said += _review(parsed.tree, source, rules)
     placed = comments.place(parsed.tree, parsed.comments, source, rules)
     said += placed.diagnostics
@@ -74,5 +80,12 @@ def _review(tree: Tree[Token], source: Source, rules: Rules) -> list[Diagnostic]
     for token in tree.scan_values(lambda value: isinstance(value, Token) and value.type == "NAME"):
         if not rules.names.fullmatch(plain(token)):
             at = source.span(token.start_pos or 0, token.end_pos or 0)
-            said.append(codes.BAD_NAME.at(at, name=plain(token)))
+            said.append(codes.BAD_NAME.at(at, name=plain(token), hint=_name_hint(plain(token))))
     return said
+
+
+def _name_hint(name: str) -> str:
+    """How a name could be written, where accents are all that is wrong with it."""
+    bare = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    hint = "a name has the letters A to Z without accents, digits and underscores"
+    return f"{hint}: for instance '{bare}'" if bare.isidentifier() else hint

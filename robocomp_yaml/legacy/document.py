@@ -106,7 +106,16 @@ def _map(node: Map, indent: str) -> Iterator[Line]:
 def _list(node: List, indent: str) -> Iterator[Line]:
     for item in node.items:
         yield from _head(item, item is node.items[0], indent)
-        yield from _entry(item, indent, f"{indent}-")
+        start = f"{indent}-"
+        body = item.value
+        if isinstance(body, Map) and body.entries and _line(body, start) is None and not body.entries[0].notes.head:
+            first, *rest = _map(body, indent + "  ")
+            tail = "".join(f"  # {line}" for line in item.notes.tail)
+            yield f"{start} {(first or '').lstrip()}{tail}"
+            yield from rest
+            yield from _comments(item.notes.foot, indent + "  ")
+        else:
+            yield from _entry(item, indent, start)
 
 
 def _entry(entry: Entry, indent: str, start: str) -> Iterator[Line]:

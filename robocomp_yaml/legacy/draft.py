@@ -15,6 +15,7 @@ from robocomp_yaml.legacy.document import Entry, List, Map, Name, Notes
 from robocomp_yaml.legacy.grammar import Parsed, token
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
+from robocomp_yaml.legacy.settings.entries import Settings
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +72,8 @@ class Draft:
     imports: list[ImportDraft]
     around: Notes
     module: ModuleNames | None = None
+    settings: Settings | None = None
+    """Of a config: its documents are made together with those of the other configs of its component."""
     machine: MachineDraft | None = None
     text: str = ""
 

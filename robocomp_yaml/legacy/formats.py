@@ -7,9 +7,10 @@ import os
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import Source, read
 from robocomp_yaml.legacy.rules import Rules, formats
 from robocomp_yaml.legacy.syntax_error import without_silent
+from robocomp_yaml.source import properties
 
 
 def by_name(path: str) -> Rules | None:
@@ -25,13 +26,53 @@ def recognize(source: Source) -> tuple[Rules | None, list[Diagnostic]]:
     if not content.strip():
         what = "nothing but comments" if source.text.strip() else "nothing"
         return None, [codes.EMPTY.at(Span(source.path), what=what)]
-    fitting = [rules for rules in formats() if rules.signature.search(content)]
+    fitting = [
+        rules for rules in formats()
+        if (not rules.weak or _may_be(rules, said)) and rules.signature.search(content)
+    ]  # fmt: skip
     if said is not None and (said in fitting or not fitting):
-        return said, []
+        return _unless_foreign(said, source)
     if not fitting:
         known = ", ".join(f"{rules.title} ({', '.join(rules.suffixes)})" for rules in formats())
         return None, [codes.UNKNOWN_FORMAT.at(Span(source.path), formats=known)]
     found = fitting[0]
-    if said is None:
-        return found, []
+    if said is None or said.weak:
+        return _unless_foreign(found, source)
     return found, [codes.OTHER_FORMAT.at(Span(source.path), said=said.title, found=found.title)]
+
+
+def _may_be(rules: Rules, said: Rules | None) -> bool:
+    """Whether a signature that much else fits counts against what the name says: a `.conf` may be TOML."""
+    return said is None or said is rules or (said.kind == rules.kind and rules.rank < said.rank)
+
+
+def _unless_foreign(rules: Rules, source: Source) -> tuple[Rules | None, list[Diagnostic]]:
+    """Other programs' files look alike: None where one of their marks is in this one."""
+    for pattern, reason in rules.foreign:
+        if found := pattern.search(source.text):
+            mark = source.text[found.start() : found.end()]
+            at = found.start() + len(mark) - len(mark.lstrip())
+            return None, [codes.REFUSED.at(source.span(at, max(found.end(), at + 1)), reason=reason)]
+    if rules.invalid:
+        entries = properties.read(source.text)
+        count, all_ = len(entries.invalid), len(entries.entries) + len(entries.invalid)
+        if all_ and (count / all_ > rules.invalid["share"] or not entries.entries):
+            line = entries.invalid[0]
+            reason = rules.invalid["reason"].format(count=count, all=all_, line=line)
+            place = Span(source.path, line, 1, line, len(source.line_text(line)) + 1)
+            return None, [codes.REFUSED.at(place, reason=reason)]
+    return rules, []
+
+
+def candidate(path: str) -> bool:
+    """Whether a file of a folder is to be migrated: its name says so, or its name may and its content does."""
+    said = by_name(path)
+    if said is not None and not said.keep_suffix:
+        return True
+    fits = {rules.files.fit(path) for rules in formats() if rules.files is not None}
+    if "certain" in fits:
+        return True
+    if "perhaps" not in fits:
+        return False
+    source, _ = read(path)
+    return source is not None and recognize(source)[0] is not None

@@ -20,6 +20,9 @@ from robocomp_yaml.legacy.rules import Rules
 MAX_ERRORS = 20
 """As many syntax errors of one file are reported: then it is something else altogether."""
 
+MAX_DEPTH = 150
+"""As deep may constructs stand inside each other; nobody writes a quarter of it."""
+
 COMMENTS = ("LINE_COMMENT", "BLOCK_COMMENT")
 _IGNORED = re.compile(r"^%ignore (?!BLANK)(\w+)", re.MULTILINE)
 
@@ -87,6 +90,15 @@ def parse(source: Source, rules: Rules) -> Parsed:
         else:
             return Parsed(None if said else tree, list(parser.trivia), said)
     return Parsed(None, [], said)
+
+
+def depth(tree: Tree[Token]) -> int:
+    """How deep the constructs of a file stand inside each other."""
+    found, level = 0, [tree]
+    while level:
+        found += 1
+        level = [child for node in level for child in node.children if isinstance(child, Tree)]
+    return found
 
 
 def marked(tree: Tree[Token], prefix: str) -> Iterator[tuple[Tree[Token], int, int]]:

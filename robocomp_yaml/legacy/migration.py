@@ -11,10 +11,14 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
+from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
 from robocomp_yaml.legacy.result import Migration
+from robocomp_yaml.legacy.settings.components import Inferred, settle
+from robocomp_yaml.legacy.settings.plan import Guesses
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
+from robocomp_yaml.legacy.upgrade import upgrade
 from robocomp_yaml.link.workspace import Search
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
@@ -22,8 +26,9 @@ Progress = Callable[[Sequence[LegacyFile]], Iterator[LegacyFile]]
 
 
 def migrate(
-    paths: Sequence[str], output: str | None, extra: Sequence[str], *, force: bool, progress: Progress = iter
-) -> Migration:
+    paths: Sequence[str], output: str | None, extra: Sequence[str], *, force: bool, progress: Progress = iter,
+    guesses: Guesses = Guesses(), exact: bool = False,
+) -> Migration:  # fmt: skip
     """Everything but the writing."""
     found = find(paths, output)
     run = Migration(general=found.diagnostics)
@@ -45,7 +50,9 @@ def migrate(
     chosen, said = names([(file, entry.file.rules) for file, entry in good if entry.file.rules is not None])
     _tell(run, said)
     _link(run, good, chosen, known, extra)
-    _plan(run, good, chosen, known, force)
+    inferred = settle(good, chosen, run.remembers, guesses, exact=exact)
+    _plan(run, good, chosen, known, inferred, force)
+    upgrade(run, paths)
     return run
 
 
@@ -79,21 +86,35 @@ def _link(
 
 def _plan(
     run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
-    force: bool,
+    inferred: Sequence[Inferred], force: bool,
 ) -> None:  # fmt: skip
     written: dict[str, list[tuple[str, str]]] = {folder: [] for folder in known.new}
+    planned: list[tuple[LegacyFile, Entry, str, str, yaml.Map, Notes, str]] = []
     for file, entry in good:
-        document, rules, draft = chosen[file.path], entry.file.rules, entry.file.draft
+        rules, draft = entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
+        document = chosen[file.path]
+        planned.append((file, entry, rules.kind, document, draft.document, draft.around, draft.text))
+    planned += [(made.file, made.entry, "pdsl", made.path, made.document, Notes(), "") for made in inferred]
+    for file, entry, kind, document, content, around, raw in planned:
         home = known.of(document).root
-        home_line = workspaces.modeline(document, home, rules.kind) + ("\n" if draft.around.head else "")
-        text = draft.text or home_line + yaml.text(draft.document, draft.around)
+        gap = "\n" if around.head else ""
         root = run.root(file.root)
+        text = raw or _modeline(document, home, kind, content) + gap + yaml.text(content, around)
         output = root.add(os.path.relpath(document, file.root), text, force=force)
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
-        if home in written and not draft.text:
-            written[home].append((rules.kind, document))
+        if home in written and not raw:
+            written[home].append((kind, document))
     run.tell_failures()
     for folder in known.new:
         run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)
+
+
+def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:
+    """The first line. What values may be is said by the schema that `compile` makes for their component."""
+    component = next((str(entry.value) for entry in content.entries if entry.key == "component"), "")
+    if kind == "config" and component.endswith(".cdsl.yaml"):
+        folder = os.path.join(os.path.dirname(document), os.path.dirname(component))
+        return workspaces.values_modeline(document, folder)
+    return workspaces.modeline(document, home, kind)

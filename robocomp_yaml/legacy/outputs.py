@@ -17,6 +17,8 @@ from robocomp_yaml.source.digest import digest
 
 MEMORY = f"{STATE}/migrated.json"
 CREATED, CHANGED, UNCHANGED, EDITED, TAKEN, FAILED = "created", "changed", "unchanged", "edited", "taken", "failed"
+UPGRADED = "upgraded"
+"""An older document of ours, which stays the user's."""
 
 
 @dataclass(slots=True)
@@ -31,7 +33,7 @@ class Output:
 
     @property
     def differs(self) -> bool:
-        return self.state in (CREATED, CHANGED, EDITED)
+        return self.state in (CREATED, CHANGED, EDITED, UPGRADED)
 
     def diff(self, shown: str) -> str:
         """From what stands there to what shall, as a unified diff."""
@@ -101,7 +103,7 @@ class OutputRoot:
     def write(self) -> None:
         """Writes what is created and changed; a file that cannot be written is marked, and the others go on."""
         while True:
-            todo = [output for output in self.outputs if output.state in (CREATED, CHANGED)]
+            todo = [output for output in self.outputs if output.state in (CREATED, CHANGED, UPGRADED)]
             steps = [Step(o.path, self._before(o), o.text.encode()) for o in todo]
             memory = self._memory()
             if memory is not None and memory != self.remembered:
@@ -127,7 +129,8 @@ class OutputRoot:
         """What is to be remembered; None where there never was anything."""
         known = dict(self.memory)
         for output in self.outputs:
-            if output.state in (CREATED, CHANGED, UNCHANGED):
+            was_ours = output.state == UPGRADED and known.get(output.path) == digest(output.before.encode())
+            if output.state in (CREATED, CHANGED, UNCHANGED) or was_ours:
                 known[output.path] = digest(output.text.encode())
         if not known and self.remembered is None:
             return None

@@ -13,6 +13,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.outputs import CHANGED, EDITED, FAILED, TAKEN, Output, OutputRoot
+from robocomp_yaml.legacy.sources import LegacyFile
 from robocomp_yaml.source import workspace_files
 
 
@@ -25,6 +26,8 @@ class Migration:
     general: list[Diagnostic] = field(default_factory=list)
     homes: dict[str, list[Output]] = field(default_factory=dict)
     """The documents of each workspace, whose first line names a schema there."""
+    upgrades: list[tuple[str, Output]] = field(default_factory=list)
+    """Older documents of ours, by their paths."""
     _documents: list[tuple[Entry, OutputRoot, Output]] = field(default_factory=list)
 
     @property
@@ -42,6 +45,10 @@ class Migration:
         if path not in self.roots:
             self.roots[path] = OutputRoot.at(path)
         return self.roots[path]
+
+    def remembers(self, file: LegacyFile, path: str) -> bool:
+        """Whether an earlier run wrote the document at a path."""
+        return os.path.relpath(path, file.root) in self.root(file.root).memory
 
     def changes(self) -> Iterator[tuple[str, Output]]:
         """Every file that is not as this run would have it, with the path to show."""
@@ -73,6 +80,9 @@ class Migration:
         for root in self.roots.values():
             root.write()
         self.tell_failures()
+        for path, output in self.upgrades:
+            if output.state == FAILED:
+                self.general.append(codes.NOT_WRITTEN.at(Span(path), path=path, reason=output.problem))
         for home, outputs in sorted(self.homes.items()):
             if any(output.state not in (FAILED, TAKEN) for output in outputs):
                 with contextlib.suppress(OSError):  # a workspace that cannot be written to has migrated all the same

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -12,6 +13,24 @@ from robocomp_yaml import resources
 from robocomp_yaml.source.tree import parse
 
 Texts = Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Files:
+    """Which files of a folder may be of a format, by their names: surely, or only if their content says so too."""
+
+    certain: re.Pattern[str]
+    folder: str
+    other: re.Pattern[str]
+
+    def fit(self, path: str) -> str:
+        """`certain`, `perhaps`, or ''."""
+        name = os.path.basename(path)
+        if self.other.search(name):
+            return ""
+        if self.certain.search(name):
+            return "certain"
+        return "perhaps" if os.path.basename(os.path.dirname(os.path.abspath(path))) == self.folder else ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,6 +59,16 @@ class Rules:
     defaults: Texts = field(default_factory=dict)
     code: Texts = field(default_factory=dict)
     order: tuple[str, ...] = ()
+    is_made: bool = False
+    weak: bool = False
+    keep_suffix: bool = False
+    files: Files | None = None
+    foreign: tuple[tuple[re.Pattern[str], str], ...] = ()
+    invalid: Mapping[str, Any] = field(default_factory=dict)
+    sections: Mapping[str, re.Pattern[str]] = field(default_factory=dict)
+    records: tuple[Mapping[str, Any], ...] = ()
+    counts: re.Pattern[str] | None = None
+    stop: frozenset[str] = frozenset()
 
 
 @cache
@@ -60,9 +89,23 @@ def _rules(name: str) -> Rules:
         doc_strip=re.compile(doc["strip"], re.MULTILINE),
         doc_drop=doc["drop"],
         order=tuple(data.pop("order", ())),
+        **_of_lines(data),
         document=data.pop("document", f".{data['kind']}.yaml"),
         **data,
     )
+
+
+def _of_lines(data: dict[str, Any]) -> dict[str, Any]:
+    """What formats of single lines have besides, compiled."""
+    files, counts = data.pop("files", None), data.pop("counts", None)
+    return {
+        "files": Files(re.compile(files["certain"]), files["folder"], re.compile(files["other"])) if files else None,
+        "foreign": tuple((re.compile(item["pattern"]), item["reason"]) for item in data.pop("foreign", ())),
+        "sections": {name: re.compile(pattern) for name, pattern in data.pop("sections", {}).items()},
+        "records": tuple(data.pop("records", ())),
+        "counts": re.compile(counts) if counts else None,
+        "stop": frozenset(data.pop("stop", ())),
+    }
 
 
 def _data(name: str) -> dict[str, Any]:

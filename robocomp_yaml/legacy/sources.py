@@ -12,9 +12,10 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit import manifest
 from robocomp_yaml.emit.places import contents, in_words
-from robocomp_yaml.legacy.formats import by_name
+from robocomp_yaml.legacy.formats import by_name, candidate
 from robocomp_yaml.legacy.rules import Rules, formats
 from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.source.discover import documents_below, kind_of
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 
@@ -55,12 +56,14 @@ def find(paths: Sequence[str], output: str | None) -> Found:
     seen: set[str] = set()
     for path in paths:
         is_folder = os.path.isdir(path)
+        if not is_folder and kind_of(path) is not None and os.path.isfile(path):
+            continue  # a document of ours: it may be an older one
         below = list(_below(path, found.diagnostics)) if is_folder else [os.path.normpath(path)]
         root = output or (os.path.normpath(path) if is_folder else _root_of(path))
         if is_folder:
             if root not in found.folders:
                 found.folders.append(root)
-            if not below:
+            if not below and next(documents_below(path), None) is None:
                 suffixes = "the suffixes are known: " + ", ".join(sorted(_suffixes()))
                 found.diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=suffixes))
         for file in below:
@@ -101,7 +104,9 @@ def _below(folder: str, said: list[Diagnostic]) -> Iterator[str]:
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(names):
             path = os.path.normpath(os.path.join(where, name))
-            if not name.startswith(".") and by_name(name) is not None and path not in compiled:
+            # A config that became a document is a source still, though `compile` now writes it.
+            made = path in compiled and (by_name(name) is not None or not os.path.exists(f"{path}.yaml"))
+            if not name.startswith(".") and not made and candidate(path):
                 yield path
 
 
@@ -111,7 +116,7 @@ def _compiled(folder: str) -> set[str]:
         files = manifest.read(contents(os.path.join(folder, manifest.PATH))).files
     except (OSError, manifest.Unusable):
         return set()
-    return {os.path.normpath(os.path.join(folder, path)) for path, entry in files.items() if not entry.once}
+    return {os.path.normpath(os.path.join(folder, path)) for path in files}
 
 
 def _preferences(files: Iterable[LegacyFile]) -> Iterator[LegacyFile]:
@@ -126,7 +131,7 @@ def _preferences(files: Iterable[LegacyFile]) -> Iterator[LegacyFile]:
     for file in listed:
         rules = by_name(file.path)
         rank, other = best[(os.path.splitext(file.path)[0], rules.kind)] if rules else (0, file.path)
-        better = rules is not None and rank < rules.rank
+        better = rules is not None and rules.is_made and rank < rules.rank
         yield LegacyFile(file.path, file.root, file.folder, other) if better else file
 
 
@@ -140,7 +145,9 @@ def names(
     for file, rules in sorted(files, key=lambda item: (item[1].rank, item[0].path)):
         base = os.path.basename(file.path)
         stem, suffix = os.path.splitext(base)
-        short = file.document(f"{stem if suffix.lower() in rules.suffixes else base}{rules.document}")
+        drops = suffix.lower() in rules.suffixes and not rules.keep_suffix
+        bare = base == rules.kind  # `config` becomes `config.yaml`
+        short = file.document(f"{base}.yaml" if bare else f"{stem if drops else base}{rules.document}")
         own = short if short not in taken else file.document(f"{base}{rules.document}")
         number = 2
         while own in taken:

@@ -53,7 +53,7 @@ def file_text(root: str, documents: Iterable[tuple[str, str]]) -> str:
     folders: dict[str, set[str]] = {"idsl": set(), "cdsl": set()}
     for kind, path in documents:
         folder = os.path.relpath(os.path.dirname(path) or ".", root)
-        folders[kind].add(folder)
+        folders.setdefault(kind, set()).add(folder)
     if folders["idsl"]:
         listed = List()
         for folder in sorted(folders["idsl"]):
@@ -68,6 +68,12 @@ def file_text(root: str, documents: Iterable[tuple[str, str]]) -> str:
 
 def modeline(document: str, root: str, kind: str) -> str:
     return workspace_files.modeline(kind, Path(document), Path(root)) + "\n"
+
+
+def values_modeline(document: str, folder: str) -> str:
+    """The modeline of values of the component in a folder."""
+    schema = os.path.join(folder, "generated", "config.schema.json")
+    return f"# yaml-language-server: $schema={os.path.relpath(schema, os.path.dirname(document) or '.')}\n"
 
 
 def _is_below(path: str, folder: str) -> bool:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link import options
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.ports import link_ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
@@ -52,10 +53,12 @@ class Linker:
                 todo += self._imports(document, document.model.imports, linked.unresolved, idsl)
                 continue
             if isinstance(document.model, Component):
-                component = self.program.components[document.real] = LinkedComponent(document.model)
+                model, diagnostics = options.expanded(document.model)
+                self.diagnostics += diagnostics
+                component = self.program.components[document.real] = LinkedComponent(model)
                 components.append((document, component))
                 unresolved: set[str] = set()
-                todo += self._imports(document, document.model.imports, unresolved, cdsl)
+                todo += self._imports(document, model.imports, unresolved, cdsl)
                 component.broken = bool(unresolved)
             attachments = attachments or self._attachments()
             todo += attachments.follow(document)

@@ -10,7 +10,6 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.limits import inside, limited
-from robocomp_yaml.model import expression
 from robocomp_yaml.model.parameters import (
     BASIC_TYPES,
     BasicType,
@@ -188,6 +187,8 @@ class _Resolver:
             self.found.append(codes.LIMIT_MISFIT.at(entry.span, key="optional", problem=problem))
 
     def constraints(self, rules: tuple[Rule, ...]) -> Iterator[Constraint]:
+        if rules:
+            from robocomp_yaml.model import expression  # Python's parser is slow to import
         for rule in rules:
             assert isinstance(rule.that, Scalar)
             try:

@@ -7,7 +7,20 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text
-from robocomp_yaml.model.component import WAIT, Component, Gui, Language, Use
+from robocomp_yaml.model.component import (
+    CMAKE,
+    LINK,
+    PIP,
+    PKG_CONFIG,
+    WAIT,
+    Component,
+    Gui,
+    Language,
+    Library,
+    Option,
+    Source,
+    Use,
+)
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 if TYPE_CHECKING:
@@ -35,9 +48,12 @@ def build(root: Mapping, path: str) -> Component:
         statemachine=text(root, "statemachine"),
         machine=_machine(machine, text(root, "component"), path) if isinstance(machine, Mapping) else None,
         gui=_gui(root.get("gui")),
-        options=tuple(item.lexeme for item in items(root, "options") if isinstance(item, Scalar)),
+        options=tuple(
+            Option(item.lexeme, span=item.span) for item in items(root, "options") if isinstance(item, Scalar)
+        ),
         compatibility=text(root, "compatibility"),
-        has_uses=root.get("uses") is not None,
+        sources=tuple(_sources(root.get("uses"))),
+        libraries=tuple(_libraries(root.get("uses"))),
         doc=doc(root),
         machine_span=span_of(root, "statemachine"),
         span=span_of(root, "component"),
@@ -95,3 +111,20 @@ def _named_use(name: Scalar, node: Node) -> Use:
         doc=doc(node),
         span=span_of(node, "interface"),
     )
+
+
+def _sources(uses: Node | None) -> Iterator[Source]:
+    for key in ("sources", "classes"):
+        for item in items(uses, key):
+            if isinstance(item, Scalar):
+                yield Source(item.lexeme, key == "classes", span=item.span)
+
+
+def _libraries(uses: Node | None) -> Iterator[Library]:
+    """One for each place that an entry names; a check says that it may name but one."""
+    for number, item in enumerate(items(uses, "libraries")):
+        if isinstance(item, Mapping):
+            version = text(item, "version")
+            for key, node in item.items():
+                if key.lexeme in (CMAKE, PKG_CONFIG, LINK, PIP):
+                    yield Library(key.lexeme, text(item, key.lexeme), version, number, span=node.span)

@@ -49,6 +49,38 @@ class Gui:
 
 
 @dataclass(frozen=True, slots=True)
+class Option:
+    """An option of the legacy component generator."""
+
+    name: str
+    span: Span = _span()
+
+
+CMAKE, PKG_CONFIG, LINK, PIP = "cmake", "pkg-config", "link", "pip"
+
+
+@dataclass(frozen=True, slots=True)
+class Library:
+    """A library that the component's own code needs. `kind` is CMAKE, PKG_CONFIG, LINK or PIP; `version` is as
+    written, '' for any; `entry` counts the entries of the document."""
+
+    kind: str
+    name: str
+    version: str = ""
+    entry: int = 0
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file of the user's repository, or (`is_class`) a folder of shared classes; by a relative path."""
+
+    path: str
+    is_class: bool = False
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
 class Component:
     """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written,
     or ''; `machine` is the state machine that stands in the document."""
@@ -66,9 +98,10 @@ class Component:
     statemachine: str = ""
     machine: StateMachine | None = None
     gui: Gui | None = None
-    options: tuple[str, ...] = ()
+    options: tuple[Option, ...] = ()
     compatibility: str = ""
-    has_uses: bool = False
+    sources: tuple[Source, ...] = ()
+    libraries: tuple[Library, ...] = ()
     doc: str = ""
     machine_span: Span = _span()
     span: Span = _span()

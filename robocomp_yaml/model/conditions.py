@@ -96,6 +96,8 @@ def _tokens(text: str) -> Iterator[tuple[str, str]]:
         at = match.end()
         if match["in"]:
             yield IN, match["state"]
+        elif match["name"] == "In":
+            raise NotInLanguage("In() wants the name of a state in quotes")
         elif match["op"]:
             yield _WORDS.get(match["op"], match["op"]), match["op"]
         elif match["name"] in _WORDS and not match["call"]:

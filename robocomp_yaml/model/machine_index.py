@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.model.statemachine import (
     FINAL,
     HISTORY,
@@ -17,6 +18,8 @@ from robocomp_yaml.model.statemachine import (
     actions,
     blocks,
 )
+
+_MANY = 500
 
 
 @dataclass(slots=True)
@@ -43,6 +46,11 @@ class MachineIndex:
         """The root and all states, in the document's order."""
         yield self.machine.root
         yield from self.machine.states
+
+    def similar(self, name: str) -> str:
+        """A hint at a state whose name is like this one; to look for it in thousands would take too long."""
+        close = suggest(name, self.by_id) if len(self.by_id) < _MANY else None
+        return f"did you mean '{close}'?" if close else ""
 
     def ancestors(self, state: State) -> list[State]:
         """From the nearest to the root."""
@@ -97,7 +105,12 @@ class MachineIndex:
         return any(child.kind == FINAL for child in state.states)
 
 
-def matches(descriptor: str, event: str) -> bool:
-    """`door` matches `door` and `door.open`; `*` matches everything."""
-    plain = descriptor[:-2] if descriptor.endswith(".*") else descriptor.rstrip(".")
-    return plain in ("", "*") or event == plain or event.startswith(f"{plain}.")
+def plain(descriptor: str) -> str:
+    """What an event's name begins with to match this; '' matches all."""
+    return descriptor.removesuffix(".*").rstrip(".").removesuffix("*")
+
+
+def prefixes(event: str) -> list[str]:
+    """What matches an event: `door` and `door.open` for `door.open`, and '' for everything."""
+    words = event.split(".")
+    return ["", *(".".join(words[:number]) for number in range(1, len(words) + 1))]

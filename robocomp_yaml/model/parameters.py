@@ -9,13 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.expression import Expression
 from robocomp_yaml.model.interface import Literal, _span
 from robocomp_yaml.model.pattern import Pattern
 from robocomp_yaml.model.pdsl import Spelling
 from robocomp_yaml.source.tree import Node
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.expression import Expression
 
 Number = int | float
 LIMITS: dict[str, tuple[Number, Number]] = {

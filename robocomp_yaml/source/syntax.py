@@ -23,6 +23,8 @@ MAX_DEPTH = 100
 UNTAGGED = Tag(suffix="")
 """The tag (`ctag`) of composed nodes for which the text has none."""
 
+# A pair with nothing between that could hide a bracket (a quote, a comment) or be one.
+_INNERMOST = re.compile(r"""\{[^][{}"'#]*\}|\[[^][{}"'#]*\]""")
 _BRACKET = re.compile(r"[\[{\]}]")
 _DEEP_BLOCK = re.compile(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
 
@@ -111,7 +113,17 @@ def _has_explicit_tag(text: str, index: int) -> bool:
 
 
 def _may_be_deep(text: str) -> bool:
-    return text.count("[") + text.count("{") > MAX_DEPTH or _DEEP_BLOCK.search(text) is not None
+    return _brackets(text) > MAX_DEPTH or _DEEP_BLOCK.search(text) is not None
+
+
+def _brackets(text: str) -> int:
+    """No less than the depth of brackets: how many open, when the innermost pairs are taken away a few times."""
+    for taken in range(4):
+        opened = text.count("[") + text.count("{") + taken
+        if opened <= MAX_DEPTH:
+            break
+        text = _INNERMOST.sub("", text)
+    return opened
 
 
 def _depth(text: str) -> int:

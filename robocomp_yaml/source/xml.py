@@ -6,6 +6,7 @@ no stack of its own, so depth costs nothing until this module says that it is en
 
 from __future__ import annotations
 
+import bisect
 import re
 from dataclasses import dataclass, field
 from xml.parsers import expat
@@ -15,16 +16,18 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
 MAX_DEPTH = 100
-MAX_ELEMENTS = 100_000
+MAX_ELEMENTS = 10_000
 
+_DOCTYPE = "<!DOCTYPE"
 _SEPARATOR = " "  # no namespace and no name holds one
-_ATTRIBUTE = re.compile(r"""([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
+_TAG = re.compile(r"<[^\s/>]+")
+_ATTRIBUTE = re.compile(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
 
 
 @dataclass(slots=True)
 class Element:
     """`name` and `namespace` are apart; an attribute of a namespace is called 'namespace name'; `content` are texts and
-    elements in their order. `raw` is the element as it is spelled, from its first '<' to its last '>'."""
+    elements in their order. It is spelled in `source` from `start` to `end`, in bytes."""
 
     name: str
     namespace: str
@@ -32,7 +35,14 @@ class Element:
     span: Span
     places: dict[str, Span] = field(default_factory=dict)
     content: list[str | Element] = field(default_factory=list)
-    raw: str = ""
+    source: bytes = b""
+    start: int = 0
+    end: int = 0
+
+    @property
+    def raw(self) -> str:
+        """As it is spelled, from its first '<' to its last '>'."""
+        return self.source[self.start : self.end].decode()
 
     @property
     def children(self) -> list[Element]:
@@ -75,9 +85,10 @@ class _Reader:
     def __init__(self, path: str, text: str) -> None:
         self.path = path
         self.raw = text.encode()
-        self.lines = text.split("\n")
+        self.text = text
+        self._lines = [0, *(at + 1 for at, character in enumerate(text) if character == "\n")]
         self.root: Element | None = None
-        self._open: list[tuple[Element, int]] = []
+        self._open: list[Element] = []
         self._count = 0
         self.parser = parser = expat.ParserCreate("utf-8", _SEPARATOR)
         parser.buffer_text = True
@@ -85,17 +96,16 @@ class _Reader:
         parser.EndElementHandler = self._end
         parser.CharacterDataHandler = self._characters
         parser.StartDoctypeDeclHandler = self._doctype
-        parser.EntityDeclHandler = self._entity
 
     def _here(self, length: int = 1) -> Span:
         line, column = self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1
         return Span(self.path, line, column, line, column + length)
 
     def _doctype(self, *_: object) -> None:
-        raise _Refused(codes.XML_REFUSED.at(self._here(9), what="a document type (<!DOCTYPE …>)"))
-
-    def _entity(self, *_: object) -> None:
-        raise _Refused(codes.XML_REFUSED.at(self._here(), what="an entity"))
+        """Entities are declared nowhere else, so there are none."""
+        start = max(self.text.find(_DOCTYPE), 0)
+        what = "a document type (<!DOCTYPE …>)"
+        raise _Refused(codes.XML_REFUSED.at(self._span(start, start + len(_DOCTYPE)), what=what))
 
     def _start(self, full_name: str, attributes: dict[str, str]) -> None:
         self._count += 1
@@ -103,35 +113,34 @@ class _Reader:
             limit = f"more than {MAX_DEPTH} levels deep" if self._count <= MAX_ELEMENTS else f"{MAX_ELEMENTS} elements"
             raise _Refused(codes.XML_TOO_LARGE.at(self._here(), limit=limit))
         namespace, _, name = full_name.rpartition(_SEPARATOR)
-        element = Element(name, namespace, attributes, self._here(len(name) + 1))
+        element = Element(name, namespace, attributes, self._here(len(name) + 1), source=self.raw)
+        element.start = self.parser.CurrentByteIndex
         if attributes:
             element.places = self._places()
         if self._open:
-            self._open[-1][0].content.append(element)
+            self._open[-1].content.append(element)
         else:
             self.root = element
-        self._open.append((element, self.parser.CurrentByteIndex))
+        self._open.append(element)
 
     def _end(self, _: str) -> None:
-        element, start = self._open.pop()
-        here = self.parser.CurrentByteIndex
-        end = self.raw.find(b">", here) + 1 if self.raw[here : here + 2] == b"</" else here
-        element.raw = self.raw[start:end].decode(errors="replace")
+        here = self.parser.CurrentByteIndex  # for an empty element, behind it
+        closes = self.raw[here : here + 2] == b"</"
+        self._open.pop().end = self.raw.find(b">", here) + 1 if closes else here
 
     def _characters(self, text: str) -> None:
         if self._open:
-            self._open[-1][0].content.append(text)
+            self._open[-1].content.append(text)
 
     def _places(self) -> dict[str, Span]:
         """The values of the current tag's attributes, found again in the text (expat does not tell)."""
-        first, column = self.parser.CurrentLineNumber - 1, self.parser.CurrentColumnNumber
+        at = self._lines[self.parser.CurrentLineNumber - 1] + self.parser.CurrentColumnNumber
         places: dict[str, Span] = {}
-        for number in range(first, min(first + 50, len(self.lines))):
-            line = self.lines[number]
-            start = column if number == first else 0
-            for match in _ATTRIBUTE.finditer(line, start):
-                left, right = match.start(2) + 1, match.end(2)
-                places.setdefault(match[1], Span(self.path, number + 1, left + 1, number + 1, right))
-            if ">" in _ATTRIBUTE.sub("", line[start:]):
-                break
+        found = _TAG.match(self.text, at)
+        while found and (found := _ATTRIBUTE.match(self.text, found.end())):
+            places[found[1]] = self._span(found.start(2) + 1, found.end(2) - 1)
         return places
+
+    def _span(self, start: int, end: int) -> Span:
+        first, last = bisect.bisect_right(self._lines, start), bisect.bisect_right(self._lines, end)
+        return Span(self.path, first, start - self._lines[first - 1] + 1, last, end - self._lines[last - 1] + 1)

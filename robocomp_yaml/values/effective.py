@@ -12,7 +12,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import MapType, Parameters, RecordType, Type
 from robocomp_yaml.source.tree import Mapping
-from robocomp_yaml.values import evaluate
+from robocomp_yaml.values.defaults import with_defaults
 from robocomp_yaml.values.json_schema import DOCUMENT, EFFECTIVE
 from robocomp_yaml.values.judge import Path, judge, missing, wrong_size
 from robocomp_yaml.values.layers import Place, data_of, merged
@@ -55,7 +55,7 @@ def effective(values: LinkedValues) -> tuple[Effective | None, list[Diagnostic]]
     if found or linked.broken or values.broken:
         return None, found
     # All judges agree (a test sees to it); were Cerberus ever to differ, the schema's verdict stands.
-    complete = normalized(linked, data) or evaluate.with_defaults(root, data)
+    complete = normalized(linked, data) or with_defaults(root, data)
     found = list(_broken_constraints(linked.parameters, complete, place, _head(values)))
     return (None if found else Effective(complete, place, linked.parameters)), found
 
@@ -122,6 +122,8 @@ def _broken_constraints(
 ) -> Iterator[Diagnostic]:
     if not parameters.constraints:
         return
+    from robocomp_yaml.values import evaluate
+
     named = evaluate.by_code_names(parameters.root, data)
     for constraint in parameters.constraints:
         if not evaluate.holds(constraint.expression, named):
@@ -133,6 +135,8 @@ def _broken_constraints(
 
 def _concerned(root: RecordType, expression: object, place: Place | None) -> Span | None:
     """The first value that a constraint names and that a document gives."""
+    from robocomp_yaml.values import evaluate
+
     for steps in evaluate.paths(expression):
         here, record = place, root
         found: Span | None = None

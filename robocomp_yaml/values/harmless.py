@@ -7,7 +7,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, Parameters, RecordType, Type, leaves
+from robocomp_yaml.model.parameters import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Parameters,
+    RecordType,
+    Type,
+    leaves,
+)
 from robocomp_yaml.source.properties import unwritable
 
 _ODD = frozenset("\r\n\0\t\ufeff$")

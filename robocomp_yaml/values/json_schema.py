@@ -28,6 +28,7 @@ from robocomp_yaml.model.parameters import (
     unit_of,
 )
 from robocomp_yaml.source.schema import schema as schema_of_kind
+from robocomp_yaml.values.spell_yaml import flow
 
 Schema = dict[str, Any]
 DOCUMENT, EFFECTIVE, COMPLETE = "document", "effective", "complete"
@@ -133,25 +134,35 @@ class _Maker:
         made |= {f"max{of}": size.most} if size.most is not None else {}
         if not made or not self.with_words:
             return made
-        return {"allOf": [{**made, "errorMessage": f"there must be {size.in_words} entries"}]}
+        said = {"type": "string", "errorMessage": f"there must be {size.in_words} entries"}
+        return {"allOf": [{"if": made, "then": {}, "else": said}]}
 
     def shape(self, kind: str, then: Schema, nullable: bool, type_: Type) -> Schema:
         """A list or mapping: what holds for it, and one message for everything else."""
-        otherwise: Schema = {"type": _types(kind, nullable)}
+        made: Schema = {"if": {"type": kind}, "then": then, "else": {"type": _types(kind, nullable)}}
         if self.with_words:
-            otherwise["errorMessage"] = f"this is {in_words(type_)}"
-        return {"if": {"type": kind}, "then": then, "else": otherwise}
+            made["else"]["errorMessage"] = f"this is {in_words(type_)}"
+            if not (isinstance(type_, RecordType) and type_.is_group):
+                snippet = {"label": _label(type_), "description": in_words(type_), "body": flow(example_of(type_))}
+                made["anyOf"] = [{"type": "string", "defaultSnippets": [snippet]}, {}]
+        return made
 
     def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
         limits = self.limits(type_)
+        said = {"errorMessage": f"this is {in_words(type_)}"} if self.with_words else {}
+        kind = _json_type(type_)
+        otherwise: Schema
         if "enum" in limits:
-            otherwise: Schema = {"enum": [*limits["enum"], *([None] if nullable else [])]}
+            otherwise = {"enum": [*limits["enum"], *([None] if nullable else [])], **said}
+        elif isinstance(type_, BasicType) and type_.is_number and self.with_words:
+            # An editor has words of its own for a range, and only for a type takes ours.
+            outside = {"if": limits, "then": {}, "else": {"type": "string", **said}}
+            otherwise = {"if": {"type": kind}, "then": outside, "else": {"type": _types(kind, nullable), **said}}
         else:
-            otherwise = {"type": _types(_json_type(type_), nullable), **limits}
+            otherwise = {"type": _types(kind, nullable), **limits, **said}
         made: Schema = {"if": {"type": "object"}, "then": {"$ref": "#/definitions/env"}, "else": otherwise}
         if self.with_words:
-            otherwise["errorMessage"] = f"this is {in_words(type_)}"
-            made["anyOf"] = [{"enum": limits["enum"]} if "enum" in limits else {"type": _json_type(type_)},
+            made["anyOf"] = [{"enum": limits["enum"]} if "enum" in limits else {"type": kind},
                              _REFERENCE_CHOICE, {}]
         return made
 
@@ -193,10 +204,6 @@ class _Maker:
                 made["title"] = type_.name
             if type_.doc:
                 made["description"] = made["markdownDescription"] = type_.doc
-            made["defaultSnippets"] = [{
-                "label": type_.name or "all of it", "description": "every member that needs a value",
-                "body": _body(type_),
-            }]
         return made
 
     def member(self, member: Member) -> Schema:
@@ -204,6 +211,15 @@ class _Maker:
         if self.with_words:
             made |= _words(member)
         return made
+
+
+def _label(type_: Type) -> str:
+    if isinstance(type_, RecordType):
+        return type_.name
+    assert isinstance(type_, ListType | MapType)
+    element = type_.element
+    inner = _label(element) if isinstance(element, RecordType | ListType | MapType) else element.name
+    return f"{'list' if isinstance(type_, ListType) else 'map'} of {inner}"
 
 
 def _json_type(type_: ScalarType) -> str:
@@ -311,13 +327,3 @@ def _example_number(type_: BasicType) -> int | float:
     if low is not None and high is not None:
         return (low.value + high.value) / 2
     return low.value + 1 if low is not None else high.value - 1  # type: ignore[union-attr]
-
-
-def _body(type_: RecordType, first: int = 1) -> Schema:
-    """A snippet's body: the members that need a value, or all where none does."""
-    needed = [m for m in type_.members if m.required] or list(type_.members)
-    return {
-        member.name: f"${{{place}:{plain(example(member))}}}" if not isinstance(example(member), list | dict)
-        else example(member)
-        for place, member in enumerate(needed, first)
-    }

@@ -21,7 +21,13 @@ from robocomp_yaml.model.parameters import (
     RecordType,
     Type,
 )
-from robocomp_yaml.values.json_schema import COMPLETE, DOCUMENT, EFFECTIVE, complete_schema, values_schema
+from robocomp_yaml.values.json_schema import (
+    COMPLETE,
+    DOCUMENT,
+    EFFECTIVE,
+    complete_schema,
+    values_schema,
+)
 
 Data = dict[str, Any]
 
@@ -71,18 +77,26 @@ def _member(linked: LinkedParameters, member: Member, data: Data) -> tuple[Any] 
 
 
 def _records(linked: LinkedParameters, member: Member, element: RecordType, items: list[Any]) -> tuple[Any] | None:
-    """A list of records, of which only those go through Cerberus that lack something."""
+    """A list of records. Only those go through Cerberus that lack something, and of those that lack the same only the
+    first: the defaults of a record are always the same."""
     one = Member("entry", element)
     gate = _entry_gate(linked, f"{member.name}[]", one)
     whole = RecordType("", (one,))
-    out = []
+    out: list[Any] = []
+    added: dict[tuple[str, ...], Data] = {}  # what Cerberus added to a record with these keys
     for item in items:
-        if not gate.is_valid(item):
+        if gate.is_valid(item):
+            out.append(item)
+            continue
+        keys = tuple(item)
+        filled = {**item, **copy.deepcopy(added[keys])} if keys in added else None
+        if filled is None or not gate.is_valid(filled):
             made = _by_cerberus(linked, f"{member.name}[]", whole, {"entry": item})
             if made is None:
                 return None
-            item = made[0]
-        out.append(item)
+            filled = made[0]
+            added[keys] = {name: value for name, value in filled.items() if name not in item}
+        out.append(filled)
     assert isinstance(member.type, ListType)
     return (out,) if member.type.size.holds(len(out)) else None
 

@@ -10,7 +10,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedValues
 from robocomp_yaml.model.build_interface import text
-from robocomp_yaml.source.properties import unwritable
+from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 from robocomp_yaml.values.effective import Effective
 from robocomp_yaml.values.write import Property, Writer
@@ -38,18 +38,21 @@ def legacy_file(values: LinkedValues) -> str:
     return text(values.document.root.get("legacy"), "file")
 
 
-def properties(values: LinkedValues, effective: Effective) -> tuple[list[Section], list[Diagnostic]]:
-    """The properties of a document and its layers, and what of it no property can hold."""
+def properties(
+    values: LinkedValues, effective: Effective, *, quoted: bool = False
+) -> tuple[list[Section], list[Diagnostic]]:
+    """The properties of a document and its layers, and what of it no property can hold. `quoted`: text stands in
+    quotes, as it does in flat TOML anyway."""
     form = dialect(values)
     root = values.document.root
     entry = root.entries.get("parameters") or root.entries.get("component")
     head = entry[0].span if entry else Span(root.file)
-    quote = form == FLAT_TOML
+    quote = quoted or form == FLAT_TOML
     writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote)
     sections = [
-        Section("Where this component serves its interfaces", list(_endpoints(values, form))),
-        Section("Where the components are that it requires", list(_proxies(values, form))),
-        Section("Topics", list(_topics(values, form))),
+        Section("Where this component serves its interfaces", list(_endpoints(values, form, quote))),
+        Section("Where the components are that it requires", list(_proxies(values, form, quote))),
+        Section("Topics", list(_topics(values, form, quote))),
         Section("Parameters", writer.write(effective.data, effective.place)),
         Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in _given(values, "ice")]),
         Section("Others", [_property(key, node, False) for key, node in _given(values, "properties")]),
@@ -102,17 +105,20 @@ def _given(values: LinkedValues, *keys: str) -> Iterator[tuple[str, Node]]:
 
 
 def _property(key: str, node: Node, quote: bool) -> Property:
+    """`quote`: as in flat TOML, where text stands in quotes, and numbers do not."""
     assert isinstance(node, Scalar)
     value = node.lexeme
-    return Property(key, f'"{value}"' if quote and '"' not in value else value, node.span)
+    if quote and isinstance(node.data, str) and '"' not in value:
+        return Property(key, f'"{value}"', node.span, unquoted)
+    return Property(key, value, node.span)
 
 
-def _endpoints(values: LinkedValues, form: str) -> Iterator[Property]:
+def _endpoints(values: LinkedValues, form: str, quote: bool) -> Iterator[Property]:
     for name, node in _given(values, "endpoints"):
-        yield _property(f"{name}.Endpoints" if form == CLASSIC else f"Endpoints.{name}", node, form == FLAT_TOML)
+        yield _property(f"{name}.Endpoints" if form == CLASSIC else f"Endpoints.{name}", node, quote)
 
 
-def _proxies(values: LinkedValues, form: str) -> Iterator[Property]:
+def _proxies(values: LinkedValues, form: str, quote: bool) -> Iterator[Property]:
     for name, node in _given(values, "proxies"):
         key = f"{name}Proxy" if form == CLASSIC else f"Proxies.{name}"
         if isinstance(node, Mapping):
@@ -120,10 +126,10 @@ def _proxies(values: LinkedValues, form: str) -> Iterator[Property]:
             proxy = node.get("proxy")
             assert proxy is not None
             node = proxy
-        yield _property(key, node, form == FLAT_TOML)
+        yield _property(key, node, quote)
 
 
-def _topics(values: LinkedValues, form: str) -> Iterator[Property]:
+def _topics(values: LinkedValues, form: str, quote: bool) -> Iterator[Property]:
     manager: Node | None = None
     for layer in values.layers():
         topics = layer.document.root.get("topics")
@@ -131,10 +137,10 @@ def _topics(values: LinkedValues, form: str) -> Iterator[Property]:
         if entry is not None:
             manager = None if entry[1].data is None else entry[1]
     if manager is not None:
-        yield _property("TopicManager.Proxy" if form == CLASSIC else "Proxies.TopicManager", manager, form == FLAT_TOML)
+        yield _property("TopicManager.Proxy" if form == CLASSIC else "Proxies.TopicManager", manager, quote)
     for name, node in _given(values, "topics", "prefix"):
-        made = _property(f"Proxies.{name}Prefix", node, form == FLAT_TOML)
+        made = _property(f"Proxies.{name}Prefix", node, quote)
         if made.value:  # none at all is what an empty one means
             yield made
     for name, node in _given(values, "topics", "name"):
-        yield _property(name, node, form == FLAT_TOML)
+        yield _property(name, node, quote)

@@ -26,14 +26,19 @@ def columns(record: RecordType, names: tuple[str, ...]) -> list[tuple[str, Scala
     return [(name, member.type) for name, member in found if member is not None]  # type: ignore[misc]
 
 
+def is_optional(record: RecordType, name: str) -> bool:
+    member = record.member(name)
+    return member is not None and member.optional
+
+
 def read_row(record: RecordType, names: tuple[str, ...], text: str, separator: str) -> dict[str, Any] | None:
-    """The texts of a row by column; a column that is empty, and is no text, has no value. None where the columns do
-    not add up."""
+    """The texts of a row by column; a column that is empty, and is no text, has no value. Optional columns at the end
+    may be left out. None where the columns do not add up."""
     parts = split(text, separator)
-    if len(parts) != len(names):
+    if len(parts) > len(names) or any(not is_optional(record, name) for name in names[len(parts) :]):
         return None
     found: dict[str, Any] = {}
-    for name, part in zip(names, parts, strict=True):
+    for name, part in zip(names, parts, strict=False):
         member = record.member(name)
         assert member is not None
         if part or (getattr(member.type, "name", "") == "string" and not member.optional):

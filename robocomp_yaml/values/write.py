@@ -27,7 +27,7 @@ from robocomp_yaml.model.pdsl import Spelling
 from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.values import lexemes, rows
-from robocomp_yaml.values.evaluate import with_defaults
+from robocomp_yaml.values.defaults import with_defaults
 from robocomp_yaml.values.layers import Place, child
 from robocomp_yaml.values.paths import Step, escaped, in_words
 from robocomp_yaml.values.spelling import Template
@@ -81,13 +81,14 @@ class Writer:
                 assert isinstance(member.type, RecordType)
                 yield from self.record(member.type, data[member.name], given, inner, stem, name, top=top)
                 continue
-            spelling = self.parameters.spelling(name) if top else None
+            spelling, told = self.parameters.spelling(name) if top else None, len(self.faults)
             if spelling is None:
                 written = list(self.value(member.type, data[member.name], here, inner, stem))
             else:
                 written = list(self.spelled(spelling, member.type, data[member.name], here, inner))
             yield from written
-            self.check_empty(member, data[member.name], bool(written), here, inner)
+            if told == len(self.faults):
+                self.check_empty(member, data[member.name], bool(written), here, inner)
 
     def check_empty(self, member: Member, value: Any, is_written: bool, where: Where, path: Path) -> None:
         """What is empty has no property (or, as a list, must not count on one), and reads as if it were not given."""
@@ -123,18 +124,17 @@ class Writer:
         if text is None or (text == "" and not self.quote):
             return
         is_text = isinstance(type_, EnumType) or type_.name == "string"
+        read: Callable[[str], Any] | None = None if is_text else lambda other: lexemes.read(type_, other)
         if self.quote and is_text and '"' not in text:
-            text = f'"{text}"'
+            text, read = f'"{text}"', unquoted
         elif self.quote and is_text and unquoted(text) != text:
             self.fault(where, path, "in quotes, it would be read without them")
             return
-        yield from self.checked(Property(
-            key, text, span_of(where), None if is_text else lambda other: lexemes.read(type_, other)
-        ), where, path)
+        yield from self.checked(Property(key, text, span_of(where), read), where, path)
 
     def checked(self, made: Property, where: Where, path: Path) -> Iterator[Property]:
         if problem := unwritable(made.key, made.value):
-            self.fault(where, path, problem.removeprefix("a property's value ").removeprefix("a property "))
+            self.fault(where, path, problem.replace("a property's value", "it").replace("a property", "it"))
         else:
             yield made
 
@@ -214,7 +214,10 @@ class Writer:
         texts = self.columns(spelling, record, item, where, path)
         if texts is None:
             return
-        text = spelling.separator.join(texts.values())
+        filled = list(texts.values())
+        while filled and not filled[-1] and rows.is_optional(record, spelling.columns[len(filled) - 1]):
+            del filled[-1]  # what is optional at the end of a row may be left out
+        text = spelling.separator.join(filled)
         if not self.reads_back(rows.read_row(record, spelling.columns, text, spelling.separator), texts, record):
             self.fault(where, path, f"its row, '{text}', would be read differently")
             return
@@ -281,10 +284,11 @@ class Writer:
                     self.fault(here or where, inner, "its rows have no property for it")
                 continue
             assert isinstance(member.type, BasicType | EnumType)
-            key = Template(keys[member.name]).fill({"i": number})
+            key, told = Template(keys[member.name]).fill({"i": number}), len(self.faults)
             written = list(self.scalar(member.type, value, here, inner, key))
             yield from written
-            self.check_empty(member, value, bool(written), here, inner)
+            if told == len(self.faults):
+                self.check_empty(member, value, bool(written), here, inner)
 
     def separated(self, spelling: Spelling, type_: Type, data: Any, where: Where, path: Path) -> Iterator[Property]:
         texts = self.texts(spelling, type_, data, where, path)

@@ -16,7 +16,10 @@ from editor.yaml_language_server import LanguageServer
 
 from robocomp_yaml.source import workspace_files
 
-SUFFIX = {"idsl": ".idsl.yaml", "cdsl": ".cdsl.yaml", "workspace": "/rcyaml.yaml"}
+SUFFIX = {
+    "idsl": ".idsl.yaml", "cdsl": ".cdsl.yaml", "pdsl": ".pdsl.yaml", "config": ".config.yaml",
+    "workspace": "/rcyaml.yaml",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,9 +41,19 @@ class Workbench:
 
     def complete(self, kind: str, text: str) -> list[Proposal]:
         path = self._document(kind)
+        return self._proposals(path, self._with_modeline(kind, path, text))
+
+    def complete_with(self, modeline: str, text: str) -> list[Proposal]:
+        """In a values document with a first line of its own."""
+        return self._proposals(self._document("config"), modeline + text)
+
+    def hover_with(self, modeline: str, text: str) -> str:
+        return self._server.hover(self._document("config"), modeline + text)
+
+    def _proposals(self, path: Path, text: str) -> list[Proposal]:
         return [
             Proposal(item["label"], item.get("textEdit", {}).get("newText", item.get("insertText", item["label"])))
-            for item in self._server.completion(path, self._with_modeline(kind, path, text))
+            for item in self._server.completion(path, text)
         ]
 
     def hover(self, kind: str, text: str) -> str:

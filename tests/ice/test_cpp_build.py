@@ -23,7 +23,7 @@ SLICE = ["slice2cpp", "--header-ext", "ice.h", "--source-ext", "ice.cpp"]
 
 def slices(root: Path) -> list[str]:
     """Compiles the component's Slice; the option that finds its headers."""
-    (root / "build").mkdir()
+    (root / "build").mkdir(exist_ok=True)
     names = sorted(str(file) for file in (root / "slice").glob("*.ice"))
     subprocess.run([*SLICE, f"-I{root / 'slice'}", "--output-dir", "build", *names], cwd=root, check=True)
     return ["-isystem", "build"]
@@ -58,15 +58,23 @@ def test_ice_is_missing(tmp_path: Path) -> None:
 
 
 def test_a_method_that_the_user_lacks(tmp_path: Path) -> None:
-    """The interface has gained one: the compiler names it."""
+    """The interface has gained one, or lost one: the user's class compiles all the same."""
     root = build({**INTERFACES, "x/x.cdsl.yaml": cdsl("X", "cpp", implements=["Hand"])}, tmp_path)["X"].root
     header = root / "src" / "specificworker.h"
-    lines = header.read_text().splitlines(keepends=True)
-    header.write_text("".join(line for line in lines if "Hand_grasp" not in line))
-    done = subprocess.run([*SYNTAX, *slices(root), "generated/main.cpp"], cwd=root, capture_output=True, text=True)
-    assert done.returncode != 0
-    assert "src/specificworker.h lacks methods of the component's interfaces" in done.stderr
-    assert "GenericWorker::Hand_grasp(const RoboCompTypes::Image&)" in done.stderr
+    header.write_text(header.read_text().replace("Hand_grasp(", "Hand_gripped("))
+    for source in ("generated/main.cpp", "generated/genericworker.cpp"):
+        done = subprocess.run([*SYNTAX, *slices(root), source], cwd=root, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+
+
+def test_a_method_that_no_longer_fits(tmp_path: Path) -> None:
+    """The compiler says which one is hidden."""
+    root = build({**INTERFACES, "x/x.cdsl.yaml": cdsl("X", "cpp", implements=["Hand"])}, tmp_path)["X"].root
+    header = root / "src" / "specificworker.h"
+    header.write_text(header.read_text().replace("Hand_grasp(", "Hand_grasp(int, "))
+    command = [*SYNTAX, "-Woverloaded-virtual", *slices(root), "generated/main.cpp"]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True)
+    assert "Hand_grasp(const RoboCompTypes::Image&)" in done.stderr and "was hidden" in done.stderr
 
 
 @pytest.mark.parametrize("standard", [17, 20])

@@ -137,8 +137,12 @@ def test_a_wrong_proxy(programs: Programs, start: Start, tmp_path: Path, wrong: 
 @pytest.mark.parametrize("wrong", ["soon", "0", "-3", "1.5", "99999999999"])
 def test_a_wrong_period(server: Program, start: Start, tmp_path: Path, wrong: str) -> None:
     write(tmp_path, f"period.compute = {wrong}\n")
-    message = f"period.compute is '{wrong}' in my.config: it must be a number of ms, at least 1"
-    assert fails(start, server, tmp_path, "my.config") == message
+    said = {
+        "0": "is 0 ms, and must be at least 1 ms",
+        "-3": "is -3 ms, and must be at least 1 ms",
+        "99999999999": "is 99999999999 ms, and must be from -2147483648 to 2147483647 (int)",
+    }.get(wrong, f"must be a whole number (ms), and is '{wrong}'")
+    assert fails(start, server, tmp_path, "my.config") == f"my.config: period.compute {said}"
 
 
 def test_bytes_that_are_no_text(

@@ -117,9 +117,15 @@ def test_what_it_is_told(turns: list[str | Path], start: Start, behavior: Ask, p
     for wrong in (0, -5):
         asked.setPeriod(wrong)
         assert asked.getPeriod() == 20
-        running.wait_for(f"WARNING Turns: setPeriod({wrong}) refused: the period must be at least 1 ms, not {wrong}")
+        said = f"period.compute is {wrong} ms, and must be at least 1 ms"
+        running.wait_for(f"WARNING Turns: setPeriod({wrong}) refused: {said}")
     asked.setParameterList(asked.getParameterList())
-    running.wait_for("WARNING Turns: setParameterList refused: no parameter is editable (CommonBehavior.Endpoints, a)")
+    running.wait_for("INFO Turns: parameters changed by setParameterList: none")
+    changed = asked.getParameterList()
+    changed["a"].value, changed["period.compute"].value = "2", "99"
+    asked.setParameterList(changed)
+    running.wait_for("WARNING Turns: setParameterList refused: there is no parameter 'a'")
+    assert asked.getPeriod() == 20, "all, or none"
     config = Path(turns[1])
     config.write_text(config.read_text() + "period.compute = 30\n")
     asked.reloadConfig()
@@ -128,7 +134,8 @@ def test_what_it_is_told(turns: list[str | Path], start: Start, behavior: Ask, p
     config.write_text("period.compute = soon\n")
     asked.reloadConfig()
     assert asked.getPeriod() == 30
-    running.wait_for("WARNING Turns: reloadConfig refused: period.compute is 'soon'")
+    running.wait_for("WARNING Turns: reloadConfig refused: ")
+    running.wait_for("period.compute must be a whole number (ms), and is 'soon'")
     asked.killYourSelf()
     assert running.exit_code(2) == 0
     assert "INFO Turns: asked to stop" in running.output

@@ -33,7 +33,10 @@ class Model:
 
 
 def random_model(random: Random) -> Model:
-    interfaces = {name: {word: _method(random) for word in random.sample(WORDS, random.randint(1, 4))} for name in "Arm Leg Eye".split()}
+    interfaces = {
+        name: {word: _method(random) for word in random.sample(WORDS, random.randint(1, 4))}
+        for name in ("Arm", "Leg", "Eye")
+    }
     implements = random.choice([("Arm",), ("Arm", "Leg"), ("Arm", "Eye", "Leg")])
     return Model(interfaces, implements, random.choice([(), ("Eye",)]), random.choice([(), ("Leg",), ("Leg", "Eye")]))
 
@@ -48,7 +51,8 @@ def changed(model: Model, random: Random) -> Model:
 def plan(model: Model, language: str, folder: Path, root: Path) -> RootPlan:
     """The plan of the files that become the user's, for `root`; documents are written to `folder`."""
     folder.mkdir(parents=True, exist_ok=True)
-    types = {"Pose": {"struct": {"x": "float", "y": "float"}}, "Names": {"sequence": "string"}, "Side": {"enum": ["left", "right"]}}
+    pose = {"struct": {"x": "float", "y": "float"}}
+    types = {"Pose": pose, "Names": {"sequence": "string"}, "Side": {"enum": ["left", "right"]}}
     for name, methods in model.interfaces.items():
         document = {"module": f"RoboComp{name}", "types": types, "interfaces": {name: {"methods": methods}}}
         (folder / f"{name}.idsl.yaml").write_text(json.dumps(document))
@@ -68,7 +72,8 @@ def plan(model: Model, language: str, folder: Path, root: Path) -> RootPlan:
 def _method(random: Random) -> dict[str, Any]:
     method: dict[str, Any] = {}
     if count := random.randint(0, 3):
-        method["in"] = {name: random.choice(TYPES) for name in random.sample(("where", "fast", "name", "seconds"), count)}
+        names = random.sample(("where", "fast", "name", "seconds"), count)
+        method["in"] = {name: random.choice(TYPES) for name in names}
     if random.random() < 0.4:
         method["returns"] = random.choice(TYPES)
     if random.random() < 0.2:
@@ -106,7 +111,8 @@ def _rename_method(model: Model, random: Random) -> Model:
     name, methods = _some(model, random)
     old = random.choice(list(methods))
     new = random.choice([word for word in WORDS if word not in methods])
-    return _with_methods(model, name, {new if word == old else word: method for word, method in methods.items()})
+    renamed = {new if word == old else word: method for word, method in methods.items()}
+    return _with_methods(model, name, renamed)
 
 
 def _change_method(model: Model, random: Random) -> Model:
@@ -128,9 +134,11 @@ def _requires(model: Model, random: Random) -> Model:
 
 
 def _about(model: Model, random: Random) -> Model:
-    return replace(model, period=random.choice([20, 50, 100]), doc=random.choice(["", "A robot.", "A robot\nwith arms."]))
+    about = ["", "A robot.", "A robot\nwith arms."]
+    return replace(model, period=random.choice([20, 50, 100]), doc=random.choice(about))
 
 
 CHANGES = (
-    _add_method, _add_method, _remove_method, _rename_method, _change_method, _implements, _subscribes, _requires, _about
+    _add_method, _add_method, _remove_method, _rename_method, _change_method, _implements, _subscribes, _requires,
+    _about,
 )  # fmt: skip

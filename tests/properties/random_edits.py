@@ -43,7 +43,8 @@ def edited(files: Files, random: Random, python: bool) -> Files:
         _moved_out(files, random)
     if python and random.random() < 0.1:
         path = "src/specificworker.py"
-        files[path] = re.sub(r"^(?: {4})+", lambda found: "  " * (len(found[0]) // 4), files[path], flags=re.MULTILINE)
+        halved = re.compile(r"^(?: {4})+", re.MULTILINE)
+        files[path] = halved.sub(lambda found: "  " * (len(found[0]) // 4), files[path])
     for path in files:
         if random.random() < 0.05:
             files[path] = files[path].replace("\n", "\r\n")
@@ -56,7 +57,8 @@ def _bodies(lines: list[str], user: Writer) -> list[int]:
     """Lines of a method's body, before which a statement may stand."""
     if user.python:
         return [n for n, line in enumerate(lines) if re.match(r" {8}(self\.|return)", line)]
-    return [n for n, line in enumerate(lines) if re.match(r" {4}\w[^()]*(\.|=| )\S*.*;$", line) and "(const" not in line]
+    statement = re.compile(r" {4}\w[^()]*(\.|=| )\S*.*;$")
+    return [n for n, line in enumerate(lines) if statement.match(line) and "(const" not in line]
 
 
 def _statement(lines: list[str], user: Writer) -> None:
@@ -89,7 +91,7 @@ def _blank(lines: list[str], user: Writer) -> None:
 
 def _head(lines: list[str], user: Writer) -> None:
     """Says something of its own in the comment at the top, or has it no more."""
-    marks = [n for n, line in enumerate(lines) if line.startswith(("#", "//")) and "include" not in line and "pragma" not in line]
+    marks = [n for n, line in enumerate(lines) if re.match(r"#(?!include|pragma)|//", line)]
     if marks:
         at = user.random.choice(marks)
         lines[at : at + 1] = user.random.choice([[], [user.comment("")], [lines[at], user.comment("")]])
@@ -104,14 +106,18 @@ def _title(lines: list[str], user: Writer) -> None:
 def _top(lines: list[str], user: Writer) -> None:
     place = next((n for n, line in enumerate(lines) if line.startswith(("from generated", "#include"))), None)
     if place is not None:
-        lines.insert(place, f"import math as {user.name()}\n" if user.python else f"#include <cmath> // {user.name()}\n")
+        name = user.name()
+        lines.insert(place, f"import math as {name}\n" if user.python else f"#include <cmath> // {name}\n")
 
 
 def _below(lines: list[str], user: Writer) -> None:
     if lines and not lines[-1].endswith("\n"):
         lines[-1] += "\n"
     name = user.name()
-    lines += ["\n", "\n", f"def {name}():\n", f"    return '{name}'\n"] if user.python else ["\n", f"inline int {name}() {{ return 1; }}\n"]
+    if user.python:
+        lines += ["\n", "\n", f"def {name}():\n", f"    return '{name}'\n"]
+    else:
+        lines += ["\n", f"inline int {name}() {{ return 1; }}\n"]
 
 
 def _helper(lines: list[str], user: Writer) -> None:
@@ -121,12 +127,9 @@ def _helper(lines: list[str], user: Writer) -> None:
         places = [n for n, line in enumerate(lines) if line.startswith("    def ")]
         text = [f"    def {name}(self, a, b=2):\n", user.statement("        "), "\n"]
     else:
-        places = [n for n, line in enumerate(lines) if re.match(r"    \w.*\) ?(override)?;$", line) and "{\n" not in lines[:n]]
+        class_ = next((n for n, line in enumerate(lines) if line.startswith("class ")), len(lines))
+        places = [n for n, line in enumerate(lines) if n > class_ and re.match(r"    \w.*\) ?(override)?;$", line)]
         text = [f"    int {name}(int a, int b) {{ return a + b; }}\n"]
-        if any(line.startswith("class ") for line in lines):
-            places = [n for n in places if any(line.startswith("class ") for line in lines[:n])]
-        else:
-            places = []
     if places:
         at = user.random.choice(places)
         lines[at:at] = text

@@ -13,7 +13,7 @@ from robocomp_yaml.legacy import document, ledger
 from robocomp_yaml.legacy.convert import Converted, convert
 from robocomp_yaml.legacy.yamltext import scalar
 from robocomp_yaml.model import build_component, build_interface
-from robocomp_yaml.model.component import Component, Gui, Language, Use
+from robocomp_yaml.model.component import Component, Gui, Language, Option, Use
 from robocomp_yaml.model.interface import (
     BASIC_TYPES,
     Enum,
@@ -195,8 +195,10 @@ def _converted(name: str, text: str | bytes) -> tuple[Converted, str]:
         path = Path(folder) / name
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
         result = convert(str(path))
-    written = document.text(result.draft.document, result.draft.around) if result.draft is not None else ""
-    return result, written
+    draft = result.draft
+    if draft is None or draft.settings is not None:  # a config's document is made with those of its component
+        return result, ""
+    return result, document.text(draft.document, draft.around)
 
 
 def _tree(kind: str, text: str) -> Mapping:
@@ -226,7 +228,7 @@ def components(draw: st.DrawFn) -> Component:
         tuple(Import(name) for name in draw(st.lists(NAMES, max_size=3, unique=True))),
         ports(), ports(), ports(), ports(),
         gui=draw(st.none() | st.sampled_from(["QWidget", "QDialog"]).map(lambda base: Gui("qt", base))),
-        options=tuple(draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True))),
+        options=tuple(map(Option, draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True)))),
     )  # fmt: skip
 
 
@@ -245,7 +247,7 @@ def cdsl_text(draw: st.DrawFn, component: Component) -> str:
     if component.gui:
         clauses.append(f"gui Qt({component.gui.base});")
     if component.options:
-        clauses.append(f"options {', '.join(component.options)};")
+        clauses.append(f"options {', '.join(option.name for option in component.options)};")
     for clause in draw(st.permutations(clauses)):
         out.space()
         out.put(clause)
@@ -272,7 +274,10 @@ PIECES = st.lists(st.sampled_from([*SAMPLE.split(" "), *OTHERS]))
 
 
 @settings(deadline=None)
-@given(st.sampled_from(["x.idsl", "x.ice", "x.cdsl", "x"]), PIECES.map(" ".join) | st.text() | st.binary())
+@given(
+    st.sampled_from(["x.idsl", "x.ice", "x.cdsl", "x", "x.conf", "x.toml", "x.jcdsl", "x.pdsl", "x.pconf"]),
+    PIECES.map(" ".join) | st.text() | st.binary(),
+)
 def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str | bytes) -> None:
     result, written = _converted(name, text)
     assert result.refused == any(d.severity == "error" for d in result.diagnostics)

@@ -8,7 +8,7 @@ from typing import Any
 from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 
-from robocomp_yaml.values import evaluate
+from robocomp_yaml.values.defaults import with_defaults
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.normalize import cerberus_verdict, normalized
 from parameters import Data, documents, linked, mutated, values
@@ -58,4 +58,4 @@ def test_what_fits_is_made_complete(case: tuple[Data, Data]) -> None:
     found, faults = effective(values(of, data))
     assert found is not None, faults
     root = of.parameters.root
-    assert found.data == normalized(of, data) == cerberus_verdict(root, data)[1] == evaluate.with_defaults(root, data)
+    assert found.data == normalized(of, data) == cerberus_verdict(root, data)[1] == with_defaults(root, data)

@@ -8,12 +8,27 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from conftest import ROOT
 from robocomp_yaml.emit.machines import lower, text
 from robocomp_yaml.emit.targets.python_statemachine import tables
 from robocomp_yaml.model.statemachine import StateMachine
+
+
+
+@dataclass(frozen=True)
+class Trace:
+    """What a machine did: the states that it entered, and what it logged."""
+
+    entered: list[str]
+    logged: list[str]
+
+    @property
+    def last(self) -> str:
+        return self.entered[-1] if self.entered else ""
+
 
 HERE = Path(__file__).resolve().parent
 PYTHON = ROOT / "templates" / "python" / "machine"
@@ -29,12 +44,12 @@ def package(folder: Path) -> Path:
     return generated
 
 
-def run_python(machines: Mapping[str, StateMachine], folder: Path) -> dict[str, str]:
-    """The last state that each machine entered."""
+def run_python(machines: Mapping[str, StateMachine], folder: Path) -> dict[str, Trace]:
     generated = package(folder)
     for name, machine in machines.items():
         (generated / f"{name}.py").write_text(tables(machine, name), encoding="utf-8")
-    return json.loads(python(HERE / "run_cases.py", *machines, folder=folder))
+    printed = json.loads(python(HERE / "run_cases.py", *machines, folder=folder))
+    return {name: Trace(**trace) for name, trace in printed.items()}
 
 
 def python(script: Path, *arguments: str, folder: Path) -> str:
@@ -48,8 +63,9 @@ def python(script: Path, *arguments: str, folder: Path) -> str:
     return done.stdout
 
 
-def run_cpp(machines: Mapping[str, StateMachine], folder: Path) -> dict[str, str]:
+def run_cpp(machines: Mapping[str, StateMachine], folder: Path) -> dict[str, Trace]:
     """The same, with one program for all."""
+    folder.mkdir(exist_ok=True)
     (folder / "cases.h").write_text(
         '#pragma once\n#include "machine/tables.h"\n#include <map>\n'
         "namespace machine { const std::map<std::string, Machine>& cases(); }\n"
@@ -65,7 +81,8 @@ def run_cpp(machines: Mapping[str, StateMachine], folder: Path) -> dict[str, str
     program = build_cpp(folder, "run_cases", folder / "cases.cpp")
     done = subprocess.run([program], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
-    return dict(line.split(" ", 1) for line in done.stdout.splitlines())
+    rows = (line.split("\t") for line in done.stdout.splitlines())
+    return {name: Trace(entered.split(","), logged.split(",")) for name, entered, logged in rows}
 
 
 def build_cpp(folder: Path, program: str, *sources: Path) -> Path:

@@ -1,4 +1,4 @@
-// Runs C++'s tables: prints the state in which each machine ended, a case a line.
+// Runs C++'s tables: prints what each machine entered and logged, a case a line.
 #include "cases.h"
 #include "machine/sessions.h"
 
@@ -9,7 +9,7 @@
 namespace
 {
 
-/// Keeps the last state that was entered; cases have neither guards nor actions.
+/// Keeps the states that were entered, and what was logged; cases have neither guards nor actions.
 class Host : public machine::Host
 {
 public:
@@ -25,22 +25,24 @@ public:
 
     void entered(const std::string& state) override
     {
-        last = state;
+        entered_ += (entered_.empty() ? "" : ",") + state;
     }
 
     void left(const std::string&) override
     {
     }
 
-    void log(const std::string&, const std::string&) override
+    void log(const std::string& label, const std::string& value) override
     {
+        logged_ += (logged_.empty() ? "" : ",") + label + " " + value;
     }
 
     void complain(const std::string&) override
     {
     }
 
-    std::string last;
+    std::string entered_;
+    std::string logged_;
 };
 
 std::string run(const machine::Machine& tables)
@@ -57,7 +59,7 @@ std::string run(const machine::Machine& tables)
         now = *due;
         sessions.run();
     }
-    return host.last;
+    return host.entered_ + "\t" + host.logged_;
 }
 
 }
@@ -66,6 +68,6 @@ int main()
 {
     for (const auto& [name, tables] : machine::cases())
     {
-        std::cout << name << ' ' << run(tables) << '\n';
+        std::cout << name << '\t' << run(tables) << '\n';
     }
 }

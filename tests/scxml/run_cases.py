@@ -1,4 +1,4 @@
-"""Runs Python's tables: `run_cases.py NAME…` prints, as JSON, the state in which each machine ended.
+"""Runs Python's tables: `run_cases.py NAME…` prints, as JSON, what each machine entered and logged.
 
 It is a program of its own, since it imports the package `generated` that the tests have put together.
 """
@@ -16,11 +16,12 @@ LONGEST = 60  # seconds that no case needs
 
 
 class Host:
-    """Keeps the last state that was entered; cases have neither guards nor actions."""
+    """Keeps the states that were entered, and what was logged; cases have neither guards nor actions."""
 
     def __init__(self) -> None:
         self.now = 0.0
-        self.last = ""
+        self.entered_states: list[str] = []
+        self.logged: list[str] = []
 
     def guard(self, name: str) -> bool:
         raise AssertionError(name)
@@ -28,19 +29,19 @@ class Host:
     act = guard
 
     def entered(self, state: str) -> None:
-        self.last = state
+        self.entered_states.append(state)
 
     def left(self, state: str) -> None:
         pass
 
     def log(self, label: str, value: Any) -> None:
-        pass
+        self.logged.append(f"{label} {'' if value is None else value}")
 
     def complain(self, message: str) -> None:
         pass
 
 
-def run(name: str) -> str:
+def run(name: str) -> dict[str, list[str]]:
     tables = importlib.import_module(f"generated.{name}")
     host = Host()
     sessions = Sessions(host, tables.MODELS, lambda: host.now)
@@ -50,7 +51,7 @@ def run(name: str) -> str:
     while session.interpreter.is_running and (due := sessions.next_due()) is not None and due < LONGEST:
         host.now = due
         sessions.run()
-    return host.last
+    return {"entered": host.entered_states, "logged": host.logged}
 
 
 print(json.dumps({name: run(name) for name in sys.argv[1:]}))

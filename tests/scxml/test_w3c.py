@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import engines
 import pytest
 import w3c
+from cpp_traces import in_cpp  # noqa: F401 (the fixture)
 
 from conftest import ROOT
 
@@ -29,18 +31,17 @@ def _python(folder: Path) -> dict[str, str]:
     cases = [w3c.read(name, "python", folder / "cases") for name in w3c.names()]
     ended = engines.run_python({case.name: case.machine for case in cases if case.machine}, folder)
     return {
-        case.name: case.refusal if case.machine is None else w3c.PASSED if ended[case.name] == "pass"
-        else NOT_IN_PYTHON.get(case.name, f"ended in {ended[case.name]}")
+        case.name: case.refusal if case.machine is None else w3c.PASSED if ended[case.name].last == "pass"
+        else NOT_IN_PYTHON.get(case.name, f"ended in {ended[case.name].last}")
         for case in cases
     }  # fmt: skip
 
 
-def _cpp(folder: Path) -> dict[str, str]:
-    cases = [w3c.read(name, "cpp", folder / "cases") for name in w3c.names()]
-    ended = engines.run_cpp({case.name: case.machine for case in cases if case.machine}, folder)
+def _cpp(folder: Path, ended: dict[str, engines.Trace]) -> dict[str, str]:
+    cases = [w3c.read(name, "cpp", folder) for name in w3c.names()]
     return {
-        case.name: case.refusal if case.machine is None else w3c.PASSED if ended[case.name] == "pass"
-        else f"ended in {ended[case.name]}"
+        case.name: case.refusal if case.machine is None else w3c.PASSED if ended[case.name].last == "pass"
+        else f"ended in {ended[case.name].last}"
         for case in cases
     }  # fmt: skip
 
@@ -53,8 +54,10 @@ def test_python_passes_all_but_those_listed(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("g++"), reason="g++ is not installed")
-def test_cpp_passes_every_case_that_needs_no_scripting_language_and_the_docs_list_all(tmp_path: Path) -> None:
-    python, cpp = _python(tmp_path / "python"), _cpp(tmp_path / "cpp")
+def test_cpp_passes_every_case_that_needs_no_scripting_language_and_the_docs_list_all(
+    tmp_path: Path, in_cpp: Callable[[], dict[str, engines.Trace]]
+) -> None:
+    python, cpp = _python(tmp_path / "python"), _cpp(tmp_path / "cpp", in_cpp())
     missing = {name: why for name, why in cpp.items() if why not in (w3c.PASSED, w3c.SCRIPTING)}
     assert missing == {name: NOT_IN_PYTHON[name] for name in ["test401"]}
     text = (ROOT / "docs" / "statemachines.md").read_text(encoding="utf-8")

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model.machine_index import MachineIndex
@@ -146,8 +145,7 @@ class _Null(_Visitor):
         if not wrong:
             for name in conditions.names(conditions.condition(text.text), conditions.IN):
                 if name not in self.index.by_id:
-                    close = suggest(name, self.index.by_id)
-                    yield codes.UNKNOWN_STATE.at(text.span, id=name, hint=f"did you mean '{close}'?" if close else "")
+                    yield codes.UNKNOWN_STATE.at(text.span, id=name, hint=self.index.similar(name))
 
     def _fits(self, what: str, text: Text, read: Callable[[str], object]) -> Iterator[Diagnostic]:
         try:

@@ -8,9 +8,10 @@ from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.machine_index import MachineIndex, matches
+from robocomp_yaml.model.machine_index import MachineIndex, plain, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
 
+_MANY = 500  # names to look for a similar one in
 _PLATFORM = ("done.", "error", "*", ".*")
 
 
@@ -40,6 +41,7 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
         for target in transition.targets
     ):
         return
+    targets = {id(target) for _, transition in index.transitions() for target in index.targets(transition)}
     reached: set[int] = set()
     todo = [index.machine.root]
     while todo:
@@ -55,7 +57,8 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
         for parent in around:
             if parent.kind == PARALLEL:
                 todo += index.defaults(parent)
-        todo += index.defaults(state) if not _entered_inside(index, state, reached) else []
+        if id(state) in targets or not any(id(child) in reached for child in state.states):
+            todo += index.defaults(state)  # it is not only entered because a state in it is
         for transition in state.transitions:
             todo += index.targets(transition)
     for state in index.machine.states:
@@ -64,25 +67,19 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
             yield codes.UNREACHABLE.at(state.span, id=state.id or "(without a name)")
 
 
-def _entered_inside(index: MachineIndex, state: State, reached: set[int]) -> bool:
-    """Whether a state has been reached only because one in it was: then its initial state need not be."""
-    return any(id(child) in reached for child in state.states) and not any(
-        state in index.targets(transition) for _, transition in index.transitions()
-    )
-
-
 def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
     """Transitions that are taken at once, and lead back to where they came from."""
-    told: set[int] = set()
+    seen: set[int] = set()
     for start in index.machine.states:
-        path: list[State] = []
+        path: dict[int, State] = {}
         state: State | None = start
-        while state is not None and state not in path and id(state) not in told:
-            path.append(state)
+        while state is not None and id(state) not in seen:
+            seen.add(id(state))
+            path[id(state)] = state
             state = _at_once(index, state)
-        if state is not None and state in path:
-            circle = path[path.index(state) :]
-            told |= {id(member) for member in circle}
+        if state is not None and id(state) in path:
+            members = list(path.values())
+            circle = members[list(path).index(id(state)) :]
             place = next(t.span for s in _sources(index, state) for t in s.transitions if not t.events)
             names = " → ".join(member.id or "(without a name)" for member in (*circle, state))
             yield codes.ENDLESS.at(place, circle=names, hint="give one of the transitions an event or a condition")
@@ -131,6 +128,8 @@ def _sent(machine: StateMachine) -> tuple[list[Text], bool]:
 def _unheard(index: MachineIndex) -> Iterator[Diagnostic]:
     """What the machine sends to itself, and no transition waits for."""
     heard = [event.text for _, transition in index.transitions() for event in transition.events]
+    known = {plain(descriptor) for descriptor in heard}
+    named = [descriptor for descriptor in known if descriptor and not descriptor.startswith(_PLATFORM)]
     for action in index.actions():
         if isinstance(action, Raise):
             event = action.event
@@ -138,8 +137,8 @@ def _unheard(index: MachineIndex) -> Iterator[Diagnostic]:
             event = Text(action.event.literal, action.event.span)
         else:
             continue
-        if not any(matches(descriptor, event.text) for descriptor in heard):
-            close = suggest(event.text, [descriptor for descriptor in heard if not descriptor.startswith(_PLATFORM)])
+        if known.isdisjoint(prefixes(event.text)):
+            close = suggest(event.text, sorted(named)[:_MANY])
             hint = f"did you mean '{close}'?" if close else ""
             yield codes.UNHEARD.at(event.span, event=event.text, hint=hint)
 
@@ -152,12 +151,16 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
     sent, complete = _sent(index.machine)
     fired = [event.text for event in index.machine.events]
     known = [*fired, *(event.text for event in sent)]
-    for _, transition in index.transitions():
+    heads = {prefix for event in known for prefix in prefixes(event)}
+    for state, transition in index.transitions():
+        signals = {f"t_{state.id}_to_{target.text}" for target in transition.targets}  # what RoboComp's code fires
         for event in transition.events:
+            if event.text in signals:
+                continue
             if event.text.startswith(_PLATFORM):
                 yield from _platform(index, transition, event)
-            elif fired and complete and not any(matches(event.text, one) for one in known):
-                close = suggest(event.text, known)
+            elif fired and complete and plain(event.text) not in heads:
+                close = suggest(event.text, known[:_MANY])
                 yield codes.NEVER_SENT.at(
                     event.span, event=event.text, why="", hint=f"did you mean '{close}'?" if close else
                     "list it under `events:`, for the component's code to fire it",
@@ -172,13 +175,11 @@ def _platform(index: MachineIndex, transition: Transition, event: Text) -> Itera
     if what == "state":
         state = index.by_id.get(name)
         if state is None:
-            close = suggest(name, index.by_id)
-            hint = f"did you mean 'done.state.{close}'?" if close else ""
-            yield codes.NEVER_SENT.at(event.span, event=event.text, why=f": there is no state '{name}'", hint=hint)
+            why = f": there is no state '{name}'"
+            yield codes.NEVER_SENT.at(event.span, event=event.text, why=why, hint=index.similar(name))
         elif not index.can_be_done(state):
             why = f": '{name}' has no final state in " + ("each of its parts" if state.kind == PARALLEL else "it")
             yield codes.NEVER_SENT.at(event.span, event=event.text, why=why)
     elif what == "invoke":
-        invokes = list(index.invokes())
-        if all(invoke.id and not matches(name, invoke.id) for invoke in invokes):
+        if all(invoke.id and name not in prefixes(invoke.id) for invoke in index.invokes()):
             yield codes.NEVER_SENT.at(event.span, event=event.text, why=": nothing is invoked under this name")

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.link.program import Program
+from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import Raise, Send, StateMachine, Text
@@ -32,7 +32,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
         if linked.machine is not None:
             yield from _events(linked.machine)
-            yield from _in_code(linked.machine)
+            yield from _in_code(linked, linked.machine)
 
 
 def _events(machine: StateMachine) -> Iterator[Diagnostic]:
@@ -54,8 +54,8 @@ def _events(machine: StateMachine) -> Iterator[Diagnostic]:
             yield codes.EVENT_NAME.at(event.span, event=event.text)
 
 
-def _in_code(machine: StateMachine) -> Iterator[Diagnostic]:
-    taken: dict[str, names.Named] = {}
+def _in_code(linked: LinkedComponent, machine: StateMachine) -> Iterator[Diagnostic]:
+    taken = {named.name: named for named in _of_ports(linked)}
     guards, actions = names.guards(machine), names.actions(machine)
     for named in (*guards, *actions):
         is_own = named.kind == names.ACTION and named.name in names.CALLABLE
@@ -71,6 +71,17 @@ def _in_code(machine: StateMachine) -> Iterator[Diagnostic]:
     fired: dict[str, names.Named] = {}
     for event in names.events(machine):
         yield from _clash(event, fired)
+
+
+def _of_ports(linked: LinkedComponent) -> Iterator[names.Named]:
+    """What the worker has of interfaces."""
+    for port in (*linked.implements, *linked.subscribes):
+        for method in port.interface.methods:
+            name = f"{port.interface.name}_{method.name}"
+            yield names.Named("the method", Text(name, port.use.span), name)
+    for port in (*linked.requires, *linked.publishes):
+        name = f"{port.name.lower()}_proxy"
+        yield names.Named("the proxy", Text(port.name, port.use.span), name)
 
 
 def _clash(named: names.Named, taken: dict[str, names.Named]) -> Iterator[Diagnostic]:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import FINAL, HISTORY, PARALLEL, State, StateMachine, Text, Transition
@@ -49,8 +48,7 @@ def _names(index: MachineIndex, is_invoked: bool) -> Iterator[Diagnostic]:
 
 
 def _unknown(index: MachineIndex, name: Text) -> Diagnostic:
-    close = suggest(name.text, index.by_id)
-    return codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=f"did you mean '{close}'?" if close else "")
+    return codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=index.similar(name.text))
 
 
 def _strays(index: MachineIndex) -> Iterator[Diagnostic]:

@@ -28,7 +28,14 @@ from robocomp_yaml.model.expression import (
     NotInLanguage,
     Unary,
 )
-from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, RecordType, Type
+from robocomp_yaml.model.parameters import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    Type,
+)
 from robocomp_yaml.source.tree import Scalar
 
 BOOL, WHOLE, NUMBER, TEXT = BasicType("bool"), BasicType("long"), BasicType("double"), BasicType("string")

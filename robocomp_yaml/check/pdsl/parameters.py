@@ -13,6 +13,7 @@ from robocomp_yaml.model.names import LANGUAGES, in_code, is_identifier
 from robocomp_yaml.model.parameters import Member, Parameters, RecordType
 from robocomp_yaml.source.tree import Mapping, Node, Sequence
 from robocomp_yaml.values import evaluate
+from robocomp_yaml.values.defaults import defaults
 from robocomp_yaml.values.judge import Path, judge
 
 
@@ -87,7 +88,7 @@ def _names(record: RecordType) -> Iterator[Diagnostic]:
 
 def _defaults_together(parameters: Parameters) -> Iterator[Diagnostic]:
     """Constraints that are broken where nobody gives a value; what has no default is not known here."""
-    data = evaluate.by_code_names(parameters.root, evaluate.defaults(parameters.root))
+    data = evaluate.by_code_names(parameters.root, defaults(parameters.root))
     for constraint in parameters.constraints:
         if is_sound(constraint.expression, parameters.root) and not evaluate.holds(constraint.expression, data):
             yield codes.DEFAULTS_BREAK.at(constraint.span, message=constraint.message)

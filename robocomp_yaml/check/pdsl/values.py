@@ -29,14 +29,18 @@ def of_document(linked: LinkedValues, *, complete: bool = False) -> Iterator[Dia
     if linked.parameters.broken:
         return
     yield from _ports(linked)
-    is_layer = linked.is_extended and os.path.basename(linked.document.path) != "config.yaml"
-    if is_layer and not complete:
+    if is_only_layer(linked) and not complete:
         yield from document_faults(linked)
         return
     values, found = effective(linked)
     yield from found
     if values is not None and not has_errors(found) and not is_plain(linked, values):
         yield from properties(linked, values)[1]
+
+
+def is_only_layer(linked: LinkedValues) -> bool:
+    """Whether a document may be incomplete, since another one builds on it."""
+    return linked.is_extended and os.path.basename(linked.document.path) != "config.yaml"
 
 
 def is_plain(linked: LinkedValues, values: Effective) -> bool:

@@ -131,7 +131,10 @@ NOT_COMPILED_YET = Code(
     "warning",
     "`{key}` is checked and kept, but this version of rcyaml does not compile it yet",
     "The document is right, and what is compiled from the rest of it runs; what this key asks for is missing in it.",
-    _component("imports: [Speech]\nimplements: [Speech]\noptions: [dsr]\n"),
+    _component(
+        "imports: [Speech]\nimplements: [Speech]\ncompatibility: robocomp\n"
+        "statemachine: {initial: rest, states: {rest: {}, act: {}}, transitions: {rest: act, act: rest}}\n"
+    ),
     _RIGHT,
     "compile .",
 )

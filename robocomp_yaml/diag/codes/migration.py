@@ -174,3 +174,48 @@ NOT_SEARCHED = Code(
     {"rcyaml.yaml": "interfaces: [interfaces]\n", "interfaces/Speech.idsl": _IDSL, "speech/speech.cdsl": _CDSL},
     _MIGRATE,
 )  # fmt: skip
+_SPEECH: dict[str, str | bytes | None] = {**_RIGHT, "speech/speech.cdsl": _CDSL}
+_COLUMNS = "# Motor: name, id, zero\nMotor0 = left,1,0.5\nMotor1 = right,2,0.4\n"
+OWN_COMPONENT = Code(
+    "RC5027", WARNING,
+    "there is no component in this folder or the one above, so this config is one of its own, {name}",
+    "A config belongs to the component (`.cdsl`) in its folder, or in the folder above. Where there is none, its "
+    "parameters (`.pdsl.yaml`) stand beside it, and nobody knows which of its connections are used.",
+    {"speech.conf": "Device = /dev/ttyUSB0\n"}, {**_SPEECH, "speech/etc/config": "Device = /dev/ttyUSB0\n"}, _MIGRATE,
+)  # fmt: skip
+GUESSED = Code(
+    "RC5028", NOTE, "guessed for {name}: {what}",
+    "A flat config does not say what its texts mean. The parameters (`.pdsl.yaml`) mark what was guessed with "
+    "`rcyaml: guessed`. `--names KEY=a,b,c` and `--rules FILE` say it better, for a whole repository.",
+    {**_SPEECH, "speech/etc/config": _COLUMNS}, {**_SPEECH, "speech/etc/config": "Motors = 2\n"}, _MIGRATE,
+)  # fmt: skip
+UNNAMED = Code(
+    "RC5029", WARNING, "guessed for {name}: {what}",
+    "Each row holds several values, and no comment above the rows has as many names. Give them with "
+    "`--names KEY=a,b,c`, KEY being what the rows are called, without their number.",
+    {**_SPEECH, "speech/etc/config": "Motor0 = left,1,0.5,7\n"}, {**_SPEECH, "speech/etc/config": "Motors = 2\n"},
+    _MIGRATE,
+)  # fmt: skip
+NO_PDSL = Code(
+    "RC5030", WARNING, "there is no parameter file '{name}' among the files migrated",
+    "Values of 2011 (`.pconf`) say whose they are by importing a `.pdsl`. Without it, the document's `component:` "
+    "names a document that is not there.",
+    {"speech.pconf": 'import "speech.pdsl";\nConfigFile Speech{\n  volume = 3\n}\n'},
+    {
+        "speech.pconf": 'import "speech.pdsl";\nConfigFile Speech{\n  volume = 3\n}\n',
+        "speech.pdsl": "ComponentParams Speech{\n  volume int 5 0:10;\n}\n",
+    }, _MIGRATE,
+)  # fmt: skip
+_OLDER = "component: SpeechComp\nlanguage: python\nimports: [Speech]\nsubscribesTo: [Speech]  # all of it\n"
+_NEWER = _OLDER.replace("subscribesTo", "subscribes")
+UPGRADED = Code(
+    "RC5031", NOTE, "{what}",
+    "Our own documents change too, if rarely. `migrate` brings older ones up to date in their place: it changes the "
+    "word that is spelled differently now, and nothing else.",
+    {**_RIGHT, "speech.cdsl.yaml": _OLDER}, {**_RIGHT, "speech.cdsl.yaml": _NEWER}, _MIGRATE,
+)  # fmt: skip
+BOTH_KEYS = Code(
+    "RC5032", ERROR, "'{old}' is called '{new}' now, and stands here beside it",
+    "An older document would be brought up to date, but it has the old key and the new one. Make one of the two.",
+    {**_RIGHT, "speech.cdsl.yaml": _OLDER + "subscribes: []\n"}, {**_RIGHT, "speech.cdsl.yaml": _NEWER}, _MIGRATE,
+)  # fmt: skip

@@ -140,6 +140,17 @@ def words(node: Node) -> Iterator[str]:
         todo += reversed(current.children)
 
 
+def below(root: Node, enters: Callable[[Node], bool]) -> Iterator[tuple[Node, bool]]:
+    """The nodes below one, in order; of those to be entered, what is in them instead, which is nested then."""
+    todo = [(child, False) for child in reversed(root.children)]
+    while todo:
+        node, nested = todo.pop()
+        if enters(node):
+            todo += [(child, True) for child in reversed(node.children)]
+        else:
+            yield node, nested
+
+
 def faults(root: Node) -> int:
     """How many places of a tree are no proper syntax."""
     count, todo = 0, [root] if root.has_error else []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 
 import tree_sitter_cpp
@@ -15,6 +16,7 @@ from robocomp_yaml.emit.specific.code import (
     Import,
     Method,
     Signature,
+    below,
     faults,
     lines_of,
     place,
@@ -60,37 +62,36 @@ def _instead(found: re.Match[bytes]) -> bytes:
     return word.ljust(len(found[0])) if b"\n" not in found[0] else found[0]
 
 
-def _classes(node: Node) -> Iterator[Node]:
-    for child in node.children:
-        if child.type in ("class_specifier", "struct_specifier"):
-            if child.child_by_field_name("body") and text(_field(child, "name")) == CLASS:
-                yield child
-        elif child.type.startswith(("preproc_if", "preproc_el", "namespace", "declaration_list", "declaration")):
-            yield from _classes(child)
+def _is_condition(node: Node) -> bool:
+    return node.type.startswith(("preproc_if", "preproc_el"))
 
 
-def _members(body: Node, lines: list[str], nested: bool = False) -> Iterator[Method]:
-    for node in body.children:
+def _is_scope(node: Node) -> bool:
+    return _is_condition(node) or node.type in ("namespace_definition", "declaration_list", "declaration")
+
+
+def _classes(root: Node) -> Iterator[Node]:
+    for node, _ in below(root, _is_scope):
+        if node.type in ("class_specifier", "struct_specifier"):
+            if node.child_by_field_name("body") and text(_field(node, "name")) == CLASS:
+                yield node
+
+
+def _members(body: Node, lines: list[str]) -> Iterator[Method]:
+    for node, nested in below(body, _is_condition):
         if node.type in ("field_declaration", "function_definition", "declaration"):
             if found := _method(node, lines, nested, has_body=node.type == "function_definition"):
                 yield found
-        elif node.type.startswith("preproc_if") or node.type.startswith("preproc_el"):
-            yield from _members(node, lines, nested=True)
 
 
-def _definitions(node: Node, lines: list[str], nested: bool = False) -> Iterator[Method]:
-    for child in node.children:
-        if child.type == "function_definition":
-            if (found := _method(child, lines, nested)) and found.name.startswith(f"{CLASS}::"):
-                yield Method(
-                    found.name.removeprefix(f"{CLASS}::"), found.place, found.first, found.end, found.signature,
-                    nested=nested,
-                )  # fmt: skip
-        elif child.type.startswith(("preproc_if", "preproc_el", "namespace", "declaration_list")):
-            yield from _definitions(child, lines, nested=True)
+def _definitions(root: Node, lines: list[str]) -> Iterator[Method]:
+    for node, nested in below(root, _is_scope):
+        found = _method(node, lines, nested) if node.type == "function_definition" else None
+        if found and found.name.startswith(f"{CLASS}::"):
+            yield replace(found, name=found.name.removeprefix(f"{CLASS}::"))
 
 
-def _method(node: Node, lines: list[str], nested: bool, has_body: bool = True) -> Method | None:
+def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True) -> Method | None:
     """The function that a declaration is about; None where it is about none."""
     declarator, around = node.child_by_field_name("declarator"), ""
     while declarator is not None and declarator.type in ("reference_declarator", "pointer_declarator"):

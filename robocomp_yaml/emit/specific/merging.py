@@ -47,7 +47,7 @@ def _refusals(root: Root, result: Result) -> list[Diagnostic]:
         return [codes.CONFLICT.at(Span(path), path=path, reason=result.reason, hint=_HINT)]
     return [
         codes.CONFLICT.at(
-            Span(path, conflict.first + 1, 1, max(conflict.end, conflict.first + 1), 200),
+            Span(path, conflict.first + 1, 1, max(conflict.end, conflict.first + 1) + 1, 1),
             path=path, reason="you and rcyaml changed the same lines", hint=_HINT, more=conflict.text,
         )
         for conflict in result.conflicts

@@ -15,6 +15,7 @@ from robocomp_yaml.emit.specific.code import (
     Import,
     Method,
     Signature,
+    below,
     faults,
     lines_of,
     place,
@@ -49,28 +50,28 @@ def read(path: str, source: str) -> Code:
     )  # fmt: skip
 
 
+def _is_condition(node: Node) -> bool:
+    """Whether what stands in it may be there or not."""
+    return node.type in ("if_statement", "try_statement", "with_statement", "block") or node.type.endswith("_clause")
+
+
 def _classes(root: Node) -> Iterator[Node]:
     """Classes of the module, under conditions too."""
-    for node in root.children:
-        if node.type == "class_definition":
-            yield node
-        elif node.type == "decorated_definition" or node.type.endswith(("_statement", "block", "_clause")):
-            yield from _classes(node)
+    for node, _ in below(root, _is_condition):
+        inner = _field(node, "definition") if node.type == "decorated_definition" else node
+        if inner.type == "class_definition":
+            yield inner
 
 
-def _members(body: Node, lines: list[str], nested: bool = False) -> Iterator[Method]:
-    for node in body.children:
-        inner = node.child_by_field_name("definition") if node.type == "decorated_definition" else node
-        if inner is not None and inner.type == "function_definition":
+def _members(body: Node, lines: list[str]) -> Iterator[Method]:
+    for node, nested in below(body, _is_condition):
+        inner = _field(node, "definition") if node.type == "decorated_definition" else node
+        if inner.type == "function_definition":
             name = _field(inner, "name")
             first = _with_comments(node.start_point[0], lines)
-            yield Method(
-                text(name), place(name, lines), first, _last_line(node), _signature(inner), nested=nested
-            )
+            yield Method(text(name), place(name, lines), first, _last_line(node), _signature(inner), nested=nested)
         elif node.type == "expression_statement":
             yield from _assigned(node, lines)
-        elif node.type in ("if_statement", "try_statement", "with_statement", "block") or node.type.endswith("_clause"):
-            yield from _members(node, lines, nested=True)
 
 
 def _assigned(statement: Node, lines: list[str]) -> Iterator[Method]:

@@ -12,7 +12,7 @@ from functools import cache
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import cpp_qt, cpp_statemachine
+from robocomp_yaml.emit.targets import cpp_parameters, cpp_qt, cpp_statemachine
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
 from robocomp_yaml.emit.targets.cpp_qt import QtView, RobocompView
 from robocomp_yaml.emit.targets.cpp_statemachine import MachineView
@@ -25,7 +25,7 @@ LANGUAGE = "cpp"
 DEFAULT_PERIOD = 100
 DEFAULT_STANDARD = 17
 BEHAVIOR = "RoboCompCommonBehavior"
-_TOPICS = ("topics.cpp", "topics.h")  # of the run time, only where a component has topics
+_TOPICS = frozenset(("topics.cpp", "topics.h"))  # of the run time, only where a component has topics
 # Targets that CMake makes by itself.
 _CMAKE_TARGETS = frozenset(
     "all clean depend edit_cache help install package package_source preinstall rebuild_cache test".split()
@@ -66,9 +66,10 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     copied = [*cpp_statemachine.files(component), *cpp_qt.files(component)]
     view = _view(component, copied)
     if view.robocomp:
-        return _robocomp(view, copied)
+        return _robocomp(component, view, copied)
     return [
-        *_runtime(view.has_topics),
+        *_runtime(_unused(component)),
+        *cpp_parameters.plan(component),
         *copied,
         *(
             FilePlan(f"generated/{name}", render(f"cpp/{name}.j2", view))
@@ -80,7 +81,13 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     ]
 
 
-def _robocomp(view: View, copied: list[FilePlan]) -> list[FilePlan]:
+def _unused(component: LinkedComponent) -> frozenset[str]:
+    """The files of the run time that the component does not need."""
+    unused = cpp_parameters.unused_runtime(component.parameters.parameters)
+    return unused if component.publishes or component.subscribes else unused | _TOPICS
+
+
+def _robocomp(component: LinkedComponent, view: View, copied: list[FilePlan]) -> list[FilePlan]:
     """As plan(), where the user's code is written for RoboComp's own tool."""
     names = {
         "generated/interfaces.h": "interfaces.h",
@@ -97,7 +104,8 @@ def _robocomp(view: View, copied: list[FilePlan]) -> list[FilePlan]:
         "CMakeLists.txt": "CMakeLists.txt",
     }
     return [
-        *_runtime(view.has_topics),
+        *_runtime(_unused(component)),
+        *cpp_parameters.plan(component),
         *copied,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
         *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE) for path, name in own.items()),
@@ -105,13 +113,13 @@ def _robocomp(view: View, copied: list[FilePlan]) -> list[FilePlan]:
 
 
 @cache
-def _runtime(has_topics: bool) -> tuple[FilePlan, ...]:
+def _runtime(unused: frozenset[str]) -> tuple[FilePlan, ...]:
     """The files that are the same in every component."""
     folder = resources.folder("templates") / "cpp" / "runtime"
     return tuple(
         FilePlan(f"generated/runtime/{file.name}", file.read_text(encoding="utf-8"))
         for file in sorted(folder.iterdir())
-        if has_topics or file.name not in _TOPICS
+        if file.name not in unused
     )
 
 
@@ -126,7 +134,7 @@ def _view(linked: LinkedComponent, copied: list[FilePlan]) -> View:
     doc = f"{component.name}: {component.doc}" if component.doc else component.name
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if has_services else "/*services*/"
-    sources = [file.path.removeprefix("generated/") for file in (*_runtime(has_topics), *copied)]
+    sources = [file.path.removeprefix("generated/") for file in (*_runtime(_unused(linked)), *copied)]
     ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
@@ -148,7 +156,7 @@ def _view(linked: LinkedComponent, copied: list[FilePlan]) -> View:
         ice_components=" ".join(ice),
         libraries=" ".join(f"Ice::{name}" for name in ice),
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
-        sources=["genericworker.cpp", *(path for path in sources if path.endswith(".cpp"))],
+        sources=["genericworker.cpp", "parameters.cpp", *(path for path in sources if path.endswith(".cpp"))],
         machine=cpp_statemachine.view(linked.machine) if linked.machine else None,
         base=_base(linked),
         qt=cpp_qt.qt_view(linked),

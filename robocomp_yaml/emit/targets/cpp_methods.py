@@ -18,11 +18,13 @@ _NOT_PUBLISHED = (
 
 @dataclass(frozen=True, slots=True)
 class MethodView:
-    """A method of the worker: in GenericWorker, and in the user's class."""
+    """A method of the worker: in GenericWorker, which has it so that a user's class without it still compiles, and in
+    the user's class. That says no `override`: a method that an interface has no more would be an error then."""
 
     name: str
     comment: str
     declaration: str
+    fallback: str
     overriding: str
     definition: str
     stub: list[str]
@@ -47,8 +49,11 @@ def method_view(port: Port, method: Method, name: str) -> MethodView:
     return MethodView(
         name=name,
         comment=comment(described, IN) if (described := _described(port, method)) else "",
-        declaration=declaration(f"virtual {returns} {name}", typed, " = 0;", IN),
-        overriding=declaration(f"{returns} {name}", typed, " override;", IN),
+        declaration=declaration(f"virtual {returns} {name}", typed, ";", IN),
+        fallback=declaration(
+            f"{returns} GenericWorker::{name}", [f"{type_} /*{word}*/" for type_, word in (*inputs, *outputs)]
+        ),
+        overriding=declaration(f"{returns} {name}", typed, ";", IN),
         definition=declaration(f"{returns} SpecificWorker::{name}", unused),
         stub=_stub(method, name, scope),
     )

@@ -46,7 +46,7 @@ class Ports:
     """All ports of a component, with names that do not clash."""
 
     def __init__(self, component: LinkedComponent) -> None:
-        self._members = Names()
+        self._members = Names(("parameters",))
         self._servants = Names()
         self._methods: dict[tuple[int, str, str], MethodView] = {}
         self.requires = [self._required(port) for port in component.requires]

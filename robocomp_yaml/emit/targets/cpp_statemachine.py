@@ -10,10 +10,10 @@ from robocomp_yaml.emit.machines import lower, text
 from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.cpp_names import parameter
-from robocomp_yaml.emit.targets.cpp_text import one_line
+from robocomp_yaml.emit.targets.cpp_text import comment, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import machine_names as names
-from robocomp_yaml.model.statemachine import StateMachine
+from robocomp_yaml.model.statemachine import State, StateMachine
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,11 +23,17 @@ class EventView:
 
 
 @dataclass(frozen=True, slots=True)
+class StateView:
+    name: str
+    comment: str
+
+
+@dataclass(frozen=True, slots=True)
 class MachineView:
-    """What the worker has of a machine: names of states, guards and actions; `called` are all actions, also those that
+    """What the worker has of a machine: states, names of guards and actions; `called` are all actions, also those that
     every worker has. `fires` is an example of how to fire an event."""
 
-    states: list[str]
+    states: list[StateView]
     guards: list[str]
     actions: list[str]
     called: list[str]
@@ -44,12 +50,16 @@ class TablesView:
 def view(machine: StateMachine) -> MachineView:
     called = [action.name for action in names.actions(machine)]
     return MachineView(
-        [state.id for state in names.with_handler(machine)],
+        [StateView(state.id, _comment(state)) for state in names.with_handler(machine)],
         [guard.name for guard in names.guards(machine)],
         [name for name in called if name not in names.CALLABLE],
         called,
         next((f"events.{event.method}()" for event in _events(machine)), "there are none"),
     )
+
+
+def _comment(state: State) -> str:
+    return comment(f"The state '{state.id}' has been entered.\n\n{state.doc}", "    ")
 
 
 def files(linked: LinkedComponent) -> list[FilePlan]:

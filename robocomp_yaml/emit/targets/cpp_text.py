@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 WIDTH = 120
 IN = "    "
@@ -41,3 +41,46 @@ def quoted(text: str) -> str:
 def _plain(line: str) -> str:
     """Without what is no text, and without the backslash that would draw the next line into the comment."""
     return "".join(c for c in line if c.isprintable() or c == "\t").rstrip(" \t\\")
+
+
+def folded(code: str, indent: str) -> str:
+    """An expression that is too long for a line with what is in its largest brackets on lines of its own, and so on;
+    without the first line's indent."""
+    if len(indent) + len(code) <= WIDTH or "\n" in code:
+        return code
+    start, end = max(_brackets(code), key=lambda found: found[1] - found[0], default=(0, 0))
+    if end - start < 2:
+        return code
+    inner = indent + IN
+    lines = [f"{inner}{folded(part, inner)}" for part in _parts(code[start + 1 : end])]
+    return "\n".join([code[: start + 1], *lines, f"{indent}{code[end:]}"])
+
+
+def _brackets(code: str) -> Iterator[tuple[int, int]]:
+    """Where the outermost brackets open and close."""
+    start = 0
+    for at, depth, char in _outside_texts(code):
+        if char in "([{" and depth == 1:
+            start = at
+        elif char in ")]}" and depth == 0:
+            yield start, at
+
+
+def _parts(inner: str) -> list[str]:
+    """What stands between the outermost commas, each with its comma."""
+    cuts = [at + 1 for at, depth, char in _outside_texts(inner) if char == "," and depth == 0]
+    return [inner[start:end].strip() for start, end in zip([0, *cuts], [*cuts, len(inner)], strict=True)]
+
+
+def _outside_texts(code: str) -> Iterator[tuple[int, int, str]]:
+    """Each character that stands in no literal, with its place and how deep it is in brackets behind it."""
+    depth, at = 0, 0
+    while at < len(code):
+        char = code[at]
+        if char in "\"'":
+            at += 1
+            while code[at] != char:
+                at += 2 if code[at] == "\\" else 1
+        depth += (char in "([{") - (char in ")]}")
+        yield at, depth, char
+        at += 1

@@ -14,11 +14,11 @@ from robocomp_yaml.emit.machines import lower, text
 from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.python_names import python_name
-from robocomp_yaml.emit.targets.python_text import one_line
+from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.statemachine import PYTHON, StateMachine
+from robocomp_yaml.model.statemachine import PYTHON, State, StateMachine
 
 _SCRIPTING = "scripting.py"
 
@@ -30,10 +30,16 @@ class EventView:
 
 
 @dataclass(frozen=True, slots=True)
-class MachineView:
-    """What the worker has of a machine: names of states, guards and actions. `fires` is an example of an event."""
+class StateView:
+    name: str
+    docstring: str
 
-    states: list[str]
+
+@dataclass(frozen=True, slots=True)
+class MachineView:
+    """What the worker has of a machine: states, names of guards and actions. `fires` is an example of an event."""
+
+    states: list[StateView]
     guards: list[str]
     actions: list[str]
     fires: str
@@ -51,11 +57,15 @@ class TablesView:
 
 def view(machine: StateMachine) -> MachineView:
     return MachineView(
-        [state.id for state in names.with_handler(machine)],
+        [StateView(state.id, _docstring(state)) for state in names.with_handler(machine)],
         [guard.name for guard in names.guards(machine)],
         [action.name for action in names.actions(machine) if action.name not in names.CALLABLE],
         next((f"self.events.{event.method}()" for event in _events(machine)), "there are none"),
     )
+
+
+def _docstring(state: State) -> str:
+    return docstring(f"The state '{state.id}' has been entered.\n\n{state.doc}", "        ")
 
 
 def files(linked: LinkedComponent) -> list[FilePlan]:

@@ -55,10 +55,12 @@ def about(member: Member) -> str:
 
 def _plain(line: str) -> str:
     """Without what would end the docstring, or be no text."""
-    escaped = line.rstrip().replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
-    return "".join(c for c in escaped if c.isprintable() or c == "\t")
+    printable = "".join(c for c in line.rstrip() if c.isprintable() or c == "\t")
+    return printable.replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
 
 
 def _closable(line: str) -> str:
     """A quote just before the closing ones would join them."""
-    return f"{line[:-1]}\\\"" if line.endswith('"') and not line.endswith('\\"') else line
+    before = line[:-1]
+    is_escaped = (len(before) - len(before.rstrip("\\"))) % 2 == 1
+    return f'{before}\\"' if line.endswith('"') and not is_escaped else line

@@ -72,8 +72,11 @@ class _Converter:
                     self.reader.repaired("lenient_state_twice", item, name)
                 else:
                     listed.append((name, item))
-        ends = {name: clause for clause in trees(tree, "initial_state", "end_state")
-                for name in [self.reader.name(trees(clause, "name")[0])]}  # fmt: skip
+        ends: dict[str, Tree[Token]] = {}
+        for clause in trees(tree, "initial_state", "end_state"):
+            item = trees(clause, "name")[0]
+            self._comments_to(self.reader.notes(clause), self.reader.notes(item))
+            ends[self.reader.name(item)] = item
         names = dict.fromkeys([block.initial, *(name for name, _ in listed), block.final])
         places = {**dict(listed), **ends}
         for name in filter(None, names):
@@ -83,8 +86,8 @@ class _Converter:
         elif not block.parallel and not block.initial:
             self._refused("refused_no_initial", tree, block.name)
         if block.parallel and ends:
-            for name, clause in ends.items():
-                self.reader.repaired("lenient_in_parallel", clause, name)
+            for name, item in ends.items():
+                self.reader.repaired("lenient_in_parallel", item, name)
             for state in block.states:
                 state.final = False
             block.initial = ""

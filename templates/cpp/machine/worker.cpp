@@ -5,11 +5,13 @@
 #include <Ice/LocalException.h>
 #include <Ice/Properties.h>
 
+#include <utility>
+
 namespace machine
 {
 
-Worker::Worker(const std::string& name, int period, const Machine& machine)
-    : runtime::Worker(name, period),
+Worker::Worker(const std::string& name, int period, runtime::Table parameters, const Machine& machine)
+    : runtime::Worker(name, period, std::move(parameters)),
       statemachine(
           machine,
           {

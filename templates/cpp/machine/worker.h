@@ -16,7 +16,7 @@ namespace machine
 class Worker : public runtime::Worker
 {
 public:
-    Worker(const std::string& name, int period, const Machine& machine);
+    Worker(const std::string& name, int period, runtime::Table parameters, const Machine& machine);
 
 protected:
     std::optional<std::chrono::steady_clock::duration> between() override;

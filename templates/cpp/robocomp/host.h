@@ -24,7 +24,7 @@ namespace robocomp
 class Host : public runtime::Worker
 {
 public:
-    Host(const std::string& name, int period, bool hasWindow);
+    Host(const std::string& name, int period, runtime::Table parameters, bool hasWindow);
 
     /// The one of this process; the user's constructors cannot hand it on.
     static Host& current();

@@ -2,6 +2,7 @@
 #include "application.h"
 
 #include "commonbehavior.h"
+#include "configuration.h"
 
 #include <Ice/Communicator.h>
 #include <Ice/LocalException.h>
@@ -57,12 +58,12 @@ Application::Application(
       settings_(commandLine),
       communicator_(makeCommunicator(settings_, gate_)),
       worker_(makeWorker()),
-      defaultPeriod_(worker_->getPeriod()),
       connections_(communicator_.communicator(), settings_, log, shutdown),
       services_(communicator_.communicator(), settings_, log, gate_)
 {
     worker_->communicator = communicator_.communicator();
-    worker_->setPeriod(settings_.period(defaultPeriod_));
+    loadParameters(worker_->store_, settings_);
+    worker_->followPeriod();
     worker_->requestShutdown_ = [this] { shutdown_.request(); };
 }
 
@@ -131,8 +132,9 @@ void Application::work()
 void Application::start()
 {
     const auto behavior = std::make_shared<CommonBehavior>(
-        *worker_, defaultPeriod_, commandLine_, settings_, log_, shutdown_);
+        *worker_, worker_->store_, commandLine_, log_, shutdown_);
     services_.implementIfConfigured("CommonBehavior", "commonbehavior", behavior);
+    warnOfProperties(worker_->store_, settings_, log_);
     worker_->connect(connections_, services_);
     worker_->initialize();
     gate_.open();

@@ -40,7 +40,6 @@ private:
     Gate gate_;
     const Ice::CommunicatorHolder communicator_;
     const std::unique_ptr<Worker> worker_;
-    const int defaultPeriod_;
     const Connections connections_;
     Services services_;
 };

@@ -8,13 +8,12 @@
 
 #include <atomic>
 #include <chrono>
-#include <map>
-#include <mutex>
 #include <string>
 
 namespace runtime
 {
 
+class Store;
 class Worker;
 
 /// RoboComp's interface CommonBehavior: what tools ask any component, and tell it. It answers from the start, while the
@@ -23,8 +22,7 @@ class CommonBehavior : public RoboCompCommonBehavior::CommonBehavior
 {
 public:
     CommonBehavior(
-        Worker& worker, int defaultPeriod, const CommandLine& commandLine, const Settings& settings, const Log& log,
-        Shutdown& shutdown);
+        Worker& worker, Store& store, const CommandLine& commandLine, const Log& log, Shutdown& shutdown);
 
     void setRunning();
 
@@ -35,20 +33,22 @@ public:
     int timeAwake(const Ice::Current&) override;
 
     void killYourSelf(const Ice::Current&) override;
-    RoboCompCommonBehavior::ParameterList getParameterList(const Ice::Current& current) override;
-    void setParameterList(RoboCompCommonBehavior::ParameterList parameters, const Ice::Current&) override;
 
-    /// Reads the config again; what takes effect is the period.
+    /// The parameters by their dotted paths; and the other properties, which nobody can change.
+    RoboCompCommonBehavior::ParameterList getParameterList(const Ice::Current& current) override;
+
+    /// All of them, or none: then the log says why.
+    void setParameterList(RoboCompCommonBehavior::ParameterList parameters, const Ice::Current& current) override;
+
+    /// Reads the config again: all that it changes takes effect, or nothing does and the log says why.
     void reloadConfig(const Ice::Current&) override;
 
     RoboCompCommonBehavior::State getState(const Ice::Current&) override;
 
 private:
     Worker& worker_;
-    const int defaultPeriod_;
+    Store& store_;
     const CommandLine& commandLine_;
-    std::map<std::string, std::string> parameters_;
-    std::mutex parametersMutex_;
     const Log& log_;
     Shutdown& shutdown_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

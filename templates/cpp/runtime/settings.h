@@ -33,11 +33,11 @@ public:
     /// As first(). Throws StartError where none is set; `what` says what is sought.
     std::string required(const std::string& what, Keys keys) const;
 
-    /// The period in milliseconds, or `byDefault`.
-    int period(int byDefault) const;
-
     /// All properties but Ice's own.
     std::map<std::string, std::string> parameters() const;
+
+    /// What the command line says, which has the last word.
+    const std::map<std::string, std::string>& overrides() const;
 
     /// The config file, for messages.
     std::string where() const;
@@ -50,6 +50,7 @@ private:
 
     std::vector<std::filesystem::path> files_;
     std::shared_ptr<Ice::Properties> properties_;
+    std::map<std::string, std::string> overrides_;
 };
 
 }

@@ -5,15 +5,22 @@
 #include "shutdown.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <utility>
 
 namespace runtime
 {
 
 using Clock = std::chrono::steady_clock;
 
-Worker::Worker(const std::string& name, int period) : log(name), period_(period)
+Worker::Worker(const std::string& name, int period, Table parameters)
+    : log(name), period_(period), store_(std::move(parameters))
 {
+    store_.listen([this](const Change& change) { change.concerns("period") ? followPeriod() : void(); });
+}
+
+Store& Worker::parameterStore()
+{
+    return store_;
 }
 
 int Worker::getPeriod() const
@@ -24,13 +31,14 @@ int Worker::getPeriod() const
 
 void Worker::setPeriod(int milliseconds)
 {
-    if (milliseconds < 1)
-    {
-        throw std::invalid_argument("the period must be at least 1 ms, not " + std::to_string(milliseconds));
-    }
+    store_.change({{"period.compute", milliseconds}});
+}
+
+void Worker::followPeriod()
+{
     {
         const std::lock_guard lock(stateMutex_);
-        period_ = std::chrono::milliseconds(milliseconds);
+        period_ = std::chrono::milliseconds(store_.number("period.compute", static_cast<int>(period_.count())));
     }
     stateChanged_.notify_all();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "log.h"
+#include "store.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -31,7 +32,7 @@ class Shutdown;
 class Worker
 {
 public:
-    Worker(const std::string& name, int period);
+    Worker(const std::string& name, int period, Table parameters);
     virtual ~Worker() = default;
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
@@ -49,7 +50,7 @@ public:
     /// The period in milliseconds.
     int getPeriod() const;
 
-    /// Sets the period: at once, even in the middle of a wait. Throws std::invalid_argument where it is less than 1 ms.
+    /// Sets `period.compute`: at once, even in the middle of a wait. Throws ParameterError where it cannot be.
     void setPeriod(int milliseconds);
 
     /// Stops the component in order.
@@ -59,6 +60,9 @@ protected:
     std::recursive_mutex mutex;
     std::shared_ptr<Ice::Communicator> communicator;
     const Log log;
+
+    /// What the generated accessors read and change.
+    Store& parameterStore();
 
     /// There is something to do before the next turn.
     void wake();
@@ -98,6 +102,9 @@ private:
     /// Calls compute() every period, until stop().
     void run();
     bool waitForTurn();
+
+    /// Works by `period.compute` as it is now.
+    void followPeriod();
     void stop();
 
     mutable std::mutex stateMutex_;
@@ -106,6 +113,7 @@ private:
     std::chrono::steady_clock::time_point lastTurn_;
     bool stopping_ = false;
     bool woken_ = false;
+    Store store_;
     std::function<void()> requestShutdown_;
 };
 

@@ -66,10 +66,11 @@ class Behavior:
 
     def setParameterList(self, parameters: dict[str, Any], current: Ice.Current) -> None:
         """All of them, or none: then the log says why."""
-        others, live = self._store.unread, _live(current)
-        given = {key: parameter.value for key, parameter in parameters.items() if key not in live}
-        changes = {key: value for key, value in given.items() if others.get(key) != value}
+        live = _live(current)
         before = self._store.entries()
+        known = {**self._store.unread, **{key: entry.text for key, entry in before.items()}}
+        given = {key: parameter.value for key, parameter in parameters.items() if key not in live}
+        changes = {key: value for key, value in given.items() if known.get(key) != value}
         try:
             self._store.change_texts(changes)
         except ParameterError as error:

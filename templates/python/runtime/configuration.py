@@ -33,8 +33,7 @@ def reload(store: Store, settings: Settings) -> None:
 def in_words(error: ParameterError, settings: Settings) -> str:
     if len(error.problems) == 1:
         return f"{settings.where}: {error}"
-    return "".join([f"{len(error.problems)} parameters cannot be as {settings.where} says:",
-                    *(f"\n  {problem}" for problem in error.problems)])  # fmt: skip
+    return f"{len(error.problems)} parameters cannot be as {settings.where} says: {error}"
 
 
 def misspelled(store: Store, ports: Iterable[str]) -> Iterator[str]:

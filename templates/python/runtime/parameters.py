@@ -100,7 +100,13 @@ class Store:
 
     def shows_in(self, live: Live) -> None:
         self._shown = live
-        object.__setattr__(live, "__dict__", self.values.__dict__)
+        self._show()
+
+    def _show(self) -> None:
+        """In one step; a dictionary of its own is read faster than one that two objects share."""
+        if self._shown is not None:
+            names = [member.attribute for member in self.kind.members.values()]
+            object.__setattr__(self._shown, "__dict__", {name: getattr(self.values, name) for name in names})
 
     def get(self, *keys: str) -> Any:
         """The value at a path of members, or None."""
@@ -192,8 +198,7 @@ class Store:
             return
         kept = {path: text for path, text in self._references.items() if not _is_within(path, changed)}
         before, self.values, self._references = self.values, made, {**kept, **taking.references}
-        if self._shown is not None:
-            object.__setattr__(self._shown, "__dict__", made.__dict__)
+        self._show()
         self._news.append(Change(tuple(in_words(path) for path, _ in changed), before, made))
 
     def _tell(self) -> None:

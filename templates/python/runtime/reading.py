@@ -143,7 +143,8 @@ class Reader:
         if not isinstance(kind, Recording):
             return self._text(kind, text) if isinstance(kind, Plain) else text
         parts = texts.split(text, separator)
-        if len(parts) != len(spelling.columns):
+        missing = spelling.columns[len(parts) :]  # what is optional at the end of a row may be left out
+        if len(parts) > len(spelling.columns) or any(not kind.members[name].is_optional for name in missing):
             return text
         row = {}
         for name, part in zip(spelling.columns, parts):

@@ -242,3 +242,10 @@ def test_a_folder_that_cannot_be_read_is_told_and_not_taken_for_gone(
         assert "error[RC0001]: cannot read this file: permission denied\n  ┌─ interfaces\n" in result.output
     monkeypatch.undo()
     assert (compiled / "slice/Speech.ice").is_file()
+
+
+def test_a_document_whose_name_is_no_text_compiles(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {os.fsdecode(b"c\xe9.cdsl.yaml"): "component: C\nlanguage: python\n"})
+    assert rcyaml("compile").exit_code == 0
+    assert "0 files written" in rcyaml("compile").stdout
+    assert rcyaml("compile", "--check").exit_code == 0

@@ -69,7 +69,7 @@ def test_what_the_class_lacks_is_named_again_and_again(component: Path, language
         assert "        def Speech_sing(self, voice: RoboCompSpeech.Voice) -> RoboCompSpeech.Voice:\n" in result.stdout
     else:
         assert "    // in src/specificworker.cpp:\n" in result.stdout
-        assert "    RoboCompSpeech::Voice SpecificWorker::Speech_sing(RoboCompSpeech::Voice /*voice*/)\n" in result.stdout
+        assert "    RoboCompSpeech::Voice SpecificWorker::Speech_sing(RoboCompSpeech::Voice /*" in result.stdout
     assert sources(component) == before
 
 
@@ -105,7 +105,7 @@ def test_a_merge_brings_it_in(component: Path, rcyaml: Run) -> None:
 def test_looking_writes_nothing(component: Path, rcyaml: Run) -> None:
     change(component, "      stop:\n", f"      stop:\n{SING}")
     before = read_tree(component)
-    assert "would merge  src/specificworker." in rcyaml("compile", "--merge", "--dry-run").stdout
+    assert "would merge   src/specificworker." in rcyaml("compile", "--merge", "--dry-run").stdout
     assert "Speech_sing" in rcyaml("compile", "--merge", "--diff").stdout
     assert rcyaml("compile", "--merge", "--check").exit_code == 1
     assert read_tree(component) == before
@@ -126,7 +126,8 @@ def test_a_renamed_method_stays_and_is_warned_of(component: Path, language: str,
         gone = [d for d in told(rcyaml, *args) if d["code"] == "RC6203"]
         assert len(gone) == 1 and "Speech_stop" in str(gone[0]["message"])
         assert len(gone[0]["related"]) == (language == "cpp")  # the definition's place
-        assert ("Speech_halt" in str(gone[0]["hint"])) == (args == () and "Speech_halt" not in "".join(sources(component).values()))
+        is_written = "Speech_halt" in "".join(sources(component).values())
+        assert ("Speech_halt" in str(gone[0]["hint"])) != is_written
     for path in sources(component):
         text = (component / path).read_text()
         assert "Speech_stop" in text and "Speech_halt" in text
@@ -202,7 +203,7 @@ def test_a_file_that_is_no_text_is_not_merged(component: Path, language: str, rc
     before = path.read_bytes()
     result = rcyaml("compile", "--merge")
     assert (result.exit_code, path.read_bytes()) == (1, before)
-    assert "RC6204" in result.stdout and "no UTF-8" in result.stdout or "not UTF-8" in result.stdout
+    assert "RC6204" in result.stdout and "it is not UTF-8 text" in result.stdout
 
 
 def test_the_configuration_gets_what_it_lacks(component: Path, rcyaml: Run) -> None:

@@ -148,3 +148,11 @@ def test_interfaces_are_completed_in_the_shell(workspace: Path, monkeypatch: pyt
     shell = BashComplete(group, {}, "rcyaml", "_RCYAML_COMPLETE")
     found = shell.get_completions(["new", "component", "TalkComp", "--requires"], "Sp")
     assert [item.value for item in found] == ["Speech", "SpeechEvents"]
+
+
+@pytest.mark.parametrize(
+    "args", [("interface", "1x"), ("interface", "class"), ("component", "C", "--implements", "Nobody")]
+)
+def test_what_is_refused_leaves_no_workspace_behind(args: tuple[str, ...], rcyaml: Run, tmp_path: Path) -> None:
+    assert rcyaml("new", *args).exit_code == 2
+    assert list(tmp_path.iterdir()) == []

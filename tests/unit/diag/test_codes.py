@@ -51,6 +51,6 @@ def test_the_list_has_them_all(rcyaml: Callable[..., Result]) -> None:
 
 
 def test_an_unknown_code_is_wrong_usage(rcyaml: Callable[..., Result]) -> None:
-    result = rcyaml("explain", "RC203")
+    result = rcyaml("explain", "RC209")
     assert result.exit_code == 2
     assert "did you mean RC" in result.stderr

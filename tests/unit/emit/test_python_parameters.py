@@ -9,10 +9,12 @@ from typing import Any
 
 import pytest
 
+import accessors
+from constraints import CASES, CONSTRAINTS, subject
+from parameters import parameters
+
 from robocomp_yaml.emit.targets import python_parameters
 from robocomp_yaml.values import evaluate
-import accessors
-from parameters import parameters
 
 ARM = """\
 doc: What the arm needs.
@@ -74,7 +76,8 @@ def started(text: str, properties: Mapping[str, str], overrides: Mapping[str, st
 
 
 def test_golden(golden: Callable[[str, Mapping[str, str]], None]) -> None:
-    golden("python/parameters", {"parameters.py": python_parameters.text(parameters(ARM)[0], "ArmComp", "arm.pdsl.yaml")})
+    text = python_parameters.text(parameters(ARM)[0], "ArmComp", "arm.pdsl.yaml")
+    golden("python/parameters", {"parameters.py": text})
 
 
 def test_reading(arm: Any) -> None:
@@ -220,7 +223,8 @@ def test_references_to_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     config = {**CONFIG, "token": "${env:ARM_TOKEN}", "basicPeriod": "${env:ARM_PERIOD}"}
     made = accessors.store(parameters(ARM)[0], config)
     assert (made.values.token, made.values.basicPeriod) == ("s3cret", 33)
-    assert (made.entries()["token"].text, made.entries()["basicPeriod"].text) == ("${env:ARM_TOKEN}", "${env:ARM_PERIOD}")
+    shown = [made.entries()[name].text for name in ("token", "basicPeriod")]
+    assert shown == ["${env:ARM_TOKEN}", "${env:ARM_PERIOD}"]
     made.change({"low": 0})
     assert made.entries()["token"].text == "${env:ARM_TOKEN}"
     monkeypatch.setenv("ARM_PERIOD", "s3cret")
@@ -242,47 +246,10 @@ def test_texts_of_all_values_read_back(arm: Any) -> None:
     assert refused(lambda: store.change_texts({"low": "x", "nothing": "1"}))[0] == "there is no parameter 'nothing'"
 
 
-CONSTRAINTS = [
-    "low + 1 < high * 2 - 1 and not high % 2 == 0", "max(low, high) >= 2 or min(ids) > 0", "unique(ids)", "len(names) > 0",
-    "text in ['a', 'b'] or has(limit)", "low < limit", "has(limit) and limit > low", "not (limit < 3) or low == 1",
-    "all(p.x < limit for p in points)", "any(p.x == low for p in points if has(p.tag))", "points[low].x > 0",
-    "all(p.tag != 'bad' for p in points if p.tag != 'skip')", "sum(p.x for p in points) / low > 1.5",
-    "names['a'] == 2", "'a' in names", "all(k != 'b' for k in keys(names))", "sum(values(names)) < 9", "high / (low - 1) > 0",
-    "abs(-low) == low < high", "more[0] > 1", "len(more) > 2", "all(x > 0 for x in more)", "max(x for x in more) > 4",
-    "mode == 'fast' or class == 'a'", "min(limit, low) < 5", "unique(p.tag for p in points)",
-]
-SUBJECT = """\
-types:
-  Mode: {{enum: [slow, fast]}}
-  P: {{struct: {{x: double, tag: {{type: string, optional: true}}}}}}
-parameters:
-  low: int
-  high: int
-  limit: {{type: double, optional: true}}
-  ids: {{list: int}}
-  more: {{list: double, optional: true}}
-  names: {{map: long}}
-  points: {{list: P}}
-  text: string
-  mode: Mode
-  class: string
-constraints: [{that}]
-"""
-CASES: list[dict[str, Any]] = [
-    {"low": 1, "high": 2, "ids": [1, 2], "names": {"a": 2}, "points": [{"x": 1}, {"x": 2.5, "tag": "t"}], "text": "a",
-     "mode": "slow", "class": "a"},
-    {"low": 0, "high": -3, "ids": [], "names": {}, "points": [], "text": "c", "mode": "fast", "class": "", "limit": 2},
-    {"low": 5, "high": 7, "ids": [3, 3], "names": {"b": 9}, "points": [{"x": 5, "tag": "bad"}], "text": "", "mode": "slow",
-     "class": "", "limit": 4.5, "more": [4.5, -1]},
-    {"low": -1, "high": 1, "ids": [0], "names": {"a": 1}, "points": [{"x": 1, "tag": "skip"}, {"x": -1, "tag": "skip"}],
-     "text": "b", "mode": "fast", "class": "b", "more": []},
-]  # fmt: skip
-
-
 @pytest.mark.parametrize("that", CONSTRAINTS)
 def test_constraints_mean_what_the_checker_says(that: str) -> None:
     """Whatever is left out, or divided by zero."""
-    made, faults = parameters(SUBJECT.format(that=repr(that).replace("\\'", "''")))
+    made, faults = parameters(subject(that))
     assert not faults
     table = accessors.python(made).TABLE
     from generated.runtime import composite  # type: ignore[import-not-found]

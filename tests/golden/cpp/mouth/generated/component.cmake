@@ -37,17 +37,24 @@ add_custom_command(
 set(component_generated ${component_slice_sources})
 foreach(file IN ITEMS
     genericworker.cpp
+    parameters.cpp
     runtime/application.cpp
     runtime/commandline.cpp
     runtime/commonbehavior.cpp
+    runtime/configuration.cpp
     runtime/connections.cpp
+    runtime/editing.cpp
     runtime/errors.cpp
     runtime/gate.cpp
+    runtime/kinds.cpp
     runtime/log.cpp
     runtime/program.cpp
+    runtime/reading.cpp
     runtime/services.cpp
     runtime/settings.cpp
     runtime/shutdown.cpp
+    runtime/store.cpp
+    runtime/texts.cpp
     runtime/topics.cpp
     runtime/worker.cpp
 )
@@ -66,7 +73,10 @@ set_target_properties(MouthComp PROPERTIES
   UNITY_BUILD ON
   UNITY_BUILD_MODE GROUP)
 target_compile_definitions(MouthComp PRIVATE ICE_CPP11_MAPPING)
-target_compile_options(MouthComp PRIVATE -Wall -Wextra)
+target_compile_options(MouthComp PRIVATE -Wall -Wextra -Woverloaded-virtual)
 target_include_directories(MouthComp PRIVATE "${component_root}/generated" "${component_root}/src")
 target_include_directories(MouthComp SYSTEM PRIVATE "${component_slice}")
 target_link_libraries(MouthComp PRIVATE Ice::Ice++11 Ice::IceStorm++11 Threads::Threads)
+
+set(component_target MouthComp)
+include("${CMAKE_CURRENT_LIST_DIR}/uses.cmake" OPTIONAL)

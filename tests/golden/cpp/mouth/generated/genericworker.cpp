@@ -120,8 +120,47 @@ private:
 
 }
 
-GenericWorker::GenericWorker() : runtime::Worker("MouthComp", 50)
+GenericWorker::GenericWorker()
+    : runtime::Worker("MouthComp", 50, parameters::table()), parameters(parameterStore())
 {
+}
+
+bool GenericWorker::Mouth_open(float /*width*/, RoboCompMouth::Shape /*shape*/)
+{
+    throw std::logic_error("Mouth_open() is missing in src/specificworker.cpp");
+}
+
+RoboCompMouth::Shape GenericWorker::Mouth_status(RoboCompTypes::Pose& /*pose*/, RoboCompMouth::Shapes& /*shapes*/)
+{
+    throw std::logic_error("Mouth_status() is missing in src/specificworker.cpp");
+}
+
+void GenericWorker::Mouth_stop()
+{
+    throw std::logic_error("Mouth_stop() is missing in src/specificworker.cpp");
+}
+
+void GenericWorker::Mouth_sing(
+    const std::string& /*text*/,
+    const RoboCompMouth::Samples& /*samples*/,
+    long long int /*this_*/,
+    Ice::Byte /*register_*/)
+{
+    throw std::logic_error("Mouth_sing() is missing in src/specificworker.cpp");
+}
+
+void GenericWorker::Mouth_whereIsTheMouthThatSaysAllThis(
+    const RoboCompTypes::Pose& /*relativeToThisPose*/,
+    const RoboCompMouth::Shapes& /*shapesOfTheLips*/,
+    RoboCompTypes::Pose& /*poseOfTheMouthInTheImage*/,
+    bool& /*found*/)
+{
+    throw std::logic_error("Mouth_whereIsTheMouthThatSaysAllThis() is missing in src/specificworker.cpp");
+}
+
+void GenericWorker::MouthEvents_moved(RoboCompMouth::Shape /*shape*/, const RoboCompTypes::Pose& /*at*/)
+{
+    throw std::logic_error("MouthEvents_moved() is missing in src/specificworker.cpp");
 }
 
 void GenericWorker::connect(const runtime::Connections& connections, runtime::Services& services)

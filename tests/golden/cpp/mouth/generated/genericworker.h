@@ -2,9 +2,11 @@
 #pragma once
 
 #include "interfaces.h"
+#include "parameters.h"
 #include "runtime/worker.h"
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 /// MouthComp: Moves the lips.
@@ -20,27 +22,30 @@ public:
     /// Waits until it is open.
     /// width: Between the lips. [mm]
     /// Throws RoboCompMouth::Jammed.
-    virtual bool Mouth_open(float width, RoboCompMouth::Shape shape) = 0;
+    virtual bool Mouth_open(float width, RoboCompMouth::Shape shape);
 
-    virtual RoboCompMouth::Shape Mouth_status(RoboCompTypes::Pose& pose, RoboCompMouth::Shapes& shapes) = 0;
+    virtual RoboCompMouth::Shape Mouth_status(RoboCompTypes::Pose& pose, RoboCompMouth::Shapes& shapes);
 
-    virtual void Mouth_stop() = 0;
+    virtual void Mouth_stop();
 
     virtual void Mouth_sing(
-        const std::string& text, const RoboCompMouth::Samples& samples, long long int this_, Ice::Byte register_) = 0;
+        const std::string& text, const RoboCompMouth::Samples& samples, long long int this_, Ice::Byte register_);
 
     virtual void Mouth_whereIsTheMouthThatSaysAllThis(
         const RoboCompTypes::Pose& relativeToThisPose,
         const RoboCompMouth::Shapes& shapesOfTheLips,
         RoboCompTypes::Pose& poseOfTheMouthInTheImage,
-        bool& found) = 0;
+        bool& found);
 
     // MouthEvents: events that others publish.
 
     /// The lips have moved.
-    virtual void MouthEvents_moved(RoboCompMouth::Shape shape, const RoboCompTypes::Pose& at) = 0;
+    virtual void MouthEvents_moved(RoboCompMouth::Shape shape, const RoboCompTypes::Pose& at);
 
 protected:
+    /// What etc/config and the command line say: they are read before initialize() is called.
+    Parameters parameters;
+
     /// Twin, at the address that the property TwinProxy gives.
     /// Lips that move.
     std::shared_ptr<RoboCompMouth::MouthPrx> twin_proxy;

@@ -6,7 +6,7 @@
 
 static_assert(
     !std::is_abstract_v<SpecificWorker>,
-    "src/specificworker.h lacks methods of the component's interfaces: the compiler names them below");
+    "src/specificworker.h lacks a method that every component has: the compiler names it below");
 
 int main(int argc, char* argv[])
 {

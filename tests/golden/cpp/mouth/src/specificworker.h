@@ -9,31 +9,29 @@
 /// - twin_proxy: calls Twin
 /// - backup_proxy: calls Backup
 /// - mouthevents_pubproxy: publishes MouthEvents: moved(shape, at)
+/// - parameters: what etc/config and generated/parameters.h say
 /// - log, mutex, communicator, getPeriod(), setPeriod(ms), killYourSelf()
 class SpecificWorker : public GenericWorker
 {
 public:
     /// Called once: all proxies are there, and calls from other components wait until this is done.
-    void initialize() override;
+    void initialize();
 
     /// Called every period (50 ms, unless etc/config says otherwise).
-    void compute() override;
+    void compute();
 
     // Mouth: other components call these.
-    bool Mouth_open(float width, RoboCompMouth::Shape shape) override;
-    RoboCompMouth::Shape Mouth_status(RoboCompTypes::Pose& pose, RoboCompMouth::Shapes& shapes) override;
-    void Mouth_stop() override;
+    bool Mouth_open(float width, RoboCompMouth::Shape shape);
+    RoboCompMouth::Shape Mouth_status(RoboCompTypes::Pose& pose, RoboCompMouth::Shapes& shapes);
+    void Mouth_stop();
     void Mouth_sing(
-        const std::string& text,
-        const RoboCompMouth::Samples& samples,
-        long long int this_,
-        Ice::Byte register_) override;
+        const std::string& text, const RoboCompMouth::Samples& samples, long long int this_, Ice::Byte register_);
     void Mouth_whereIsTheMouthThatSaysAllThis(
         const RoboCompTypes::Pose& relativeToThisPose,
         const RoboCompMouth::Shapes& shapesOfTheLips,
         RoboCompTypes::Pose& poseOfTheMouthInTheImage,
-        bool& found) override;
+        bool& found);
 
     // MouthEvents: events that others publish.
-    void MouthEvents_moved(RoboCompMouth::Shape shape, const RoboCompTypes::Pose& at) override;
+    void MouthEvents_moved(RoboCompMouth::Shape shape, const RoboCompTypes::Pose& at);
 };

@@ -1,0 +1,163 @@
+"""Whether what `uses:` names is there: asked of CMake, pkg-config, pip's records and the disk.
+
+No name reaches a shell: programs are called with lists of arguments, and the schema lets no character through that
+means something to CMake.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from importlib import metadata
+from pathlib import Path
+
+from robocomp_yaml.diag.codes import uses as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.emit.uses import constraints
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.model.component import CMAKE, LINK, PIP, PKG_CONFIG, Library
+
+_SECONDS = 120
+_WORDS = {
+    CMAKE: "the CMake package", PKG_CONFIG: "the pkg-config module", LINK: "the library", PIP: "the Python package"
+}  # fmt: skip
+_CLASSES = ("", "classes", "Classes")
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """`version` is '' where it is not known; `why` says what kept it from being looked for."""
+
+    there: bool
+    version: str = ""
+    why: str = ""
+
+
+@dataclass(slots=True)
+class _Looked:
+    """Answers, each asked for once."""
+
+    cmake: dict[tuple[str, str], Found] = field(default_factory=dict)
+    answers: dict[tuple[str, str], Found] = field(default_factory=dict)
+
+    def ask(self, library: Library) -> Found:
+        key = (library.kind, library.name)
+        if key not in self.answers:
+            self.answers[key] = _ASK[library.kind](library.name) if library.kind in _ASK else self.cmake[key]
+        return self.answers[key]
+
+
+def missing(components: Iterable[LinkedComponent], workspace_of: Callable[[str], Workspace]) -> Iterator[Diagnostic]:
+    """A warning for each file, folder and library that is not there, or not in a version that will do."""
+    wanted = list(components)
+    native = {
+        (library.kind, library.name)
+        for linked in wanted for library in linked.component.libraries
+        if library.kind in (CMAKE, LINK) and linked.component.language.name == "cpp"
+    }  # fmt: skip
+    looked = _Looked(_by_cmake(sorted(native)) if native else {})
+    for linked in wanted:
+        component = linked.component
+        is_built = component.language.name == "cpp"
+        for library in component.libraries:
+            if is_built or library.kind == PIP:
+                yield from _about(library, looked.ask(library))
+        places = (os.path.dirname(component.path), workspace_of(component.path).root)
+        for source in component.sources if is_built else ():
+            befores = _CLASSES if source.is_class else ("",)
+            paths = (os.path.join(place, before, source.path) for place in places for before in befores)
+            if not any(map(os.path.isdir if source.is_class else os.path.isfile, paths)):
+                what = "folder of classes" if source.is_class else "source"
+                yield codes.NO_SOURCE.at(source.span, what=what, path=source.path)
+
+
+def _about(library: Library, found: Found) -> Iterator[Diagnostic]:
+    what = f"{_WORDS[library.kind]} {library.name}"
+    if not found.there:
+        yield codes.NOT_INSTALLED.at(library.span, what=what, why=f": {found.why}" if found.why else "")
+    elif found.version and not _will_do(found.version, library.version):
+        why = f": it is there as {found.version}"
+        yield codes.NOT_INSTALLED.at(library.span, what=f"{what} {library.version.strip()}", why=why)
+
+
+def _will_do(version: str, wanted: str) -> bool:
+    """Numbers are compared; what only pip understands is believed."""
+    have = _numbers(version)
+    for operator, number in constraints(wanted):
+        if re.fullmatch(r"[\d.]+", number):
+            need = _numbers(number)
+            width = max(len(have), len(need))
+            a, b = (tuple(numbers) + (0,) * (width - len(numbers)) for numbers in (have, need))
+            holds = {">=": a >= b, "<=": a <= b, ">": a > b, "<": a < b, "==": a == b, "=": a == b, "!=": a != b,
+                     "~=": a >= b and a[: len(need) - 1] == b[: len(need) - 1]}  # fmt: skip
+            if not holds[operator]:
+                return False
+    return True
+
+
+def _numbers(version: str) -> tuple[int, ...]:
+    found = re.match(r"\d+(\.\d+)*", version)
+    return tuple(int(part) for part in found[0].split(".")) if found else ()
+
+
+def _by_pip(name: str) -> Found:
+    try:
+        return Found(True, metadata.version(name.partition("[")[0]))
+    except metadata.PackageNotFoundError:
+        return Found(False)
+
+
+def _by_pkg_config(name: str) -> Found:
+    program = shutil.which("pkg-config")
+    if program is None:
+        return Found(False, why="pkg-config, which would know it, is missing too")
+    done = _run([program, "--modversion", name])
+    return Found(True, done.stdout.strip()) if done and done.returncode == 0 else Found(False)
+
+
+def _by_cmake(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], Found]:
+    """All packages and libraries in one project; one by one where some package ends that with an error."""
+    if shutil.which("cmake") is None:
+        return dict.fromkeys(wanted, Found(False, why="CMake, which would find it, is missing too"))
+    answers = _configured(wanted)
+    if answers is None and len(wanted) > 1:
+        return {one: (_configured([one]) or {one: Found(False)})[one] for one in wanted}
+    return answers if answers is not None else dict.fromkeys(wanted, Found(False))
+
+
+def _configured(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], Found] | None:
+    """None where CMake stops with an error."""
+    lines = ["cmake_minimum_required(VERSION 3.20)", "project(Look LANGUAGES CXX)"]
+    for number, (kind, name) in enumerate(wanted):
+        if kind == CMAKE:
+            lines.append(f"find_package({name} QUIET)")
+            lines.append(f'if(NOT {name}_VERSION)\nset({name}_VERSION "${{{name}_VERSION_STRING}}")\nendif()')
+            lines.append(f'message("rcyaml {number} ${{{name}_FOUND}} ${{{name}_VERSION}}")')
+        else:
+            lines += [f"find_library(l{number} NAMES {name})", f'message("rcyaml {number} ${{l{number}}}")']
+    with tempfile.TemporaryDirectory(prefix="rcyaml-") as folder:
+        Path(folder, "CMakeLists.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        done = _run(["cmake", "-S", folder, "-B", f"{folder}/build"])
+    if done is None or done.returncode != 0:
+        return None
+    answers = dict.fromkeys(wanted, Found(False))
+    for number, word, version in re.findall(r"^rcyaml (\d+) (\S*) ?(\S*)$", done.stderr, re.MULTILINE):
+        there = bool(word) and word.upper() not in ("0", "FALSE", "OFF", "NO") and not word.endswith("-NOTFOUND")
+        answers[wanted[int(number)]] = Found(there, version)
+    return answers
+
+
+def _run(command: list[str]) -> subprocess.CompletedProcess[str] | None:
+    try:
+        return subprocess.run(command, capture_output=True, text=True, timeout=_SECONDS, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+
+
+_ASK: dict[str, Callable[[str], Found]] = {PIP: _by_pip, PKG_CONFIG: _by_pkg_config}

@@ -1,0 +1,188 @@
+"""JSON of a CDSL to a CDSL document."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+from lark import Token, Tree
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Value
+from robocomp_yaml.legacy.draft import Draft, ImportDraft, MachineDraft, Reader, base_name
+from robocomp_yaml.legacy.grammar import token, trees
+
+_LISTS = {"implements": "implements", "requires": "requires", "publishes": "publishes", "subscribesto": "subscribes"}
+Node = Tree[Token]
+
+
+def convert(reader: Reader) -> Draft | None:
+    tree = reader.parsed.tree
+    assert tree is not None
+    top = trees(tree)
+    if not top or top[0].data != "object":
+        reader.diagnostics.append(codes.SYNTAX.at(reader.source.span(0, 1), problem="this is no JSON object", hint=""))
+        return None
+    return _Converter(reader).document(top[0])
+
+
+class _Converter:
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+        self.entries: dict[str, Entry] = {}
+        self.imports: list[ImportDraft] = []
+        self.options: list[str] = []
+        self.machine: MachineDraft | None = None
+
+    def document(self, top: Node) -> Draft | None:
+        for key, name, value in _pairs(top):
+            known = name.lower()
+            if known in _LISTS:
+                self.put(_LISTS[known], self.ports(value))
+            elif known in ("name", "component"):
+                self.put("component", self.text(value))
+            elif known in _CLAUSES:
+                _CLAUSES[known](self, value)
+            elif known == "innermodelviewer" and _word(value) in ("true", "false", "null"):
+                self.options += ["innermodelviewer"] if _word(value) == "true" else []
+            else:
+                self.no_place(key, name, value)
+        if self.options:
+            listed = List()
+            for option in dict.fromkeys(self.options):
+                listed.put(option)
+            self.put("options", listed)
+        named = self.entries.get("component")
+        if named is None or not named.value:
+            at = self.reader.span(top)
+            self.reader.diagnostics.append(codes.SYNTAX.at(at, problem='the component has no "name"', hint=""))
+            return None
+        if "language" not in self.entries:
+            self.reader.diagnostics.append(codes.NO_LANGUAGE.at(self.reader.span(top), name=named.value))
+        order = [*self.reader.rules.order, *(key for key in self.entries if key not in self.reader.rules.order)]
+        entries = [self.entries[key] for key in order if key in self.entries]
+        return Draft(Map(entries, block=True), self.imports, Notes(), machine=self.machine)
+
+    def put(self, key: str, value: Value) -> None:
+        if not (isinstance(value, List) and not value.items):
+            self.entries[key] = Entry(key, value)
+
+    def text(self, node: Node) -> str:
+        """A text; something else is an error."""
+        if node.data == "text":
+            return _text(node)
+        self.reader.diagnostics.append(codes.SYNTAX.at(self.reader.span(node), problem="here stands a text", hint=""))
+        return ""
+
+    def texts(self, node: Node) -> list[str]:
+        """One text, or several."""
+        return [self.text(item) for item in trees(node)] if node.data == "array" else [self.text(node)]
+
+    def word(self, what: str, node: Node, text: str) -> str:
+        known = self.reader.rules.values[what]
+        if text.lower() not in known:
+            close = suggest(text, known)
+            hint = f"did you mean '{close}'?" if close else "write " + " or ".join(dict.fromkeys(known.values()))
+            self.reader.diagnostics.append(
+                codes.UNKNOWN_VALUE.at(self.reader.span(node), what=what, value=text, hint=hint)
+            )
+        return known.get(text.lower(), text)
+
+    def ports(self, node: Node) -> List:
+        """Interfaces: names, or pairs of a name and its middleware. A second one gets a number, as in CDSL."""
+        listed, used = List(), set[str]()
+        for item in trees(node) if node.data == "array" else [node]:
+            parts = self.texts(item)
+            interface = parts[0] if parts else ""
+            if not interface:
+                continue
+            name, number = interface, 0
+            while name in used:
+                number += 1
+                name = f"{interface}{number}"
+            used.add(name)
+            if len(parts) > 1 and parts[1].lower() == "ros":
+                self.reader.diagnostics.append(codes.MIDDLEWARE.at(self.reader.span(item), name=interface))
+                long = Map([Entry("interface", interface), Entry("x-middleware", "ros")])
+                listed.put(Map([Entry(name, long)]))
+            else:
+                listed.put(interface if name == interface else Map([Entry(name, interface)]))
+        return listed
+
+    def import_(self, node: Node) -> None:
+        listed = List()
+        for item in trees(node) if node.data == "array" else [node]:
+            path = self.text(item)
+            if path and not any(known.stem == base_name(path) for known in self.imports):
+                self.imports.append(ImportDraft(path, self.reader.span(item), listed.put(base_name(path))))
+        self.put("imports", listed)
+
+    def language(self, node: Node) -> None:
+        name = node
+        if node.data == "object":
+            found = {name.lower(): value for _, name, value in _pairs(node)}
+            for key, spelled, value in _pairs(node):
+                if spelled.lower() != "name":
+                    self.no_place(key, f"language-{spelled}", value)
+            if "name" not in found:
+                return
+            name = found["name"]
+        self.put("language", self.word("language", name, self.text(name)))
+
+    def gui(self, node: Node) -> None:
+        if _word(node) == "null":
+            return
+        parts = [_text(value) for _, _, value in _pairs(node)] if node.data == "object" else self.texts(node)
+        if parts and parts[0]:
+            body = Map([Entry("toolkit", self.word("toolkit", node, parts[0]))])
+            body.put("base", self.word("base", node, parts[1]) if parts[1:] else self.reader.rules.defaults["base"])
+            self.put("gui", body)
+
+    def option(self, node: Node) -> None:
+        self.options += [text.lower() for text in self.texts(node) if text]
+
+    def statemachine(self, node: Node) -> None:
+        parts = self.texts(node) if _word(node) != "null" else []
+        if not parts or not parts[0]:
+            return
+        self.put("statemachine", parts[0])
+        entry = self.entries["statemachine"]
+        self.machine = MachineDraft(parts[0], self.reader.span(node), entry)
+        entry.value = self.machine.document
+        if "visual" in parts[1:]:
+            self.put(self.reader.rules.keys["visual"], "true")
+
+    def no_place(self, key: Node, name: str, value: Node) -> None:
+        """What CDSL documents have no place for is kept as it is."""
+        kept = f"x-legacy-{name}"
+        start, end = value.meta.start_pos, value.meta.end_pos
+        self.put(kept, " ".join(self.reader.source.text[start:end].split()))
+        self.reader.diagnostics.append(codes.NO_PLACE.at(self.reader.span(key), what=name, key=kept))
+
+
+_CLAUSES = {
+    "imports": _Converter.import_, "language": _Converter.language, "gui": _Converter.gui,
+    "options": _Converter.option, "statemachine": _Converter.statemachine,
+}
+
+
+def _pairs(node: Node) -> Iterator[tuple[Node, str, Node]]:
+    for pair in trees(node, "pair"):
+        key, value = trees(pair)
+        yield key, _text(key), value
+
+
+def _text(node: Node) -> str:
+    literal = token(node, "STRING")
+    if literal is None:
+        return ""
+    try:
+        return str(json.loads(literal))
+    except ValueError:  # an escape that JSON has not
+        return literal[1:-1]
+
+
+def _word(node: Node) -> str:
+    found = token(node, "WORD") if node.data == "word" else None
+    return str(found) if found is not None else ""

@@ -1,0 +1,33 @@
+"""The values of 2011 to a values document, of the PDSL that they import."""
+
+from __future__ import annotations
+
+from robocomp_yaml.legacy.converters.pdsl import literal, value
+from robocomp_yaml.legacy.document import Map, Notes
+from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.grammar import token, trees
+
+
+def convert(reader: Reader) -> Draft | None:
+    tree = reader.parsed.tree
+    assert tree is not None
+    config = trees(tree, "config")[0]
+    notes = reader.notes(config)
+    path = f"{reader.name(config)}.pdsl"
+    for node in trees(tree, "import"):
+        named = token(node, "STRING")
+        path = str(named).strip('"') or path
+    document, parameters = Map(block=True), Map(block=True)
+    document.put("component", f"{path}.yaml", Notes(notes.head, notes.tail))
+    seen: set[str] = set()
+    for node in trees(config, "entry"):
+        name = reader.name(node)
+        if name in seen:
+            reader.repaired("repeated", node, name)
+            continue
+        seen.add(name)
+        parameters.put(name, value("", literal(node)), reader.notes(node))
+    if parameters.entries:
+        document.put("parameters", parameters)
+    reader.placed.around.foot[:0] = notes.foot
+    return Draft(document, [], reader.placed.around)

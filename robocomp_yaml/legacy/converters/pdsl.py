@@ -1,0 +1,85 @@
+"""The PDSL of 2011 to a PDSL document."""
+
+from __future__ import annotations
+
+from lark import Token, Tree
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.legacy import literals
+from robocomp_yaml.legacy.document import List, Map, Notes, Raw, Value
+from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.grammar import token, trees
+
+LITERALS = ("STRING", "NUMBER", "BOOLEAN")
+
+
+def convert(reader: Reader) -> Draft | None:
+    tree = reader.parsed.tree
+    assert tree is not None
+    component = trees(tree, "component")[0]
+    notes = reader.notes(component)
+    document, parameters = Map(block=True), Map(block=True)
+    document.put("component", reader.name(component), Notes(notes.head, notes.tail))
+    seen: set[str] = set()
+    told = False
+    for node in trees(component, "parameter"):
+        name = reader.name(node)
+        if name in seen:
+            reader.repaired("repeated", node, name)
+            continue
+        seen.add(name)
+        body = _parameter(reader, node)
+        flag = next((token(found, "FLAG") for found in trees(node, "flag")), None)
+        if flag == "T":
+            body.put("editable", Raw("true"))
+            if not told:
+                what = reader.rules.repairs["flag"]
+                reader.diagnostics.append(codes.GUESSED.at(reader.span(flag), name=reader.name(component), what=what))
+            told = True
+        parameters.put(name, body, reader.notes(node))
+    document.put("parameters", parameters)
+    reader.placed.around.foot[:0] = notes.foot
+    return Draft(document, [], reader.placed.around)
+
+
+def _parameter(reader: Reader, node: Tree[Token]) -> Map:
+    kind = str(token(node, "TYPE"))
+    body = Map()
+    body.put("type", kind)
+    limits = [literals.value(end) for found in trees(node, "range") for end in found.children if isinstance(end, Token)]
+    if limits and kind in ("int", "float", "double"):
+        listed = List()
+        for limit in limits:
+            listed.put(limit)
+        body.put("range", listed)
+    default = literal(node)
+    if fits(kind, default) and _inside(default, limits if kind in ("int", "float", "double") else []):
+        body.put("default", value(kind, default))
+    else:
+        reader.repaired("default", default, str(default))
+    return body
+
+
+def literal(node: Tree[Token]) -> Token:
+    return next(child for child in node.children if isinstance(child, Token) and child.type in LITERALS)
+
+
+def fits(kind: str, default: Token) -> bool:
+    if kind == "string":
+        return default.type == "STRING"
+    if kind == "bool":
+        return default.type == "BOOLEAN"
+    return default.type == "NUMBER" and (kind != "int" or float(default).is_integer())
+
+
+def value(kind: str, default: Token) -> Value:
+    if default.type == "BOOLEAN":
+        return Raw(default.lower())
+    return literals.value(default)
+
+
+def _inside(default: Token, limits: list[Value]) -> bool:
+    if not limits or default.type != "NUMBER":
+        return True
+    low, high = (float(limit.lexeme) for limit in limits if isinstance(limit, Raw))
+    return low <= float(default) <= high

@@ -1,0 +1,126 @@
+"""TOML configs to settings; they become documents together with the other configs of their component."""
+
+from __future__ import annotations
+
+import tomllib
+
+from lark import Token, Tree
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.legacy.document import Map, Notes
+from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.grammar import trees
+from robocomp_yaml.legacy.settings import entries
+from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings
+
+_Path = tuple[str, ...]
+
+
+def convert(reader: Reader) -> Draft | None:
+    """The settings of a file, by their full paths."""
+    tree = reader.parsed.tree
+    assert tree is not None
+    try:
+        tomllib.loads(reader.source.text)  # what the grammar does not judge: keys that stand twice
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        at = reader.source.span(0, 1)
+        reader.diagnostics.append(codes.SYNTAX.at(at, problem=f"this is no TOML: {error}", hint=""))
+        return None
+    return _Converter(reader).draft(tree)
+
+
+class _Converter:
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+        self.found = Settings(TOML)
+        self.arrays: dict[_Path, Setting] = {}
+        self.waiting: list[str] = []
+
+    def draft(self, tree: Tree[Token]) -> Draft:
+        table: _Path = ()
+        row: dict[str, Item] | None = None
+        for node in trees(tree):
+            if node.data in ("table", "tables"):
+                table, row = self.path(trees(node, "key")[0]), None
+                notes = self.reader.notes(node)
+                self.waiting += [*notes.head, *notes.tail, *notes.foot]
+                if node.data == "tables":
+                    row = self.row(node, table)
+                continue
+            path = self.path(trees(node, "key")[0])
+            notes = self.reader.notes(node)
+            if self.waiting:
+                notes.head[:0], self.waiting = self.waiting, []
+            value = self.value(trees(node)[1])
+            if row is not None:
+                self.put(row, path, Item(value, notes))
+                continue
+            for full, leaf in self.flat((*table, *path), value):
+                self.found.settings.append(Setting(".".join(full), full, leaf, self.reader.span(node), notes))
+                notes = Notes()
+        self.reader.placed.around.foot[:0] = self.waiting
+        entries.settle_head(self.found, self.reader.placed.around)
+        return Draft(Map(), [], self.reader.placed.around, settings=self.found)
+
+    def flat(self, path: _Path, value: entries.Tree) -> list[tuple[_Path, entries.Tree]]:
+        """An inline table is as good as a table."""
+        if not isinstance(value, dict):
+            return [(path, value)]
+        return [found for name, item in value.items() for found in self.flat((*path, name), item.value)]
+
+    def row(self, node: Tree[Token], path: _Path) -> dict[str, Item]:
+        """The next table of an array of tables."""
+        setting = self.arrays.get(path)
+        if setting is None:
+            setting = Setting(".".join(path), path, [], self.reader.span(node), Notes())
+            self.arrays[path] = setting
+            self.found.settings.append(setting)
+        body: dict[str, Item] = {}
+        assert isinstance(setting.value, list)
+        setting.value.append(Item(body, Notes(head=self.waiting)))
+        self.waiting = []
+        return body
+
+    def put(self, row: dict[str, Item], path: _Path, item: Item) -> None:
+        for part in path[:-1]:
+            inner = row.setdefault(part, Item({})).value
+            assert isinstance(inner, dict)
+            row = inner
+        row[path[-1]] = item
+
+    def path(self, key: Tree[Token]) -> _Path:
+        return tuple(_text(str(part)) if part.type == "QUOTED_KEY" else str(part)
+                     for part in key.children if isinstance(part, Token))  # fmt: skip
+
+    def value(self, node: Tree[Token]) -> entries.Tree:
+        if node.data == "array":
+            return [Item(self.value(trees(item)[0]), self.reader.notes(item)) for item in trees(node, "item")]
+        if node.data == "inline":
+            body: dict[str, Item] = {}
+            for pair in trees(node, "pair"):
+                self.put(body, self.path(trees(pair, "key")[0]), Item(self.value(trees(pair)[1])))
+            return body
+        lexeme = str(node.children[0])
+        match str(node.data):
+            case "text":
+                return Leaf(_text(lexeme), STRING)
+            case "boolean":
+                return Leaf(lexeme, BOOL)
+            case "number":
+                return _number(lexeme)
+            case other:
+                self.reader.repaired(other, node, lexeme)
+                return Leaf(lexeme, STRING)
+
+
+def _text(lexeme: str) -> str:
+    return str(tomllib.loads(f"x = {lexeme}")["x"])
+
+
+def _number(lexeme: str) -> Leaf:
+    """As it is spelled, where YAML reads the same."""
+    data = tomllib.loads(f"x = {lexeme}")["x"]
+    if isinstance(data, int):
+        return Leaf(str(data), entries.whole(data))
+    plain = lexeme.replace("_", "")
+    return Leaf(plain, entries.guess(plain).kind)

@@ -1,0 +1,82 @@
+"""The configs of each component together: their values documents, and the PDSL that they imply."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.legacy.document import Map
+from robocomp_yaml.legacy.ledger import Entry
+from robocomp_yaml.legacy.settings import declared
+from robocomp_yaml.legacy.settings.grouping import Component, Components, Good, first_half
+from robocomp_yaml.legacy.settings.pdsl_document import pdsl_document
+from robocomp_yaml.legacy.settings.plan import Config, Guesses, Plan
+from robocomp_yaml.legacy.settings.planning import plans
+from robocomp_yaml.legacy.settings.sorting import sort
+from robocomp_yaml.legacy.settings.values_document import Links, values_document
+from robocomp_yaml.legacy.sources import LegacyFile
+
+
+@dataclass(frozen=True, slots=True)
+class Inferred:
+    """A PDSL to be written, with the config whose ledger entry names it."""
+
+    path: str
+    document: Map
+    file: LegacyFile
+    entry: Entry
+
+
+def settle(
+    good: Good, chosen: Mapping[str, str], is_ours: Callable[[LegacyFile, str], bool], guesses: Guesses, *, exact: bool
+) -> list[Inferred]:
+    """Puts their documents into the drafts of all configs; gives the PDSLs. `is_ours`: whether an earlier run wrote
+    the document at a path."""
+    found = Components(good, chosen, is_ours)
+    found.declare()
+    inferred = [_settle(component, chosen, guesses, exact) for component in found.all()]
+    return [made for made in inferred if made is not None]
+
+
+def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, exact: bool) -> Inferred | None:
+    configs, links = list[Config](), dict[str, Links]()
+    by_path = {file.path: file for file, _ in component.configs}
+    for file, entry in component.configs:
+        draft, rules, source = entry.file.draft, entry.file.rules, entry.file.source
+        assert draft is not None and draft.settings is not None and rules is not None and source is not None
+        first = first_half(file.path)
+        after = first if first in by_path else ""
+        config = Config(file.path, source, rules, sort(draft.settings, component.ports, rules))
+        entry.diagnostics += config.sorted.diagnostics
+        configs.append(config)
+        folder = os.path.dirname(chosen[file.path]) or "."
+        links[file.path] = Links(
+            os.path.relpath(component.document or component.parameters, folder), os.path.basename(file.path),
+            os.path.relpath(chosen[after], folder) if after else "",
+        )
+    planned = plans(configs, guesses)
+    if component.declared is not None:
+        planned = declared.fitted(planned, component.declared, configs)
+    entries = {file.path: entry for file, entry in component.configs}
+    for plan in planned:
+        _tell(plan, entries)
+    for config in configs:
+        draft = entries[config.name].file.draft
+        assert draft is not None
+        draft.document = values_document(config, planned, links[config.name], exact=exact)
+    if component.declared is not None:
+        return None
+    document = pdsl_document(os.path.basename(component.document) or component.name, planned)
+    file, entry = component.configs[0]
+    return Inferred(component.parameters, document, file, entry)
+
+
+def _tell(plan: Plan, entries: Mapping[str, Entry]) -> None:
+    """What was guessed, at the first line that it is about."""
+    if plan.guessed:
+        name, given = next(iter(plan.given.items()))
+        first = min(given.settings, key=lambda setting: setting.span.line)
+        code = codes.UNNAMED if plan.is_unnamed else codes.GUESSED
+        entries[name].diagnostics.append(code.at(first.span, what=plan.guessed, name=".".join(plan.path)))

@@ -1,0 +1,79 @@
+"""Parameters that somebody declared already: a PDSL of 2011, or a document that the user wrote."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping, Sequence
+
+from robocomp_yaml.legacy.document import Map
+from robocomp_yaml.legacy.settings.plan import Config, Plan
+from robocomp_yaml.legacy.settings.planning import give_back
+from robocomp_yaml.legacy.settings.shapes import Scalar
+from robocomp_yaml.model.parameters import BASIC_TYPES
+from robocomp_yaml.source import tree
+from robocomp_yaml.source.text import read_bytes
+
+SUFFIX = ".pdsl.yaml"
+_NAMES = re.compile(r"^component:[ \t]*[\"']?([^\"'#\r\n]+?)[\"']?[ \t]*(?:#.*)?$", re.MULTILINE)
+Types = dict[str, str]
+"""The types of plain parameters by their paths."""
+
+
+def of_draft(document: Map) -> Types:
+    """The parameters of a PDSL of 2011."""
+    listed = next((entry.value for entry in document.entries if entry.key == "parameters"), None)
+    found: Types = {}
+    for entry in listed.entries if isinstance(listed, Map) else ():
+        if isinstance(entry.value, Map):
+            found[entry.key] = str(entry.value.entries[0].value)
+    return found
+
+
+def beside(component: str) -> Iterator[str]:
+    """The PDSL documents in the folder of a component's document that name it as theirs."""
+    folder = os.path.dirname(component)
+    try:
+        names = sorted(name for name in os.listdir(folder or ".") if name.endswith(SUFFIX))
+    except OSError:
+        return
+    for name in names:
+        path = os.path.join(folder, name)
+        raw, _ = read_bytes(path, 1 << 20)
+        found = _NAMES.search(raw.decode("utf-8", "replace")) if raw is not None else None
+        if found and os.path.normpath(found[1]) == os.path.basename(component):
+            yield path
+
+
+def of_document(path: str) -> Types:
+    """The plain parameters of a PDSL document, groups opened."""
+    raw, _ = read_bytes(path, 1 << 20)
+    root, _ = tree.parse(path, (raw or b"").decode("utf-8", "replace"))
+    data = root.data if root is not None else None
+    parameters = data.get("parameters") if isinstance(data, dict) else None
+    return dict(_plain(parameters, ""))
+
+
+def _plain(members: object, prefix: str) -> Iterator[tuple[str, str]]:
+    for name, body in members.items() if isinstance(members, dict) else ():
+        if isinstance(body, dict) and "group" in body:
+            yield from _plain(body["group"], f"{prefix}{name}.")
+        else:
+            kind = body.get("type") if isinstance(body, dict) else body
+            if kind in BASIC_TYPES:
+                yield f"{prefix}{name}", str(kind)
+
+
+def fitted(plans: Sequence[Plan], types: Mapping[str, str], configs: Sequence[Config]) -> list[Plan]:
+    """The plans that are declared, by their declared types; what the others hold goes back to the configs."""
+    kept = []
+    for plan in plans:
+        kind = types.get(".".join(plan.path))
+        if plan.built_in and plan.spelled is None:
+            kept.append(plan)
+        elif kind is not None and plan.spelled is None and isinstance(plan.shape, Scalar):
+            plan.shape, plan.guessed = Scalar(kind), ""
+            kept.append(plan)
+        else:
+            give_back(plan, configs)
+    return kept

@@ -1,0 +1,90 @@
+"""What a legacy config holds, whatever its format: settings with their values, as trees of leaves."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.legacy.document import Notes
+
+CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
+BOOL, INT, LONG, FLOAT, DOUBLE, STRING = "bool", "int", "long", "float", "double", "string"
+
+MOST_FLOAT, MOST_DOUBLE = 3.4e38, 1.7e308
+
+_INT = re.compile(r"-?(?:0|[1-9][0-9]*)\Z")
+_FLOAT = re.compile(r"[+-]?(?:[0-9]+\.[0-9]*|\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]+)?\Z")
+_ZEROS = re.compile(r"[+-]?0[0-9]+\Z")
+_BOOL = re.compile(r"(?:true|false|True|False)\Z")
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """A plain value: how it is spelled, and the type that this spelling has."""
+
+    text: str
+    kind: str = STRING
+
+
+@dataclass(slots=True)
+class Item:
+    """A value with the comments that stand at it."""
+
+    value: Tree
+    notes: Notes = field(default_factory=Notes)
+
+
+Tree = Leaf | list[Item] | dict[str, Item]
+
+
+@dataclass(slots=True)
+class Setting:
+    """One entry. `key` is the property's name; `path` its parts. `raw` is the property's value as Ice reads it, ''
+    where there is no such thing; `value` is without quotes."""
+
+    key: str
+    path: tuple[str, ...]
+    value: Tree
+    span: Span
+    notes: Notes
+    raw: str = ""
+    is_quoted: bool = False
+
+    @property
+    def text(self) -> str:
+        return self.value.text if isinstance(self.value, Leaf) else ""
+
+
+@dataclass(slots=True)
+class Settings:
+    """A whole config: `settings` in the order of the file, each key once."""
+
+    dialect: str
+    settings: list[Setting] = field(default_factory=list)
+
+
+def settle_head(found: Settings, around: Notes) -> None:
+    """Comments at the top of a file that stand close to the first entry are that entry's."""
+    if found.settings:
+        last = max((at for at, line in enumerate(around.head) if not line), default=-1)
+        found.settings[0].notes.head[:0] = around.head[last + 1 :]
+        del around.head[last + 1 :]
+
+
+def guess(text: str) -> Leaf:
+    """A plain value as a flat config spells it: numbers and truth values by their looks, all else is text."""
+    if _BOOL.match(text):
+        return Leaf(text, BOOL)
+    if _INT.match(text) and text != "-0":
+        return Leaf(text, whole(int(text)) if len(text) < 21 else STRING)
+    if _FLOAT.match(text) and not _ZEROS.match(text) and abs(float(text)) < MOST_DOUBLE:
+        return Leaf(text, FLOAT if abs(float(text)) < MOST_FLOAT else DOUBLE)
+    return Leaf(text)
+
+
+def whole(number: int) -> str:
+    """The smallest type that holds a whole number."""
+    if -(2**31) <= number < 2**31:
+        return INT
+    return LONG if -(2**63) <= number < 2**63 else STRING

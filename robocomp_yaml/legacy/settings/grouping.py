@@ -1,0 +1,182 @@
+"""Which component each config belongs to."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.legacy.document import List, Map
+from robocomp_yaml.legacy.ledger import Entry
+from robocomp_yaml.legacy.settings import declared
+from robocomp_yaml.legacy.settings.sorting import Ports
+from robocomp_yaml.legacy.sources import LegacyFile
+
+_NAME = re.compile(rb"^component:[ \t]*[\"']?([\w-]+)", re.MULTILINE)
+_PARTS = ("implements", "requires", "publishes", "subscribes")
+
+Good = Sequence[tuple[LegacyFile, Entry]]
+
+
+@dataclass(slots=True)
+class Component:
+    """A component with its configs. `document`: its CDSL; '' where it has none, and is called as its config.
+    `declared`: what the PDSL at `parameters` says already; None where it is to be inferred."""
+
+    name: str
+    document: str
+    parameters: str
+    ports: Ports = Ports()
+    declared: declared.Types | None = None
+    configs: list[tuple[LegacyFile, Entry]] = field(default_factory=list)
+
+
+def first_half(path: str) -> str:
+    """`generic_config` for `specific_config`: RoboComp's first generator split configs in two."""
+    folder, name = os.path.split(path)
+    return os.path.join(folder, name.replace("specific", "generic")) if "specific" in name else ""
+
+
+class Components:
+    def __init__(
+        self, good: Good, chosen: Mapping[str, str], is_ours: Callable[[LegacyFile, str], bool]
+    ) -> None:  # fmt: skip
+        self.good, self.chosen, self.is_ours = good, chosen, is_ours
+        self.by_folder: dict[str, list[tuple[str, Component]]] = {}
+        self.taken = set(chosen.values())
+        self.listed: dict[str, list[str]] = {}
+        self.known: dict[str, Component] = {}
+        for file, entry in good:
+            if entry.file.rules is not None and entry.file.rules.kind == "cdsl" and entry.file.draft is not None:
+                made = _of_cdsl(chosen[file.path], entry.file.draft.document)
+                self.by_folder.setdefault(_folder(file.path), []).append((_stem(file.path), made))
+
+    def declare(self) -> None:
+        """Joins the PDSLs of 2011 with their components, and the values of 2011 with their PDSLs."""
+        named: dict[str, str] = {}
+        for file, entry in self.good:
+            if entry.file.rules is not None and entry.file.rules.kind == "pdsl" and entry.file.draft is not None:
+                draft, path = entry.file.draft.document, self.chosen[file.path]
+                named.setdefault(str(draft.entries[0].value), path)
+                named[os.path.basename(file.path)] = path
+                component = self._of(file)
+                if component is None:
+                    name = str(draft.entries[0].value)
+                    component = Component(name, "", path)
+                    self.by_folder.setdefault(_folder(file.path), []).append((_stem(file.path), component))
+                elif component.document:
+                    draft.entries[0].value = os.path.relpath(component.document, os.path.dirname(path) or ".")
+                component.declared, component.parameters = declared.of_draft(draft), path
+        for file, entry in self.good:
+            draft_ = entry.file.draft
+            kind = entry.file.rules.kind if entry.file.rules is not None else ""
+            if draft_ is not None and draft_.settings is None and kind == "config":
+                wanted = os.path.basename(str(draft_.document.entries[0].value)).removesuffix(".yaml")
+                path = named.get(wanted) or named.get(wanted.removesuffix(".pdsl"), "")
+                if path:
+                    folder = os.path.dirname(self.chosen[file.path]) or "."
+                    draft_.document.entries[0].value = os.path.relpath(path, folder)
+                else:
+                    entry.diagnostics.append(codes.NO_PDSL.at(Span(file.path), name=wanted))
+
+    def all(self) -> list[Component]:
+        """The components that have configs."""
+        found: dict[int, Component] = {}
+        own: dict[str, Component] = {}
+        paths = {file.path for file, entry in self.good if entry.file.draft and entry.file.draft.settings}
+        for file, entry in self.good:
+            if entry.file.draft is None or entry.file.draft.settings is None:
+                continue
+            component = self._of(file)
+            if component is None:
+                first = first_half(file.path)
+                name = first if first in paths else file.path
+                if name not in own:
+                    own[name] = self._of_its_own(file, name)
+                component = own[name]
+                what = codes.OWN_COMPONENT.at(Span(file.path), name=component.name)
+                entry.diagnostics.append(what)
+            if not component.configs and component.declared is None and component.document:
+                for path in declared.beside(component.document):
+                    if not self.is_ours(file, path):
+                        component.declared = declared.of_document(path)
+            component.configs.append((file, entry))
+            found[id(component)] = component
+        return list(found.values())
+
+    def _of(self, file: LegacyFile) -> Component | None:
+        """The component in a config's folder, or in the one above: the only one, or the one of its name."""
+        here = _folder(file.path)
+        for folder in (here, os.path.dirname(here)):
+            known = self.by_folder.get(folder, [])
+            known = known or [(_stem(path), self._written(path)) for path in self._documents(folder, file)]
+            alike = [component for stem, component in known if stem == _stem(file.path)]
+            if len(known) == 1 or len(alike) == 1:
+                return (alike or [known[0][1]])[0]
+            if known:
+                return None
+        return None
+
+    def _documents(self, folder: str, file: LegacyFile) -> list[str]:
+        """The CDSL documents that stand in a folder already, where the config's own document will be near them."""
+        if os.path.realpath(folder) not in (_folder(self.chosen[file.path]), os.path.dirname(
+            _folder(self.chosen[file.path])
+        )):  # fmt: skip
+            return []
+        if folder not in self.listed:
+            try:
+                names = sorted(os.listdir(folder))
+            except OSError:
+                names = []
+            self.listed[folder] = [os.path.join(folder, name) for name in names if name.endswith(".cdsl.yaml")]
+        shown = os.path.dirname(self.chosen[file.path])
+        up = folder != _folder(self.chosen[file.path])
+        base = os.path.normpath(os.path.join(shown, os.pardir)) if up else shown
+        return [os.path.normpath(os.path.join(base, os.path.basename(path))) for path in self.listed[folder]]
+
+    def _written(self, path: str) -> Component:
+        if path not in self.known:
+            try:
+                with open(path, "rb") as opened:
+                    found = _NAME.search(opened.read(1 << 16))
+            except OSError:
+                found = None
+            name = found[1].decode(errors="replace") if found else _stem(path)
+            self.known[path] = Component(name, path, os.path.join(os.path.dirname(path), f"{name}.pdsl.yaml"))
+        return self.known[path]
+
+    def _of_its_own(self, file: LegacyFile, named: str) -> Component:
+        """A component that has only its config: `config.new` is called so, `side.conf` is called `side`."""
+        base = os.path.basename(named)
+        stem = base.removesuffix(".conf")
+        folder = os.path.dirname(self.chosen[file.path])
+        path, number = os.path.join(folder, f"{stem}.pdsl.yaml"), 2
+        while path in self.taken:
+            path, number = os.path.join(folder, f"{base if number == 2 else number}.pdsl.yaml"), number + 1
+        self.taken.add(path)
+        return Component(os.path.basename(path).removesuffix(".pdsl.yaml"), "", path)
+
+
+def _folder(path: str) -> str:
+    return os.path.realpath(os.path.dirname(path) or ".")
+
+
+def _stem(path: str) -> str:
+    return os.path.basename(path).split(".")[0].lower()
+
+
+def _of_cdsl(document: str, draft: Map) -> Component:
+    entries = {entry.key: entry.value for entry in draft.entries}
+    names: dict[str, list[str]] = {part: [] for part in _PARTS}
+    for part in _PARTS:
+        listed = entries.get(part)
+        for item in listed.items if isinstance(listed, List) else ():
+            value = item.value
+            names[part].append(value.entries[0].key if isinstance(value, Map) else str(value))
+    topics = [*names["publishes"], *names["subscribes"]]
+    ports = Ports(frozenset(names["implements"]), frozenset(names["requires"]), frozenset(topics))
+    name = str(entries["component"])
+    return Component(name, document, os.path.join(os.path.dirname(document), f"{name}.pdsl.yaml"), ports)

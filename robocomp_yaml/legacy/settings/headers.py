@@ -1,0 +1,111 @@
+"""What the columns of rows are called: by a comment above them, by the user, or by a table of known records."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.rules import Rules
+
+REACH = 25
+"""So many lines above the first row a header may stand."""
+
+_NAME = re.compile(r"(?P<name>[A-Za-z_][\w/ -]*?)\s*(?:\((?P<doc>.*)\))?\s*\Z")
+_LABEL = re.compile(r"\s*[A-Za-z_][\w. ]*?\s*[:=]\s*(?=\S)")
+_COLUMN_GAP = re.compile(r"\t| {2,}|,")
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    name: str
+    doc: str = ""
+
+
+def columns(
+    stem: str, arity: int, source: Source, line: int, rules: Rules, given: Mapping[str, Sequence[str]]
+) -> tuple[list[Column], str]:
+    """The columns of the rows `stem`0, `stem`1, … whose first one stands at a line, and where their names are from:
+    `names`, `header`, `known`, or '' where nobody knows."""
+    for key in (stem, stem.rstrip("_.-")):
+        if len(given.get(key, ())) == arity:
+            return [Column(name) for name in unique(given[key])], "names"
+    for text in _comments_above(source, line, stem):
+        found = header(text, arity, rules.stop)
+        if found:
+            return found, "header"
+    for record in rules.records:
+        if stem.endswith(record["key"]) and len(record["columns"]) == arity:
+            return [Column(name) for name in record["columns"]], "known"
+    return [Column(f"f{number}") for number in range(1, arity + 1)], ""
+
+
+def _comments_above(source: Source, line: int, stem: str) -> Iterator[str]:
+    """Comments above a line, the nearest first, without rows that are commented out."""
+    row = re.compile(rf"[#~;\s]*{re.escape(stem)}\d+\s*=")
+    for number in range(line - 1, max(line - 1 - REACH, 0), -1):
+        text = source.line_text(number).strip()
+        if text.startswith("#") and not row.match(text):
+            yield text.lstrip("#~ \t").rstrip("# \t")
+
+
+def header(text: str, arity: int, stop: frozenset[str] = frozenset()) -> list[Column]:
+    """The names in a comment, if they are as many as there are columns."""
+    label = _LABEL.match(text)
+    for body in dict.fromkeys((text[label.end() :] if label else text, text)):
+        parts = [part.strip() for part in _split(body)]
+        if "," in body and len(parts) == arity:
+            found = _names(parts)
+            if found:
+                return found
+        words = re.split(r"[\s,]+", body.strip(" \t,"))
+        prose = not _COLUMN_GAP.search(body.strip()) and any(word.lower().strip(".") in stop for word in words)
+        if len(words) == arity and arity > 1 and not prose:
+            found = _names(words)
+            if found:
+                return found
+    return []
+
+
+def _split(text: str) -> list[str]:
+    """At commas, but for those in parentheses."""
+    parts, depth = [""], 0
+    for char in text:
+        depth += (char == "(") - (char == ")")
+        if char == "," and depth <= 0:
+            parts.append("")
+        else:
+            parts[-1] += char
+    return parts
+
+
+def _names(parts: Sequence[str]) -> list[Column]:
+    found = [_NAME.match(part) for part in parts]
+    if not all(found):
+        return []
+    names = unique([sanitized(match["name"]) for match in found if match])
+    docs = [(match["doc"] or "").strip() or _doc(match["name"]) for match in found if match]
+    return [Column(name, doc) for name, doc in zip(names, docs, strict=True)]
+
+
+def _doc(original: str) -> str:
+    return original if sanitized(original) != original else ""
+
+
+def sanitized(text: str) -> str:
+    """A text as a name: several words become `several_words`."""
+    words = re.sub(r"[^A-Za-z0-9_]+", "_", text.strip()).strip("_") or "field"
+    words = words.lower() if " " in text.strip() else words
+    return f"f{words}" if words[0].isdigit() else words
+
+
+def unique(names: Sequence[str]) -> list[str]:
+    """Names, those that stand there before with a number."""
+    found: list[str] = []
+    for name in names:
+        free, number = name, 2
+        while free in found:
+            free, number = f"{name}_{number}", number + 1
+        found.append(free)
+    return found

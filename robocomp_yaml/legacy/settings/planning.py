@@ -1,0 +1,115 @@
+"""The parameters of a component, inferred from all its configs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from robocomp_yaml.legacy.settings.entries import INT, Item, Leaf, Setting, guess
+from robocomp_yaml.legacy.settings.families import families
+from robocomp_yaml.legacy.settings.headers import sanitized, unique
+from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan, Spelled
+from robocomp_yaml.legacy.settings.rows import could_be_list, is_list, joiner, separators, split
+from robocomp_yaml.legacy.settings.shapes import retyped, shape_of
+
+_PERIODS = {("period",): "compute", ("Period", "Compute"): "compute", ("Period", "Emergency"): "emergency",
+            ("period", "compute"): "compute", ("period", "emergency"): "emergency"}
+_MEMBER = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]*\Z")
+
+
+def plans(configs: Sequence[Config], guesses: Guesses) -> list[Plan]:
+    """Each parameter of the component. What has no place among them stays in the configs, under `properties`."""
+    found = list(families(configs, guesses))
+    by_key: dict[Path, dict[str, Setting]] = {}
+    for config in configs:
+        for setting in config.parameters:
+            by_key.setdefault(setting.path, {})[config.name] = setting
+    for path, settings in by_key.items():
+        found.append(_plan(path, settings, configs, guesses))
+    kept = list(_placed(found, configs))
+    for plan in kept:
+        plan.optional = len(plan.given) < len(configs)
+        assert plan.shape is not None
+        plan.shape = retyped(plan.shape, ".".join(plan.path), guesses.types)
+    return kept
+
+
+def _plan(path: Path, settings: dict[str, Setting], configs: Sequence[Config], guesses: Guesses) -> Plan:
+    """A key of its own: a plain value, or a list in one property."""
+    plan = Plan(path)
+    texts = {name: setting.text for name, setting in settings.items()}
+    key = next(iter(settings.values())).key
+    flat = all(isinstance(s.value, Leaf) and s.raw and not s.is_quoted for s in settings.values())
+    lists = flat and any(map(is_list, texts.values())) and all(map(could_be_list, texts.values()))
+    if lists and key not in guesses.text and not re.search(r"[{}]", key):
+        between = separators(texts.values())
+        parts = {name: split(text, between) for name, text in texts.items()}
+        plan.spelled = Spelled(
+            key, separators=[joiner(texts.values(), separator) for separator in between],
+            trailing=any(part.trailing for part in parts.values()),
+        )
+        plan.guessed = f"{key} is split into a list at every '{between[0]}'" + (
+            f", and again at every '{between[1]}'" if between[1:] else ""
+        )
+        for name, setting in settings.items():
+            items = [_item(part) for part in parts[name].parts]
+            plan.given[name] = Given(Item(items, setting.notes), [setting])
+        return plan
+    for name, setting in settings.items():
+        plan.given[name] = Given(Item(setting.value, setting.notes), [setting])
+    return plan
+
+
+def _item(part: str | list[str]) -> Item:
+    return Item(guess(part)) if isinstance(part, str) else Item([Item(guess(cell)) for cell in part])
+
+
+def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
+    """Plans with a path that is theirs alone, and a type. The others go back to the configs' `properties`."""
+    taken: set[Path] = set()
+    groups = {tuple(map(_legal, plan.path[:depth])) for plan in found for depth in range(1, len(plan.path))}
+    for plan in sorted(found, key=lambda plan: (plan.spelled is not None, len(plan.path))):
+        original = plan.path
+        plan.shape = shape_of([given.item.value for given in plan.given.values()])
+        plan.built_in = _is_period(plan)
+        if plan.built_in:
+            plan.path = ("period", _PERIODS[original])
+        elif original[0] == "period" or (plan.spelled is None and not all(original)):
+            plan.shape = None
+        else:
+            plan.path = tuple(_legal(part) for part in original)
+        if plan.shape is not None and plan.spelled is not None and plan.path in taken | groups:
+            plan.path = (*plan.path[:-1], unique([*(p[-1] for p in taken | groups), f"{plan.path[-1]}_list"])[-1])
+        if plan.shape is None or plan.path in taken or (plan.path in groups and not plan.built_in):
+            give_back(plan, configs)
+            continue
+        taken.add(plan.path)
+        if plan.path != original and plan.spelled is None:
+            plan.spelled = Spelled(".".join(original))
+    order = {config.name: number for number, config in enumerate(configs)}
+    kept = [plan for plan in found if plan.shape is not None]
+    yield from sorted(kept, key=lambda plan: min((order[name], given.line) for name, given in plan.given.items()))
+
+
+def _is_period(plan: Plan) -> bool:
+    """Whether a plan is one of the periods that every component has."""
+    if plan.path not in _PERIODS or plan.spelled is not None:
+        return False
+    leaves = [given.item.value for given in plan.given.values()]
+    return all(isinstance(leaf, Leaf) and leaf.kind == INT and int(leaf.text) > 0 for leaf in leaves)
+
+
+def _legal(part: str) -> str:
+    if _MEMBER.match(part) and not part.startswith("x-"):
+        return part
+    return sanitized(part)
+
+
+def give_back(plan: Plan, configs: Sequence[Config]) -> None:
+    """What a plan holds becomes properties, as they are."""
+    plan.shape = None
+    for config in configs:
+        given = plan.given.pop(config.name, None)
+        if given is not None:
+            for setting in given.settings:
+                config.sorted.keep(setting)

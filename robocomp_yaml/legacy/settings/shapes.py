@@ -1,0 +1,106 @@
+"""The shape that values have in common: the least type that all of them fit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from robocomp_yaml.legacy.document import List, Map, Raw, Value
+from robocomp_yaml.legacy.settings.entries import DOUBLE, FLOAT, INT, LONG, STRING, Leaf, Tree
+
+_NUMBERS = (INT, LONG, FLOAT, DOUBLE)
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    kind: str
+
+
+@dataclass(frozen=True, slots=True)
+class ListOf:
+    element: Shape
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    name: str
+    shape: Shape
+    optional: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    fields: tuple[Field, ...]
+
+
+Shape = Scalar | ListOf | Record
+
+
+def least(kinds: Iterable[str]) -> str:
+    """The least type of plain values: numbers widen, all else is text."""
+    found = set(kinds)
+    if len(found) == 1:
+        return found.pop()
+    if not found or not found <= set(_NUMBERS):
+        return STRING
+    return DOUBLE if {LONG, FLOAT} <= found else max(found, key=_NUMBERS.index)
+
+
+def shape_of(trees: Sequence[Tree]) -> Shape | None:
+    """What all of these are; None where some are lists and others not."""
+    if all(isinstance(tree, Leaf) for tree in trees):
+        return Scalar(least(tree.kind for tree in trees if isinstance(tree, Leaf)))
+    if all(isinstance(tree, list) for tree in trees):
+        inner = [item.value for tree in trees if isinstance(tree, list) for item in tree]
+        element = shape_of(inner)
+        return ListOf(element) if element is not None else None
+    records = [tree for tree in trees if isinstance(tree, dict)]
+    if len(records) < len(trees):
+        return None
+    fields = []
+    for name in dict.fromkeys(name for record in records for name in record):
+        given = [record[name].value for record in records if name in record]
+        shape = shape_of(given)
+        if shape is None:
+            return None
+        fields.append(Field(name, shape, len(given) < len(records)))
+    return Record(tuple(fields)) if fields else None
+
+
+def retyped(shape: Shape, path: str, types: Mapping[str, str]) -> Shape:
+    """A shape with the wider types that the user gives, by path: `Motors.zero`."""
+    if isinstance(shape, ListOf):
+        return ListOf(retyped(shape.element, path, types))
+    if isinstance(shape, Record):
+        return Record(tuple(replace(f, shape=retyped(f.shape, f"{path}.{f.name}", types)) for f in shape.fields))
+    told = types.get(path)
+    return Scalar(told) if told is not None and least((told, shape.kind)) == told else shape
+
+
+def written(shape: Shape, tree: Tree) -> Value:
+    """A value as a document writes it, by the type of its parameter."""
+    if isinstance(tree, Leaf):
+        return plain(tree, shape.kind if isinstance(shape, Scalar) else STRING)
+    if isinstance(tree, list):
+        assert isinstance(shape, ListOf)
+        listed = List(block=isinstance(shape.element, Record))
+        for item in tree:
+            listed.put(written(shape.element, item.value), item.notes)
+        return listed
+    assert isinstance(shape, Record)
+    shapes = {field.name: field.shape for field in shape.fields}
+    body = Map()
+    for name, item in tree.items():
+        body.put(name, written(shapes[name], item.value), item.notes)
+    return body
+
+
+def plain(leaf: Leaf, kind: str) -> Value:
+    return leaf.text if kind == STRING else Raw(leaf.text)
+
+
+def leaves(tree: Tree) -> list[Leaf]:
+    if isinstance(tree, Leaf):
+        return [tree]
+    items = tree if isinstance(tree, list) else tree.values()
+    return [leaf for item in items for leaf in leaves(item.value)]

@@ -1,0 +1,131 @@
+"""Which settings are endpoints, proxies, topics, Ice's own, and which are parameters."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.legacy.rules import Rules
+from robocomp_yaml.legacy.settings.entries import CLASSIC, TOML, Leaf, Setting, Settings
+from robocomp_yaml.legacy.settings.headers import unique
+
+_WORD = re.compile(r"[A-Za-z_]\w*\Z")
+
+
+@dataclass(frozen=True, slots=True)
+class Ports:
+    """The interfaces that a component names, as far as its document is known."""
+
+    implements: frozenset[str] = frozenset()
+    requires: frozenset[str] = frozenset()
+    topics: frozenset[str] = frozenset()
+
+    def takes(self, key: str) -> bool:
+        """Whether a property of this name is the connection's, and no parameter's."""
+        return key in self.implements | self.topics or key.removesuffix("Topic") in self.topics or (
+            key.endswith("Proxy") and key[:-5] in self.requires
+        ) or key == "CommonBehavior"
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A setting under its name in a section. `key`: the property, where the name does not say it."""
+
+    name: str
+    setting: Setting
+    key: str = ""
+
+
+@dataclass(slots=True)
+class Sorted:
+    """The settings of one file by section."""
+
+    dialect: str
+    parameters: list[Setting] = field(default_factory=list)
+    endpoints: list[Named] = field(default_factory=list)
+    proxies: list[Named] = field(default_factory=list)
+    manager: list[Named] = field(default_factory=list)
+    prefixes: list[Named] = field(default_factory=list)
+    names: list[Named] = field(default_factory=list)
+    ice: list[Named] = field(default_factory=list)
+    properties: list[Named] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def connect(self, name: str, setting: Setting) -> None:
+        """A proxy. Without a name of its own it is called as its property."""
+        taken = {named.name for named in self.proxies}
+        if name and name not in taken:
+            self.proxies.append(Named(name, setting))
+        else:
+            self.proxies.append(Named(unique([*taken, setting.key])[-1], setting, setting.key))
+
+    def keep(self, setting: Setting) -> None:
+        """A property that no section has a place for."""
+        self.properties.append(Named(setting.key, setting))
+
+
+def sort(settings: Settings, ports: Ports, rules: Rules) -> Sorted:
+    found = Sorted(settings.dialect)
+    for setting in settings.settings:
+        if not isinstance(setting.value, Leaf):
+            if rules.sections["service"].match(f"{setting.key}."):
+                what = f"only texts and numbers can stand here, so '{setting.key}' is left out"
+                found.diagnostics.append(codes.LOST.at(setting.span, what=what))
+            else:
+                found.parameters.append(setting)
+        elif settings.dialect == CLASSIC:
+            _classic(found, setting, ports, rules)
+        else:
+            _toml(found, setting, ports, rules)
+    return found
+
+
+def _classic(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
+    key, text = setting.key, setting.text
+    if key.startswith("Ice.") and len(key) > 4:
+        found.ice.append(Named(key[4:], setting))
+    elif key.endswith(".Endpoints") and len(key) > 10:
+        found.endpoints.append(Named(key[:-10], setting))
+    elif key == "TopicManager.Proxy":
+        found.manager.append(Named("manager", setting))
+    elif rules.sections["proxy"].match(text) or (key.removesuffix("Proxy") in ports.requires and key[-5:] == "Proxy"):
+        name = key.removesuffix("Proxy")
+        found.connect(name if name != key else "", setting)
+    elif key.startswith("Proxies.") and key.endswith("Prefix") and len(key) > 14:
+        found.prefixes.append(Named(key[8:-6], setting))
+    elif (key == text or key.removesuffix("Topic") in ports.topics) and _WORD.match(key) and _WORD.match(text):
+        found.names.append(Named(key, setting))
+    else:
+        _rest(found, setting, ports, rules)
+
+
+def _toml(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
+    key, path, text = setting.key, setting.path, setting.text
+    if path[0] == "Ice" and len(path) > 1:
+        found.ice.append(Named(key[4:], setting))
+    elif path[0] == "Endpoints" and len(path) == 2 and text:
+        found.endpoints.append(Named(path[1], setting))
+    elif key == "Proxies.TopicManager" and text:
+        found.manager.append(Named("manager", setting))
+    elif path[0] == "Proxies" and len(path) == 2 and not rules.sections["proxy"].match(text) and key[-6:] == "Prefix":
+        found.prefixes.append(Named(path[1][:-6], setting))
+    elif path[0] == "Proxies" and len(path) == 2 and text:
+        found.connect(path[1], setting)
+    elif rules.sections["proxy"].match(text):
+        found.connect("", setting)
+    else:
+        _rest(found, setting, ports, rules)
+
+
+def _rest(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
+    """A parameter, unless its name could not be one's."""
+    if found.dialect != TOML and rules.sections["suspicious"].search(setting.key):
+        what = rules.repairs["suspicious"].format(text=setting.key)
+        found.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
+        found.keep(setting)
+    elif rules.sections["service"].match(setting.key) or ports.takes(setting.key) or "${env:" in setting.text:
+        found.keep(setting)
+    else:
+        found.parameters.append(setting)

@@ -1,0 +1,74 @@
+"""Options of legacy components: what each stands for, as data in `migrate/options/`, is added to the component."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+
+from robocomp_yaml import resources
+from robocomp_yaml.diag.codes import options as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.model.build_interface import items, text
+from robocomp_yaml.model.component import Component, Option, Use
+from robocomp_yaml.model.interface import Import
+from robocomp_yaml.source.tree import Node, Scalar, parse
+
+_LISTS = ("implements", "requires", "publishes", "subscribes")
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """`imports` and, by list, interfaces that an option adds; `left` is what it asked for besides."""
+
+    imports: tuple[str, ...]
+    interfaces: dict[str, tuple[str, ...]]
+    left: str
+
+
+def expanded(component: Component) -> tuple[Component, list[Diagnostic]]:
+    """The component with what its options add. What it has already is not added again."""
+    diagnostics: list[Diagnostic] = []
+    for option in component.options:
+        meaning = _meanings().get(option.name.lower())
+        if meaning is None:
+            meant = suggest(option.name, _meanings())
+            hint = f"did you mean '{meant}'?" if meant else f"there are {', '.join(_meanings())}"
+            diagnostics.append(codes.UNKNOWN_OPTION.at(option.span, name=option.name, hint=hint))
+            continue
+        component = _with(component, option, meaning)
+        if meaning.left:
+            diagnostics.append(codes.LEFT.at(option.span, name=option.name, left=meaning.left))
+    return component, diagnostics
+
+
+def _with(component: Component, option: Option, meaning: Meaning) -> Component:
+    known = {imported.text.rpartition("/")[2].removesuffix(".idsl.yaml").lower() for imported in component.imports}
+    imports = tuple(Import(name, span=option.span) for name in meaning.imports if name.lower() not in known)
+    lists: dict[str, tuple[Use, ...]] = {}
+    for list_, names in meaning.interfaces.items():
+        uses: tuple[Use, ...] = getattr(component, list_)
+        mine = {use.interface.rpartition(".")[2] for use in uses}
+        lists[list_] = (*uses, *(Use(name, name, span=option.span) for name in names if name not in mine))
+    return replace(
+        component, imports=(*component.imports, *imports), implements=lists["implements"], requires=lists["requires"],
+        publishes=lists["publishes"], subscribes=lists["subscribes"],
+    )  # fmt: skip
+
+
+@cache
+def _meanings() -> dict[str, Meaning]:
+    """The meaning of each option, by its name in lower case."""
+    folder = resources.folder("migrate") / "options"
+    return {path.stem: _meaning(path.read_text(encoding="utf-8"), path.name) for path in sorted(folder.glob("*.yaml"))}
+
+
+def _meaning(content: str, name: str) -> Meaning:
+    tree, _ = parse(name, content)
+    interfaces = {list_: tuple(_words(tree, list_)) for list_ in _LISTS}
+    return Meaning(tuple(_words(tree, "imports")), interfaces, text(tree, "left"))
+
+
+def _words(tree: Node | None, key: str) -> Iterator[str]:
+    yield from (item.lexeme for item in items(tree, key) if isinstance(item, Scalar))

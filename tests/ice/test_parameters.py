@@ -1,0 +1,374 @@
+"""Parameters of a running component, in both languages: read from the config, listed and changed by another process."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from components import Built, build
+from cpp_programs import cmake, needs_cpp
+from processes import Ports, Running, Start, until
+
+from conftest import ROOT
+
+PDSL = """\
+types:
+  Mode: {enum: [slow, fast]}
+  Motor:
+    struct:
+      name: string
+      min: {type: float, range: [-3.15, 3.15], unit: rad}
+      max: {type: float, range: [-3.15, 3.15], unit: rad}
+      vel: {type: float, range: [0, 2], default: 0.9, unit: rad/s}
+parameters:
+  mode: {type: Mode, default: slow, editable: true}
+  device: {type: string, default: /dev/tty}
+  basicPeriod: {type: int, range: [1, 1000], unit: ms, default: 220, editable: true}
+  token: {type: string, optional: true}
+  gains: {list: double, default: [0.5], editable: true}
+  offsets: {map: float, default: {}, editable: true}
+  motors: {list: Motor, size: [1, 4], editable: true}
+  Yolo: {group: {useGpu: {type: bool, default: true, editable: true}}}
+constraints:
+  - {that: "all(m.min < m.max for m in motors)", else: a motor's min must be below its max}
+legacy:
+  device: Arm.Device
+  motors: {key: "Arm.M{i}", columns: [name, min, max, vel], count: Arm.NumMotors}
+"""
+CDSL = "component: ParaComp\nlanguage: {language}\nparameters: para.pdsl.yaml\nperiod: 20 ms\n"
+PYTHON = """\
+from generated.genericworker import GenericWorker
+
+
+class SpecificWorker(GenericWorker):
+    def initialize(self):
+        self.parameters.listen(self.show)
+        self.show(None)
+
+    def show(self, change):
+        now = self.parameters
+        motors = " ".join(f"{m.name}:{m.vel:g}" for m in now.motors)
+        paths = ",".join(change.paths) if change else "-"
+        print(f"[{paths}]", now.mode, now.device, now.basicPeriod, now.token, len(now.gains), motors,
+              f"{sum(now.offsets.values()):g}", int(now.Yolo.useGpu), now.period.compute, flush=True)
+        if now.basicPeriod == 7:
+            try:
+                now.change({"basicPeriod": 8, "motors[0].vel": 9})
+            except ValueError as error:
+                print("refused:", error, flush=True)
+        if now.basicPeriod == 9:
+            now.basicPeriod = 10
+"""
+CPP = """\
+#include "specificworker.h"
+
+#include <iostream>
+
+namespace
+{
+
+void show(Parameters& parameters, const runtime::Change& change)
+{
+    const auto now = parameters.now();
+    std::string paths;
+    for (const auto& path : change.paths)
+    {
+        paths += (paths.empty() ? "" : ",") + path;
+    }
+    std::cout << "[" << (paths.empty() ? "-" : paths) << "] "
+              << (now->mode == parameters::Mode::slow ? "slow" : "fast") << " " << parameters.device() << " "
+              << parameters.basicPeriod() << " " << parameters.token().value_or("None") << " " << parameters.gains().size();
+    for (const auto& motor : parameters.motors())
+    {
+        std::cout << " " << motor.name << ":" << motor.vel;
+    }
+    float sum = 0;
+    for (const auto& [name, value] : now->offsets)
+    {
+        sum += value;
+    }
+    std::cout << " " << sum << " " << parameters.Yolo()->useGpu << " " << now->period.compute << std::endl;
+    if (now->basicPeriod == 7)
+    {
+        try
+        {
+            parameters.change(
+                [](parameters::Values& values)
+                {
+                    values.basicPeriod = 8;
+                    values.motors.at(0).vel = 9;
+                });
+        }
+        catch (const std::invalid_argument& error)
+        {
+            std::cout << "refused: " << error.what() << std::endl;
+        }
+    }
+    if (now->basicPeriod == 9)
+    {
+        parameters.setBasicPeriod(10);
+    }
+}
+
+}
+
+void SpecificWorker::initialize()
+{
+    parameters.listen([this](const runtime::Change& change) { show(parameters, change); });
+    show(parameters, {});
+}
+
+void SpecificWorker::compute()
+{
+}
+"""
+CONFIG = {
+    "Arm.Device": "/dev/usb", "Arm.NumMotors": "2", "Arm.M0": "a, -1, 1, .5", "Arm.M1": "b,0,1,2",
+    "token": "${env:PARA_TOKEN}", "offsets.keys": "x y%2Ez", "offsets.x": "1", "offsets.y%2Ez": "2.5e0",
+}  # fmt: skip
+FIRST = "[-] slow /dev/usb 220 s3cret#1 1 a:0.5 b:2 3.5 1 20"
+
+
+@dataclass(frozen=True)
+class Component:
+    built: Built
+    folder: Path
+    port: int
+
+    @property
+    def config(self) -> Path:
+        return self.folder / "my.config"
+
+    def write(self, **changes: str | None) -> None:
+        """The config; keys with '_' for '.'; None leaves one out."""
+        held = {**CONFIG, "CommonBehavior.Endpoints": f"tcp -h 127.0.0.1 -p {self.port}"}
+        for key, value in changes.items():
+            held[key.replace("_", ".")] = value  # type: ignore[assignment]
+        lines = [f"{key} = {value}\n" for key, value in held.items() if value is not None]
+        self.config.write_text("".join(lines))
+
+    def run(self, start: Start, *options: str) -> Running:
+        return start([*self.built.command, self.config, *options], env={"PARA_TOKEN": "s3cret#1"})
+
+
+LANGUAGES = ["python", pytest.param("cpp", marks=[pytest.mark.slow, needs_cpp])]
+
+
+@pytest.fixture(scope="module", params=LANGUAGES)
+def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Built:
+    folder = tmp_path_factory.mktemp(request.param)
+    documents = {"para.pdsl.yaml": PDSL, "para.cdsl.yaml": CDSL.format(language=request.param)}
+    made = build(documents, folder)["ParaComp"]
+    if request.param == "python":
+        (made.root / "src" / "specificworker.py").write_text(PYTHON)
+    else:
+        (made.root / "src" / "specificworker.cpp").write_text(CPP)
+        cmake(made.root, "-DCMAKE_BUILD_TYPE=Plain", jobs=1)
+    return made
+
+
+@pytest.fixture
+def component(built: Built, tmp_path: Path, free_port: Ports) -> Component:
+    made = Component(built, tmp_path, free_port())
+    made.write()
+    return made
+
+
+Ask = Callable[[int], Any]
+
+
+def changed(asked: Any, **changes: str) -> dict[str, Any]:
+    """The parameter list with other values; keys with '_' for '.'."""
+    listed = asked.getParameterList()
+    made = type(next(iter(listed.values())))
+    for key, value in changes.items():
+        listed[key.replace("_", ".")] = made(True, value, "")
+    return listed
+
+
+def test_values_of_the_config(component: Component, start: Start) -> None:
+    component.run(start).wait_for(FIRST)
+
+
+def test_the_command_line_has_the_last_word(component: Component, start: Start) -> None:
+    options = ["--motors.0.vel=1", "--Arm.Device=/dev/a#b=c\\d", "--basicPeriod=1e", "--basicPeriod=30"]
+    component.run(start, *options).wait_for("[-] slow /dev/a#b=c\\d 30 s3cret#1 1 a:1 b:2")
+
+
+@pytest.mark.parametrize(
+    ("option", "said"),
+    [
+        ("--basicPeriod=2000", "basicPeriod is 2000 ms, and must be from 1 to 1000 ms"),
+        ("--basicPeriod=soon", "basicPeriod must be a whole number (ms), and is 'soon'"),
+        ("--motors.1.vel=2.5", "motors[1].vel is 2.5 rad/s, and must be from 0 to 2 rad/s"),
+        ("--mode=fst", "mode is 'fst', and must be one of slow, fast"),
+        ("--Arm.NumMotors=0", "motors has 0 entries, and must have from 1 to 4"),
+        ("--motors.0.min=2", "a motor's min must be below its max"),
+        ("--token=${env:NOBODY_HAS_THIS}", "token comes from the environment variable NOBODY_HAS_THIS, which is not set"),
+    ],
+)
+def test_it_does_not_start_with_wrong_values(component: Component, start: Start, option: str, said: str) -> None:
+    running = component.run(start, option)
+    assert running.exit_code() == 1
+    (line,) = running.output.splitlines()
+    assert line.endswith(f"ERROR ParaComp: {component.config}: {said}")
+
+
+def test_a_misspelled_property_is_told_of(component: Component, start: Start) -> None:
+    component.write(motors_0_speed="1", offsets_z="1", other_thing="1")
+    running = component.run(start).wait_for("ParaComp is running")
+    for key in ("motors.0.speed", "offsets.z"):
+        running.wait_for(f"WARNING ParaComp: {component.config}: there is no parameter '{key}'")
+    assert "other.thing" not in running.output
+
+
+def test_the_list_of_parameters(component: Component, start: Start, behavior: Ask) -> None:
+    component.run(start).wait_for("ParaComp is running")
+    listed = behavior(component.port).getParameterList()
+    got = {key: (entry.editable, entry.value, entry.type) for key, entry in listed.items()}
+    assert got["basicPeriod"] == (True, "220", "int")
+    assert got["mode"] == (True, "slow", "Mode")
+    assert got["device"] == (False, "/dev/usb", "string")
+    assert got["motors.1.vel"] == (True, "2.0", "float")
+    assert (got["gains.size"], got["gains.0"]) == ((True, "1", "int"), (True, "0.5", "double"))
+    assert got["offsets.y%2Ez"] == (True, "2.5", "float")
+    assert got["Yolo.useGpu"] == (True, "true", "bool")
+    assert got["token"] == (False, "${env:PARA_TOKEN}", "string"), "no secret is shown"
+    assert (got["period.compute"], got["period.emergency"]) == ((True, "20", "int"), (True, "500", "int"))
+    assert got["CommonBehavior.Endpoints"] == (False, f"tcp -h 127.0.0.1 -p {component.port}", "string")
+    assert not {key for key in got if key.startswith("Arm.")}, "they are read, and listed by their paths"
+
+
+def test_changes_from_another_process(component: Component, start: Start, behavior: Ask) -> None:
+    running = component.run(start).wait_for("ParaComp is running")
+    asked = behavior(component.port)
+    asked.setParameterList(changed(asked, basicPeriod="50", mode="fast", motors_1_vel="0.25"))
+    running.wait_for("[mode,basicPeriod,motors[1].vel] fast /dev/usb 50 s3cret#1 1 a:0.5 b:0.25 3.5 1 20")
+    asked.setParameterList(changed(asked, gains_size="2", gains_1="7", Yolo_useGpu="False", period_compute="33"))
+    running.wait_for("[gains,Yolo.useGpu,period.compute] fast /dev/usb 50 s3cret#1 2 a:0.5 b:0.25 3.5 0 33")
+    assert asked.getPeriod() == 33
+    asked.setPeriod(44)
+    running.wait_for("[period.compute] fast")
+    asked.setParameterList(changed(asked, basicPeriod="9"))
+    running.wait_for("[basicPeriod] fast /dev/usb 10 ")  # which a listener did
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "said"),
+    [
+        ("basicPeriod", "0", "basicPeriod is 0 ms, and must be from 1 to 1000 ms"),
+        ("basicPeriod", "", "basicPeriod must be a whole number (ms), and is ''"),
+        ("motors_0_min", "1", "a motor's min must be below its max"),
+        ("device", "/dev/x", "device cannot be changed while the component runs: it is not editable"),
+        ("motors_9_vel", "1", "there is no parameter 'motors.9.vel'"),
+        ("CommonBehavior_Endpoints", "tcp", "there is no parameter 'CommonBehavior.Endpoints'"),
+        ("gains_size", "-1", "gains must be a list, and is '-1'"),
+    ],
+)
+def test_a_bad_value_is_refused_and_all_others_with_it(
+    component: Component, start: Start, behavior: Ask, key: str, value: str, said: str
+) -> None:
+    running = component.run(start).wait_for("ParaComp is running")
+    asked = behavior(component.port)
+    before = asked.getParameterList()
+    asked.setParameterList(changed(asked, **{"mode": "fast", key: value}))
+    running.wait_for(f"WARNING ParaComp: setParameterList refused: {said}")
+    assert asked.getParameterList() == before
+    assert "[mode" not in running.output
+
+
+def test_the_user_is_refused_too(component: Component, start: Start, behavior: Ask) -> None:
+    running = component.run(start).wait_for("ParaComp is running")
+    asked = behavior(component.port)
+    asked.setParameterList(changed(asked, basicPeriod="7"))
+    running.wait_for("refused: motors[0].vel is 9")
+    assert asked.getParameterList()["basicPeriod"].value == "7", "all, or none"
+
+
+def test_reading_the_config_again(component: Component, start: Start, behavior: Ask) -> None:
+    running = component.run(start, "--mode=fast").wait_for("ParaComp is running")
+    asked = behavior(component.port)
+    component.write(basicPeriod="77", mode="slow", Arm_M0="a,-1,1,.75")
+    asked.reloadConfig()
+    running.wait_for("[basicPeriod,motors[0].vel] fast /dev/usb 77 s3cret#1 1 a:0.75 b:2")
+    component.write(basicPeriod="78", Arm_M0="a,-1,1,9")
+    asked.reloadConfig()
+    running.wait_for("reloadConfig refused: ").wait_for("motors[0].vel is 9 rad/s, and must be from 0 to 2 rad/s")
+    component.write(basicPeriod="78", Arm_Device="/dev/other")
+    asked.reloadConfig()
+    running.wait_for("device cannot be changed while the component runs: it is not editable")
+    assert asked.getParameterList()["basicPeriod"].value == "77"
+    component.config.unlink()
+    asked.reloadConfig()
+    until(lambda: running.output.count("reloadConfig refused") == 3, "the third refusal")
+    assert asked.getParameterList()["basicPeriod"].value == "77"
+
+
+PAPER = ROOT / "examples" / "jointmotor"
+SHOW = {
+    "python": """\
+from generated.genericworker import GenericWorker
+
+
+class SpecificWorker(GenericWorker):
+    def initialize(self):
+        now = self.parameters
+        print(now.handler, now.device, now.baudRate, now.basicPeriod, len(now.motors), flush=True)
+        for m in now.motors:
+            print(m.name, m.id, int(m.invertedSign), f"{m.min:g} {m.max:g} {m.zero:g} {m.vel:g}", flush=True)
+""",
+    "cpp": """\
+#include "specificworker.h"
+
+#include <iostream>
+
+void SpecificWorker::initialize()
+{
+    std::cout << (parameters.handler() == parameters::Handler::Dunkermotoren ? "Dunkermotoren" : "?") << " "
+              << parameters.device() << " " << parameters.baudRate() << " " << parameters.basicPeriod() << " "
+              << parameters.motors().size() << std::endl;
+    for (const auto& m : parameters.motors())
+    {
+        std::cout << m.name << " " << m.id << " " << m.invertedSign << " " << m.min << " " << m.max << " " << m.zero
+                  << " " << m.vel << std::endl;
+    }
+}
+
+void SpecificWorker::compute()
+{
+}
+""",
+}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_papers_component(rcyaml: Callable[..., Any], tmp_path: Path, start: Start, language: str) -> None:
+    """JointMotorComp as it is in the paper: compiled with its values, it reads them."""
+    shutil.copytree(PAPER, tmp_path, dirs_exist_ok=True)
+    result = rcyaml("compile", f"{language}/jointmotor.cdsl.yaml")
+    assert result.exit_code == 0, result.output
+    root = tmp_path / language
+    suffix = {"python": "py", "cpp": "cpp"}[language]
+    (root / "src" / f"specificworker.{suffix}").write_text(_with_stubs(root, SHOW[language], language))
+    if language == "cpp":
+        cmake(root, "-DCMAKE_BUILD_TYPE=Plain", jobs=1)
+    (program,) = (root / "bin").iterdir()
+    running = start([*([sys.executable] if language == "python" else []), program, "--startup-check"])
+    running.wait_for("Dunkermotoren /dev/ttyUSB0 115200 220 2\n")
+    running.wait_for("dunker0 A 1 -3.14 3.14 0 0.9\ndunker1 B 0 -3.14 3.14 0 0.9\n")
+    assert running.exit_code() == 0
+
+
+def _with_stubs(root: Path, text: str, language: str) -> str:
+    """The user's class, with the methods of the interface as they were generated in C++."""
+    if language == "python":
+        return text
+    written = (root / "src" / "specificworker.cpp").read_text()
+    _, brace, stubs = written.partition("void SpecificWorker::compute()\n{\n}\n")
+    assert brace
+    return text + stubs

@@ -1,0 +1,143 @@
+"""What is said of a state machine, each thing once and where it is; of right machines, nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+HEAD = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" {}>\n'
+Check = Callable[..., list[dict[str, Any]]]
+
+
+def said(diagnostics: Check, scxml: str, language: str = "python") -> list[str]:
+    files = {"c/c.cdsl.yaml": f"component: C\nlanguage: {language}\nstatemachine: c.scxml\n", "c/c.scxml": scxml}
+    return [f"{d['line']}:{d['column']} {d['code']} {d['message']}" for d in diagnostics(files)]
+
+
+def inline(diagnostics: Check, text: str) -> list[str]:
+    files = {"c/c.cdsl.yaml": f"component: C\nlanguage: cpp\nstatemachine:\n{text}"}
+    return [f"{d['line']}:{d['column']} {d['code']} {d['message']} {d['hint']}".strip() for d in diagnostics(files)]
+
+
+def machine(inner: str, attributes: str = 'initial="a"') -> str:
+    return HEAD.format(attributes) + inner + "\n</scxml>\n"
+
+
+A_B = '<state id="a"><transition event="go" target="b"/></state><state id="b"/>'
+
+
+@pytest.mark.parametrize(("scxml", "messages"), [
+    (machine(A_B), []),
+    (machine(A_B, 'initial="b"'), ["2:12 RC2227 nothing leads to the state 'a'"]),
+    (machine(A_B, 'initial="c"'), ["1:71 RC2221 there is no state 'c'"]),
+    (machine('<state id="a"><transition event="done.state.a" target="b"/></state><final id="b"/>'),
+     ["2:34 RC2229 nobody sends the event 'done.state.a': 'a' has no final state in it"]),
+    (machine('<state id="a"><transition event="done.invoke.x error.* * .*"/></state>'),
+     ["2:34 RC2229 nobody sends the event 'done.invoke.x': nothing is invoked under this name"]),
+    (machine('<state id="a"><transition event="go" target="b c"/></state>'
+             '<parallel id="p"><state id="b"/><state id="c"/></parallel>'), []),
+    (machine('<state id="a"><transition event="go" target="p b"/></state>'
+             '<parallel id="p"><state id="b"/></parallel>'),
+     ["2:46 RC2226 'p' and 'b' cannot be entered at once"]),
+    (machine('<state id="a"><transition cond="x" target="a"/><transition target="a"/></state>'), []),
+    (machine('<state id="a" initial="b"><transition target="a"/><state id="b"/></state>'),
+     ["2:27 RC2233 this goes round for ever: a → a"]),
+    (machine('<state id="a"><transition event="go" target="d"/></state><state id="b" initial="c">'
+             '<state id="c"/><state id="d"><transition event="back" target="b"/></state></state>'), []),
+    (machine('<state id="a"><transition event="go" target="d"/></state><state id="b" initial="c">'
+             '<state id="c"/><state id="d"/></state>'), ["2:95 RC2227 nothing leads to the state 'c'"]),
+    (machine('<state id="a" initial="b"><state id="b"><transition event="x" target="e"/></state>'
+             '<history id="h"><transition target="b"/></history></state>'
+             '<state id="e"><transition event="y" target="h"/></state>'), []),
+    (machine('<state id="ä"/>', 'initial="ä"'), ["2:12 RC2222 'ä' cannot be the name of a state"]),
+    (machine('<state id="a"><onentry><script>while True: pass</script></onentry></state>'),
+     ["2:24 RC2217 the script 'while True: pass' is not of the data model null: 'while True: pass' is no name of an "
+      "action"]),
+    (machine('<state id="a"><transition cond="In(\'z\')" event="x"/></state>'), ["2:33 RC2221 there is no state 'z'"]),
+    (machine('<state id="a"><onentry><foreach array="x" item="y"/><assign location="z" expr="1"/></onentry></state>'),
+     ["2:40 RC2218 <foreach> needs a data model with variables",
+      "2:71 RC2218 <assign> needs a data model with variables"]),
+    (machine('<state id="a"><transition event="x" cond="class"/></state>'),
+     ["2:43 RC2237 'class' cannot be the name of a guard or of an action"]),
+    (machine('<state id="a"><transition event="x" cond="sm_a"/></state>'),
+     ["2:43 RC2231 the state 'a' and the guard 'sm_a' would both be called 'sm_a' in code"]),
+    (machine('<state id="a"><transition event="x" cond="y"><script>y</script></transition></state>'),
+     ["2:46 RC2231 the guard 'y' and the action 'y' would both be called 'y' in code"]),
+    (machine('<state id="a"><transition event="a.b a_b"/></state>'),
+     ["2:34 RC2231 the event 'a.b' and the event 'a_b' would both be called 'a_b' in code"]),
+    (machine('<state id="a"><transition event="x"/></state>',
+             'initial="a" xmlns:rc="urn:robocomp:statemachine" rc:events="y"'),
+     ["2:34 RC2229 nobody sends the event 'x'"]),
+    (machine('<state id="a"><invoke><content><scxml initial="z"><state id="y"/></scxml></content></invoke></state>'),
+     ["2:48 RC2221 there is no state 'z'"]),
+    (machine('<state id="a"><invoke src="../x.scxml"/></state>'),
+     ["2:28 RC2215 '../x.scxml' cannot be included: it does not stand below the document's folder"]),
+    (machine('<state id="a"><invoke src="http://127.0.0.1/x.scxml"/></state>'),
+     ["2:28 RC2215 'http://127.0.0.1/x.scxml' cannot be included: only files can be"]),
+    (machine('<state id="a"><invoke src="c.scxml"/></state>'),
+     ["2:28 RC2215 'c.scxml' cannot be included: it includes itself"]),
+    (machine('<state id="a"><invoke src="d.scxml"/></state>'),
+     ["2:28 RC2215 'd.scxml' cannot be included: there is no such file"]),
+    (machine('<state id="a"><onentry><send event="x" delay="1"/></onentry><transition event="x"/></state>'),
+     ["2:47 RC2211 '1' is no value of 'delay'"]),
+    (machine('<state id="a"/>', 'initial="a" datamodel="python"').replace("<state", "<script>import os\n</script><state"),
+     []),
+    ("\ufeff" + machine(A_B), []),
+    ("", ["1:1 RC2202 this is not well-formed XML: no element found"]),
+    ("<scxml>", ["1:8 RC2202 this is not well-formed XML: no element found"]),
+], ids=lambda value: repr(value)[75:140] if isinstance(value, str) else "")  # fmt: skip
+def test_files(diagnostics: Check, scxml: str, messages: list[str]) -> None:
+    assert said(diagnostics, scxml) == messages
+
+
+def test_guards_and_methods_of_interfaces_share_a_class(diagnostics: Check) -> None:
+    files = {
+        "c/c.cdsl.yaml": "component: C\nlanguage: cpp\nimports: [A]\nrequires: [A]\nimplements: [A]\n"
+        "statemachine: {initial: a, transitions: {a: {to: a, if: A_f or a_proxy}}}\n",
+        "c/A.idsl.yaml": "module: M\ninterfaces: {A: {methods: {f: }}}\n",
+    }
+    assert [(d["code"], d["message"]) for d in diagnostics(files)] == [
+        ("RC2231", "the method 'A_f' and the guard 'A_f' would both be called 'A_f' in code"),
+        ("RC2231", "the proxy 'A' and the guard 'a_proxy' would both be called 'a_proxy' in code"),
+    ]
+
+
+def test_no_script_language_in_cpp(diagnostics: Check) -> None:
+    text = machine('<state id="a"/>', 'initial="a" datamodel="python"')
+    assert said(diagnostics, text, "cpp") == ["1:1 RC2216 the data model 'python' is not available in C++"]
+
+
+@pytest.mark.parametrize(("text", "messages"), [
+    ("  initial: a\n", []),
+    ("  initial: a\n  transitions: {a: [{event: go, do: beep}, {event: x, if: y}]}\n", []),
+    ("  initial: a\n  transitions: {a: b}\n", ["5:20 RC2221 there is no state 'b'"]),
+    ("  initial: a\n  transitions: {b: a}\n", ["5:17 RC2221 there is no state 'b'"]),
+    ("  initial: a\n  transitions: {a: {do: b}}\n",
+     ["5:20 RC2233 this goes round for ever: a → a give one of the transitions an event or a condition"]),
+    ("  initial: a\n  states: {b: {states: {c: {}}}}\n  transitions: {a: b}\n",
+     ["5:12 RC2223 the state 'b' does not say which of its states it starts in write initial: c"]),
+    ("  initial: a\n  states: {b: {parallel: true, states: {c: {}}}}\n  transitions: {a: b}\n", []),
+    ("  initial: a\n  states: {b: {initial: c, states: {c: {}, d: {}, h: {history: deep}}}}\n"
+     "  transitions: {a: b, c: d, b: {to: h, event: again}}\n",
+     ["5:51 RC2223 the history 'h' does not say which of its states it starts in write transitions: {h: …}, for when "
+      "there is nothing to remember yet"]),
+    ("  initial: a\n  transitions: {a: {to: a, event: x y.z w.*, if: 'In(\"a\")'}}\n", []),
+    ("  initial: a\n  transitions: {a: {to: a, if: '1 < 2'}}\n",
+     ["5:32 RC2217 the condition '1 < 2' is not of the data model null: '1 < 2' is no name of a guard, nor In('state')"]),
+], ids=lambda value: repr(value)[:60] if isinstance(value, str) else "")  # fmt: skip
+def test_inline(diagnostics: Check, text: str, messages: list[str]) -> None:
+    assert inline(diagnostics, text) == messages
+
+
+def test_a_component_whose_machine_is_wrong_is_not_compiled(rcyaml: Callable[..., Any], diagnostics: Check) -> None:
+    assert said(diagnostics, machine(A_B.replace('target="b"', 'target="c"'))) != []
+    result = rcyaml("compile", ".")
+    assert result.exit_code == 1
+    assert "wrote" not in result.output
+
+
+def test_a_large_machine_is_checked_in_a_moment(diagnostics: Check) -> None:
+    states = "".join(f'<state id="s{n}"><transition event="e{n}" target="s{n + 1}"/></state>' for n in range(3000))
+    assert said(diagnostics, machine(states + '<state id="s3000"/>', 'initial="s0"')) == []

@@ -1,0 +1,77 @@
+"""What a state machine adds to a component, in each language."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+
+from conftest import write_tree
+from robocomp_yaml.emit.machines.text import cpp_string, python
+from robocomp_yaml.emit.plan import FilePlan
+from robocomp_yaml.emit.targets import languages
+from robocomp_yaml.pipeline import analyse
+
+DOOR = """component: Door
+language: LANGUAGE
+statemachine:
+  initial: closed
+  final: gone
+  events: [open, door.push]
+  states:
+    closed: {doc: Nobody passes.}
+    opened:
+      initial: still
+      entry: [ring, {send: tired, after: 5 s, id: patience}]
+      exit: {cancel: patience}
+      states: {still: {}, moving: {}, last: {history: deep}}
+      transitions:
+        still: {to: moving, event: door.push, if: "pushed and not In('closed')", do: ring}
+        last: still
+  transitions:
+    closed: {to: opened, event: open}
+    opened: {to: gone, event: tired, do: killYourSelf}
+"""
+PLAIN = "component: Door\nlanguage: LANGUAGE\n"
+
+
+def planned(folder: Path, document: str, language: str, **others: str) -> dict[str, FilePlan]:
+    write_tree(folder, {"door.cdsl.yaml": document.replace("LANGUAGE", language), **others})
+    analysis = analyse([str(folder)])
+    assert analysis.diagnostics == []
+    [component] = analysis.program.components.values()
+    return {file.path: file for file in languages()[language].plan(component)}
+
+
+@pytest.mark.parametrize("language", ["python", "cpp"])
+def test_golden(language: str, tmp_path: Path, golden: Callable[[str, Mapping[str, str]], None]) -> None:
+    files = planned(tmp_path, DOOR, language)
+    own = ("generated/statemachine.", "generated/genericworker.", "src/")
+    golden(f"statemachine/{language}", {path: file.text for path, file in files.items() if path.startswith(own)})
+
+
+@pytest.mark.parametrize("language", ["python", "cpp"])
+def test_a_component_without_a_machine_has_nothing_of_it(language: str, tmp_path: Path) -> None:
+    with_machine, without = planned(tmp_path / "a", DOOR, language), planned(tmp_path / "b", PLAIN, language)
+    more = {path for path in with_machine if path not in without}
+    assert more == {path for path in with_machine if "/machine/" in path or "/statemachine." in path}
+    assert not any("machine" in file.text for path, file in without.items() if "runtime" not in path)
+
+
+def test_the_part_that_evaluates_is_there_only_where_it_is_asked_for(tmp_path: Path) -> None:
+    scxml = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" datamodel="{}"><final id="a"/></scxml>\n'
+    document = PLAIN + "statemachine: door.scxml\n"
+    for datamodel in ("null", "python"):
+        files = planned(tmp_path / datamodel, document, "python", **{"door.scxml": scxml.format(datamodel)})
+        assert ("generated/machine/scripting.py" in files) == (datamodel == "python")
+        machine = {path: file.text for path, file in files.items() if "runtime" not in path}
+        evaluates = {path for path, text in machine.items() if "eval(" in text or "exec(" in text}
+        assert evaluates == ({"generated/machine/scripting.py"} if datamodel == "python" else set())
+
+
+@pytest.mark.parametrize("text", ['"', "\\", "'''", "\n", "??/", "é\0", '*/ #include "x"', "{{ x }}", "\x1b[0m"])
+def test_texts_stay_texts(text: str) -> None:
+    assert eval(python(text)) == text
+    literal = cpp_string(text)
+    assert "\n" not in literal and '"' not in literal[1:-1].replace('\\"', "").replace("\\042", "")
