@@ -169,9 +169,5 @@ def _unresolved(document: Module | Component, cause: str, state: _State) -> Diag
 
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
-    asked = {
-        "statemachine": component.statemachine and component.compatibility,  # RoboComp's own had other names
-    }  # fmt: skip
-    for key, value in asked.items():
-        if value:
-            yield cdsl.NOT_COMPILED_YET.at(component.span, key=key)
+    if component.compatibility and (linked.machine or component.statemachine):  # RoboComp's own had other names
+        yield cdsl.NOT_COMPILED_YET.at(component.span, key="statemachine")
