@@ -7,7 +7,7 @@ from robocomp_yaml.diag.code import Code
 _COMPONENT = "component: AgentComp\nlanguage: cpp\n"
 
 UNKNOWN_OPTION = Code(
-    "RC2401",
+    "RC2351",
     "warning",
     "there is no option '{name}': it adds nothing",
     "Options are those of RoboComp's own generator. They stand for imports and interfaces, which are added to those "
@@ -16,7 +16,7 @@ UNKNOWN_OPTION = Code(
     {"agent.cdsl.yaml": _COMPONENT},
 )
 LEFT = Code(
-    "RC2402",
+    "RC2352",
     "note",
     "option '{name}' adds no interface; yours to write is {left}",
     "RoboComp's own generator wrote code for this option that belongs to a library, not to a component. The option "

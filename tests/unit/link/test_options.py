@@ -76,5 +76,5 @@ def test_what_is_not_there_is_told_at_the_option(linked: Callable[..., tuple[Ana
 @pytest.mark.parametrize("option", ["dsr", "DSR", "InnerModelViewer"])
 def test_options_without_interfaces(linked: Callable[..., tuple[Analysis, LinkedComponent]], option: str) -> None:
     analysis, component = linked(f"component: Agent\nlanguage: cpp\noptions: [{option}]\n")
-    assert [(d.code, d.severity) for d in analysis.diagnostics] == [("RC2402", "note")]
+    assert [(d.code, d.severity) for d in analysis.diagnostics] == [("RC2352", "note")]
     assert not any(ports(component).values())
