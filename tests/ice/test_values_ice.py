@@ -103,7 +103,7 @@ SPELLED = st.fixed_dictionaries({
 
 
 @given(SPELLED)
-@RELAXED
+@settings(RELAXED, max_examples=50)
 def test_spelled_values_come_back_or_are_refused(by_ice, data: Data) -> None:
     of = linked(MOTOR)
     for name, value in data.items():  # one at a time: a fault of one hides nothing of another
