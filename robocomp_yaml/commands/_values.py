@@ -65,8 +65,10 @@ def _effective(ctx: click.Context, file: str, include: tuple[str, ...]) -> tuple
         _fail(ctx, loaded.diagnostics, loaded.documents)
     if loaded.values is None or loaded.values.parameters is None:
         _fail(ctx, [codes.NO_COMPONENT.at(Span(file)).as_severity("error")], loaded.documents)
-    values, _ = effective(loaded.values)
-    assert values is not None
+    values, found = effective(loaded.values)
+    if values is None:  # what is wrong is no error in this workspace, and leaves nothing to show all the same
+        problem = "the values cannot be completed: `rcyaml check` says what is wrong with their parameters"
+        _fail(ctx, [*found, file_codes.WRONG_SHAPE.at(Span(file), problem=problem)], loaded.documents)
     return loaded, values
 
 

@@ -10,7 +10,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
-from robocomp_yaml.check.forms import FORM
+from robocomp_yaml.check.cdsl.forms import FORM
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
@@ -169,9 +169,5 @@ def _unresolved(document: Module | Component, cause: str, state: _State) -> Diag
 
 def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
     component = linked.component
-    asked = {
-        "statemachine": component.statemachine and component.compatibility,  # RoboComp's own had other names
-    }  # fmt: skip
-    for key, value in asked.items():
-        if value:
-            yield cdsl.NOT_COMPILED_YET.at(component.span, key=key)
+    if component.compatibility and (linked.machine or component.statemachine):  # RoboComp's own had other names
+        yield cdsl.NOT_COMPILED_YET.at(component.span, key="statemachine")

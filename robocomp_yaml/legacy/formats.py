@@ -48,6 +48,9 @@ def _may_be(rules: Rules, said: Rules | None) -> bool:
 
 def _unless_foreign(rules: Rules, source: Source) -> tuple[Rules | None, list[Diagnostic]]:
     """Other programs' files look alike: None where one of their marks is in this one."""
+    if rules.weak and not os.path.basename(source.path).isprintable():
+        reason = "the name of this file is no text, so no document can say it; rename the file"
+        return None, [codes.REFUSED.at(Span(source.path), reason=reason)]
     for pattern, reason in rules.foreign:
         if found := pattern.search(source.text):
             mark = source.text[found.start() : found.end()]

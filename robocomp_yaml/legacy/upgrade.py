@@ -15,7 +15,8 @@ from robocomp_yaml.legacy.result import Migration
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.source.text import read_bytes
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence as Items, parse
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, parse
+from robocomp_yaml.source.tree import Sequence as Items
 
 MAX_DOCUMENT = 4 << 20
 _FILE = "upgrades.yaml"

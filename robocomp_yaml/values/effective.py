@@ -17,6 +17,7 @@ from robocomp_yaml.values.json_schema import DOCUMENT, EFFECTIVE
 from robocomp_yaml.values.judge import Path, judge, missing, wrong_size
 from robocomp_yaml.values.layers import Place, data_of, merged
 from robocomp_yaml.values.normalize import fits, normalized
+from robocomp_yaml.values.usable import is_usable
 
 
 @dataclass(slots=True)
@@ -52,7 +53,7 @@ def effective(values: LinkedValues) -> tuple[Effective | None, list[Diagnostic]]
     found = [] if is_right else [fault for layer in layers for fault in _layer_faults(layer, linked)]
     if not is_right and not values.broken and not fits(linked, EFFECTIVE, data):
         found += _not_misspelled(found, _incomplete(root, place, (), _head(values)))
-    if found or linked.broken or values.broken:
+    if found or values.broken or not is_usable(linked):
         return None, found
     # All judges agree (a test sees to it); were Cerberus ever to differ, the schema's verdict stands.
     complete = normalized(linked, data) or with_defaults(root, data)

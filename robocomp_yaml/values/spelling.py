@@ -76,9 +76,9 @@ def _rows(spelling: Spelling, element: Type, holes: tuple[str, ...]) -> str:
     if not holes:
         return "needs {i}, the row's number, in its key (or 'separators', for a list in one property)"
     if isinstance(element, RecordType):
-        if "i" not in holes and spelling.count:
-            return "has no row's number, so no 'count'"
-        return _row(spelling, element, tuple(hole for hole in holes if hole != "i"))
+        if found := _row(spelling, element, tuple(hole for hole in holes if hole != "i")):
+            return found
+        return "has no row's number, so no 'count'" if "i" not in holes and spelling.count else ""
     if holes != ("i",):
         return "has holes other than {i}, and the entries are no records"
     if spelling.columns:

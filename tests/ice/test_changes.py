@@ -49,7 +49,7 @@ CHANGES = [
     Change("all of a module", less={"implements": [], "imports": ["Types"]}),
     Change("a published topic", {"publishes": ["ArmEvents"]}),
     Change("a subscribed topic", {"subscribes": ["ArmEvents"]}),
-    Change("a method", files={"Arm.idsl.yaml": ARM.replace("      betray: {}\n", "      betray: {}\n      wave: {in: {n: int}}\n")}),
+    Change("a method", files={"Arm.idsl.yaml": ARM.replace("      betray:", "      wave: {in: {n: int}}\n      betray:")}),
     Change("another name of a method", files={"Arm.idsl.yaml": ARM.replace("      betray:", "      deceive:")}),
     Change("a parameter", {"parameters": "robot.pdsl.yaml"}, files={"robot.pdsl.yaml": PDSL}),
     Change("a state machine", {"statemachine": MACHINE}),
@@ -97,8 +97,14 @@ def test_it_builds_and_runs_after_a_change(
         ]
     told = json.loads(rcyaml("compile", "--format", "json").stdout)["diagnostics"]
     assert {d["code"] for d in told} <= {"RC6203"}, "nothing is lacking any more"
-    if merged != yours:
+    if code(merged) != code(yours):
         assert_runs(tmp_path, language, storm)
+
+
+def code(files: Mapping[str, str]) -> list[str]:
+    """Without comments and blank lines, for which no compiler need run."""
+    lines = [line.strip() for text in files.values() for line in text.splitlines()]
+    return [line for line in lines if line and not line.startswith(("//", "#   ", '"""'))]
 
 
 def documents(language: str, keys: Keys, files: Mapping[str, str]) -> dict[str, str]:

@@ -129,9 +129,13 @@ SAME_FOLDER = Code(
 NOT_COMPILED_YET = Code(
     "RC2090",
     "warning",
-    "`{key}` is checked and kept, but this version of rcyaml does not compile it yet",
-    "The document is right, and what is compiled from the rest of it runs; what this key asks for is missing in it.",
-    _component("imports: [Speech]\nimplements: [Speech]\noptions: [dsr]\n"),
+    "`{key}` is checked and kept, but not compiled beside `compatibility: robocomp`",
+    "Code for RoboComp's own tool drives a state machine by names of its own. The document is right, and what is "
+    "compiled from the rest of it runs; what this key asks for is missing in it.",
+    _component(
+        "imports: [Speech]\nimplements: [Speech]\ncompatibility: robocomp\n"
+        "statemachine: {initial: rest, states: {rest: {}, act: {}}, transitions: {rest: act, act: rest}}\n"
+    ),
     _RIGHT,
     "compile .",
 )

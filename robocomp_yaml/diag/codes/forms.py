@@ -1,4 +1,4 @@
-"""RC24xx: forms, the windows of components."""
+"""RC25xx: forms, the windows of components."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _FORM = (
 _RIGHT = {"speech.cdsl.yaml": _WINDOW, "src/mainUI.ui": _FORM}
 
 NOT_A_FORM = Code(
-    "RC2401",
+    "RC2501",
     "error",
     "this is no form of Qt: {reason}",
     "`gui:` promises a window, and `src/mainUI.ui` describes it, as Qt Designer writes it. `rcyaml compile` writes a "
@@ -22,7 +22,7 @@ NOT_A_FORM = Code(
     _RIGHT,
 )
 REFUSED = Code(
-    "RC2402",
+    "RC2502",
     "error",
     "a form has no {what}, and this one is not read",
     "What declares entities may say things that stand in no line of the file, or in other files. Qt Designer writes no "
@@ -31,7 +31,7 @@ REFUSED = Code(
     _RIGHT,
 )
 NO_DIALOG = Code(
-    "RC2403",
+    "RC2503",
     "error",
     "the form's class is {found}, and must be guiDlg",
     "Generated code looks for the class `Ui_guiDlg`, as RoboComp's does: the form's `<class>` and its outermost widget "
@@ -40,7 +40,7 @@ NO_DIALOG = Code(
     _RIGHT,
 )
 OTHER_BASE = Code(
-    "RC2404",
+    "RC2504",
     "error",
     "the form is a {found}, and the component's window a {base}",
     "The outermost widget of `src/mainUI.ui` must be what `gui:` says, or a plain QWidget.",

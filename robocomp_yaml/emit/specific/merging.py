@@ -25,19 +25,21 @@ def merge_files(root: Root, files: Sequence[Own]) -> tuple[dict[str, Merge], lis
     sides: list[Side] = []
     for file in files:
         path = root.shown(file.plan.path)
-        if file.yours is None:
-            refusals.append(codes.CONFLICT.at(Span(path), path=path, reason="it is not UTF-8 text"))
+        if file.yours is None or (file.is_link and not file.is_settled):
+            reason = "it is not UTF-8 text" if file.yours is None else "it is a link: merge what it leads to by hand"
+            refusals.append(codes.CONFLICT.at(Span(path), path=path, reason=reason))
         else:
             sides.append(Side(file.plan.path, file.base, file.yours, file.plan.text))
     folders = {side.path.rpartition("/")[0] for side in sides if side.path.startswith("src/")}
     known = {side.path for side in sides}
     others = [code for folder in sorted(folders) for code in sources.others(root, folder, known)]
     merged: dict[str, Merge] = {}
-    for file, result in zip([file for file in files if file.yours is not None], merge(sides, others), strict=True):
+    data = {file.plan.path: file.data for file in files}
+    for result in merge(sides, others):
         if result.reason:
             refusals += _refusals(root, result)
         else:
-            merged[result.path] = Merge(file.data, result.text.encode(), result.base.encode())
+            merged[result.path] = Merge(data[result.path], result.text.encode(), result.base.encode())
     return ({}, refusals) if refusals else (merged, [])
 
 

@@ -17,12 +17,13 @@ SOURCES = "src"
 @dataclass(frozen=True, slots=True)
 class Own:
     """A file of the user that a plan has a skeleton for. Texts are None where they are no UTF-8; `base` also where
-    there is none, or none is needed."""
+    there is none, or none is needed. A link is not written through."""
 
     plan: FilePlan
     data: bytes
     yours: str | None
-    base: str | None
+    base: str | None = None
+    is_link: bool = False
 
     @property
     def is_settled(self) -> bool:
@@ -72,7 +73,7 @@ def _own(plan: RootPlan, root: Root, every: bool, result: Review) -> Iterator[Ow
         result.contents[path] = found.data if found.data is not None else file.text.encode()
         if found.problem or found.data is None:
             continue
-        own = Own(file, found.data, _text(found.data), None)
+        own = Own(file, found.data, _text(found.data), is_link=not found.mode)
         if not own.is_settled:
             base, where = root.look(f"{BASE}/{file.path}"), root.shown(f"{BASE}/{file.path}")
             if base.data is None:

@@ -10,7 +10,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.places import Root
 from robocomp_yaml.emit.specific import entries, sources
-from robocomp_yaml.emit.specific.code import CLASS, Code, Method, read
+from robocomp_yaml.emit.specific.code import CLASS, Code, Method, is_code, read
 from robocomp_yaml.emit.specific.compare import Comparison, Lacking, compare
 from robocomp_yaml.emit.specific.insert import lead
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def tell(root: Root, files: Sequence[Own]) -> Iterator[Diagnostic]:
-    code = [file for file in files if file.yours is not None and read(file.plan.path, "") is not None]
+    code = [file for file in files if file.yours is not None and is_code(file.plan.path)]
     if any(not file.is_settled for file in code):
         yield from _about_class(root, code)
     for file in files:

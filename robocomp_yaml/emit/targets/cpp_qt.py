@@ -39,7 +39,7 @@ class Enumerators:
 
 @dataclass(frozen=True, slots=True)
 class RobocompView:
-    """What only code written for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods`
+    """What only code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods`
     are declared for those who override them; `legacy_sources` are names that RoboComp's own files have in `src/`."""
 
     base: str

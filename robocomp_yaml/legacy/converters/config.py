@@ -22,6 +22,7 @@ from robocomp_yaml.legacy.settings.entries import (
 )
 from robocomp_yaml.source import properties
 
+MAX_KEY = 1000
 _CLASSIC_KEY = re.compile(r"\.Endpoints$|Proxy\d*$")
 _PROTECTED = re.compile(r'\s*"(?P<value>[^"]*#[^"]*)"\s*(?:#(?P<comment>.*))?$')
 
@@ -45,7 +46,7 @@ def convert(reader: Reader) -> Draft | None:
             reader.repaired("invalid", node)
         elif not entry.value and protected is None:
             reader.repaired("empty", node, entry.key)
-        elif reason := properties.unwritable(entry.key, entry.value):
+        elif reason := properties.unwritable(entry.key, entry.value) or _too_long(entry.key):
             what = reader.rules.losses["unwritable"].format(text=entry.key, reason=reason)
             reader.diagnostics.append(codes.LOST.at(reader.span(node), what=what))
         elif entry.key in last and last[entry.key].line > line:
@@ -63,6 +64,11 @@ def convert(reader: Reader) -> Draft | None:
     around.foot[:0] = waiting
     settle_head(found, around)
     return Draft(Map(), [], around, settings=found)
+
+
+def _too_long(key: str) -> str:
+    """Why no YAML document can have such a key, or ''."""
+    return f"its name has more than {MAX_KEY} characters" if len(key) > MAX_KEY else ""
 
 
 def _dialect(reader: Reader, ice: properties.Properties) -> str:

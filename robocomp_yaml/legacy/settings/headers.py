@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from robocomp_yaml.legacy.reading import Source
@@ -102,10 +102,15 @@ def sanitized(text: str) -> str:
 
 def unique(names: Sequence[str]) -> list[str]:
     """Names, those that stand there before with a number."""
-    found: list[str] = []
+    found: dict[str, None] = {}
     for name in names:
-        free, number = name, 2
-        while free in found:
-            free, number = f"{name}_{number}", number + 1
-        found.append(free)
+        found[free(name, found)] = None
+    return list(found)
+
+
+def free(name: str, taken: Container[str]) -> str:
+    """A name that is not taken: itself, or with a number."""
+    found, number = name, 2
+    while found in taken:
+        found, number = f"{name}_{number}", number + 1
     return found

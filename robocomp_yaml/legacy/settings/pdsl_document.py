@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw, Value
 from robocomp_yaml.legacy.settings.entries import STRING
-from robocomp_yaml.legacy.settings.headers import unique
+from robocomp_yaml.legacy.settings.headers import free
 from robocomp_yaml.legacy.settings.plan import Path, Plan, Spelled
 from robocomp_yaml.legacy.settings.shapes import Field, ListOf, Record, Scalar, Shape, leaves
 
@@ -42,7 +42,7 @@ class _Writer:
     def parameters(self, plans: Sequence[Plan]) -> Map:
         top = Map(block=True)
         groups: dict[Path, Map] = {(): top}
-        siblings: dict[Path, list[str]] = {}
+        siblings: dict[Path, set[str]] = {}
         for plan in plans:
             for depth in range(1, len(plan.path)):
                 path = plan.path[:depth]
@@ -64,15 +64,15 @@ class _Writer:
             groups[plan.path[:-1]].put(plan.path[-1], short, notes)
         return top
 
-    def _code_name(self, body: Map, path: Path, siblings: dict[Path, list[str]]) -> None:
+    def _code_name(self, body: Map, path: Path, siblings: dict[Path, set[str]]) -> None:
         """`as:` where the name is no identifier, or another one's."""
-        used = siblings.setdefault(path[:-1], [])
+        used = siblings.setdefault(path[:-1], set())
         name = re.sub(r"[^A-Za-z0-9_]", "_", path[-1])
         name = f"p{name}" if name[0].isdigit() else name
-        free = unique([*used, name])[-1]
-        used.append(free)
-        if free != path[-1]:
-            body.put("as", free)
+        own = free(name, used)
+        used.add(own)
+        if own != path[-1]:
+            body.put("as", own)
 
     def type(self, shape: Shape, name: str, plan: Plan, body: Map) -> None:
         if isinstance(shape, ListOf):
@@ -93,16 +93,16 @@ class _Writer:
         title = next((known for known, record in self.known.items() if record == shape and known == own), "")
         if title:
             return title
-        title = unique([*self.known, own])[-1]
+        title = free(own, self.known)
         self.known[title] = shape
         docs = {column.name: column.doc for column in plan.docs}
-        members, used = Map(block=True), dict[Path, list[str]]()
+        members, used = Map(block=True), dict[Path, set[str]]()
         for field in shape.fields:
             members.put(field.name, self.member(field, plan, docs.get(field.name, ""), used))
         self.types.put(title, Map([Entry("struct", members)]))
         return title
 
-    def member(self, field: Field, plan: Plan, doc: str, used: dict[Path, list[str]]) -> Value:
+    def member(self, field: Field, plan: Plan, doc: str, used: dict[Path, set[str]]) -> Value:
         body = Map()
         self.type(field.shape, field.name, plan, body)
         if field.optional:

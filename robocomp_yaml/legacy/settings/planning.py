@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from robocomp_yaml.legacy.settings.entries import INT, Item, Leaf, Setting, guess
+from robocomp_yaml.legacy.settings.entries import INT, TOML, Item, Leaf, Setting, guess
 from robocomp_yaml.legacy.settings.families import families
-from robocomp_yaml.legacy.settings.headers import sanitized, unique
+from robocomp_yaml.legacy.settings.headers import free, sanitized
 from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan, Spelled
 from robocomp_yaml.legacy.settings.rows import could_be_list, is_list, joiner, separators, split
-from robocomp_yaml.legacy.settings.shapes import retyped, shape_of
+from robocomp_yaml.legacy.settings.shapes import becomes_text, retyped, shape_of
 
 _PERIODS = {("period",): "compute", ("Period", "Compute"): "compute", ("Period", "Emergency"): "emergency",
             ("period", "compute"): "compute", ("period", "emergency"): "emergency"}
@@ -30,6 +30,9 @@ def plans(configs: Sequence[Config], guesses: Guesses) -> list[Plan]:
     for plan in kept:
         plan.optional = len(plan.given) < len(configs)
         assert plan.shape is not None
+        mixed = [c.name for c in configs if c.sorted.dialect == TOML and c.name in plan.given]
+        if not plan.guessed and any(becomes_text(plan.shape, plan.given[name].item.value) for name in mixed):
+            plan.guessed = "it is text in one place and a number in another, so it is text from now on"
         plan.shape = retyped(plan.shape, ".".join(plan.path), guesses.types)
     return kept
 
@@ -79,7 +82,7 @@ def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
         else:
             plan.path = tuple(_legal(part) for part in original)
         if plan.shape is not None and plan.spelled is not None and plan.path in taken | groups:
-            plan.path = (*plan.path[:-1], unique([*(p[-1] for p in taken | groups), f"{plan.path[-1]}_list"])[-1])
+            plan.path = (*plan.path[:-1], free(f"{plan.path[-1]}_list", {path[-1] for path in taken | groups}))
         if plan.shape is None or plan.path in taken or (plan.path in groups and not plan.built_in):
             give_back(plan, configs)
             continue

@@ -99,6 +99,16 @@ def plain(leaf: Leaf, kind: str) -> Value:
     return leaf.text if kind == STRING else Raw(leaf.text)
 
 
+def becomes_text(shape: Shape, tree: Tree) -> bool:
+    """Whether a number or truth value stands where others have text, so that it is text from now on."""
+    if isinstance(tree, Leaf):
+        return shape == Scalar(STRING) and tree.kind != STRING
+    if isinstance(tree, list):
+        return isinstance(shape, ListOf) and any(becomes_text(shape.element, item.value) for item in tree)
+    shapes = {field.name: field.shape for field in shape.fields} if isinstance(shape, Record) else {}
+    return any(name in shapes and becomes_text(shapes[name], item.value) for name, item in tree.items())
+
+
 def leaves(tree: Tree) -> list[Leaf]:
     if isinstance(tree, Leaf):
         return [tree]

@@ -9,7 +9,10 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import CLASSIC, TOML, Leaf, Setting, Settings
-from robocomp_yaml.legacy.settings.headers import unique
+from robocomp_yaml.legacy.settings.headers import free
+
+MAX_DEPTH = 20
+"""So many parts may a parameter's key have; nobody writes half as many."""
 
 _WORD = re.compile(r"[A-Za-z_]\w*\Z")
 
@@ -59,7 +62,7 @@ class Sorted:
         if name and name not in taken:
             self.proxies.append(Named(name, setting))
         else:
-            self.proxies.append(Named(unique([*taken, setting.key])[-1], setting, setting.key))
+            self.proxies.append(Named(free(setting.key, taken), setting, setting.key))
 
     def keep(self, setting: Setting) -> None:
         """A property that no section has a place for."""
@@ -70,7 +73,7 @@ def sort(settings: Settings, ports: Ports, rules: Rules) -> Sorted:
     found = Sorted(settings.dialect)
     for setting in settings.settings:
         if not isinstance(setting.value, Leaf):
-            if rules.sections["service"].match(f"{setting.key}."):
+            if rules.sections["service"].match(f"{setting.key}.") or len(setting.path) > MAX_DEPTH:
                 what = f"only texts and numbers can stand here, so '{setting.key}' is left out"
                 found.diagnostics.append(codes.LOST.at(setting.span, what=what))
             else:
@@ -126,6 +129,8 @@ def _rest(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
         found.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
         found.keep(setting)
     elif rules.sections["service"].match(setting.key) or ports.takes(setting.key) or "${env:" in setting.text:
+        found.keep(setting)
+    elif len(setting.path) > MAX_DEPTH:
         found.keep(setting)
     else:
         found.parameters.append(setting)

@@ -34,23 +34,23 @@ Worker::Worker(const std::string& name, int period, runtime::Table parameters, c
 {
 }
 
-void Worker::begin()
+void Worker::beforeTurns()
 {
     statemachine.start();
 }
 
-std::optional<std::chrono::steady_clock::duration> Worker::between()
+std::optional<std::chrono::steady_clock::duration> Worker::betweenTurns()
 {
     return statemachine.run();
 }
 
-void Worker::turn()
+void Worker::takeTurn()
 {
     statemachine.turn();
-    runtime::Worker::turn();
+    runtime::Worker::takeTurn();
 }
 
-void Worker::end()
+void Worker::afterTurns()
 {
     statemachine.stop();
 }

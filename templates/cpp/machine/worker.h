@@ -19,14 +19,14 @@ public:
     Worker(const std::string& name, int period, runtime::Table parameters, const Machine& machine);
 
 protected:
-    std::optional<std::chrono::steady_clock::duration> between() override;
+    std::optional<std::chrono::steady_clock::duration> betweenTurns() override;
 
     StateMachine statemachine;
 
 private:
-    void begin() override;
-    void turn() override;
-    void end() override;
+    void beforeTurns() override;
+    void takeTurn() override;
+    void afterTurns() override;
 };
 
 }

@@ -75,7 +75,7 @@ protected:
         whenClosed(window, [this] { this->killYourSelf(); });
     }
 
-    std::optional<std::chrono::steady_clock::duration> between() override
+    std::optional<std::chrono::steady_clock::duration> betweenTurns() override
     {
         while (const auto job = takeJob())
         {
@@ -92,7 +92,7 @@ protected:
                 this->log.error("what was handed to the worker's thread failed");
             }
         }
-        return Base::between();
+        return Base::betweenTurns();
     }
 
 private:

@@ -48,7 +48,9 @@ public:
     /// The signal leads from this step to the target.
     void addTransition(QObject* sender, const char* signal, GRAFCETStep* target);
 
-    template <typename Sender, typename Signal, typename = std::enable_if_t<!std::is_convertible_v<Signal, const char*>>>
+    template <
+        typename Sender, typename Signal,
+        typename = std::enable_if_t<!std::is_convertible_v<Signal, const char*>>>
     void addTransition(Sender* sender, Signal signal, GRAFCETStep* target)
     {
         connect(sender, signal, this, [this, target] { leaveFor(target); });

@@ -12,6 +12,13 @@ namespace runtime
 namespace
 {
 
+// libstdc++'s usual way recurses once a character, and may take for ever: this one does neither.
+#ifdef __GLIBCXX__
+constexpr auto flags = std::regex_constants::ECMAScript | std::regex_constants::__polynomial;
+#else
+constexpr auto flags = std::regex_constants::ECMAScript;
+#endif
+
 std::wstring wide(const std::string& text)
 {
     const auto codes = characters(text);
@@ -22,7 +29,7 @@ std::wstring wide(const std::string& text)
 
 std::function<bool(const std::string&)> pattern(const std::string& expression)
 {
-    const auto compiled = std::make_shared<const std::wregex>(wide(expression));
+    const auto compiled = std::make_shared<const std::wregex>(wide(expression), flags);
     return [compiled](const std::string& text) { return std::regex_match(wide(text), *compiled); };
 }
 

@@ -60,7 +60,7 @@ void Worker::wake()
     stateChanged_.notify_all();
 }
 
-void Worker::turn()
+void Worker::takeTurn()
 {
     compute();
 }
@@ -72,13 +72,13 @@ void Worker::waitForEnd(Shutdown& shutdown)
 
 void Worker::run()
 {
-    begin();
+    beforeTurns();
     lastTurn_ = Clock::now();
     while (waitForTurn())
     {
         try
         {
-            turn();
+            takeTurn();
         }
         catch (const std::exception& problem)
         {
@@ -89,7 +89,7 @@ void Worker::run()
             log.error("compute() failed");
         }
     }
-    end();
+    afterTurns();
 }
 
 /// A turn that came late does not move those after it; turns that were missed altogether are left out.
@@ -100,7 +100,7 @@ bool Worker::waitForTurn()
     {
         woken_ = false;
         lock.unlock();
-        const auto pause = between();
+        const auto pause = betweenTurns();
         lock.lock();
         const auto next = lastTurn_ + period_;
         if (!stopping_ && !woken_)

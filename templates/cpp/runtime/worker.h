@@ -70,18 +70,18 @@ protected:
     // What else there is to do in the worker's thread: before the first turn, whenever it wakes up between two turns
     // (and in what time it is to do so again), in a turn, after the last one.
 
-    virtual void begin()
+    virtual void beforeTurns()
     {
     }
 
-    virtual std::optional<std::chrono::steady_clock::duration> between()
+    virtual std::optional<std::chrono::steady_clock::duration> betweenTurns()
     {
         return std::nullopt;
     }
 
-    virtual void turn();
+    virtual void takeTurn();
 
-    virtual void end()
+    virtual void afterTurns()
     {
     }
 

@@ -19,7 +19,7 @@ Job = Callable[[], object]
 class Loop(QObject):
     """Jobs are carried out one by one, in their order, between Qt's own events.
 
-    What wakes the loop is a queued signal; the jobs themselves wait in a list, so that a hundred of them need one signal.
+    What wakes the loop is a queued signal; the jobs wait in a list, so that a hundred of them need one signal.
     """
 
     _woken = Signal()

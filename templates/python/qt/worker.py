@@ -15,8 +15,8 @@ from PySide6.QtWidgets import QWidget
 
 class WindowWorker(Worker):
     """`compute()` and the methods of the component's interfaces run in threads of their own, so that the window always
-    answers. Qt wants its widgets touched in the window's thread only: `initializeGui()` and the slots that are connected
-    in there run in it, and `runInGui` hands it something from everywhere else.
+    answers. Qt wants its widgets touched in the window's thread only: `initializeGui()` and the slots that are
+    connected in there run in it, and `runInGui` hands it something from everywhere else.
 
     Attributes: `window`, and `ui`, whose attributes are the widgets of src/mainUI.ui by name.
     """

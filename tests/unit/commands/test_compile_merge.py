@@ -217,3 +217,22 @@ def test_the_configuration_gets_what_it_lacks(component: Path, rcyaml: Run) -> N
     assert rcyaml("compile", "--merge").exit_code == 0
     assert config.read_text().startswith(before) and "\nMouthProxy=mouth:tcp" in config.read_text()
     assert told(rcyaml) == []
+
+
+@pytest.mark.parametrize("text", ["", "\n", "class SpecificWorker", "}{)(", "\x00"])
+def test_a_file_without_the_class(component: Path, language: str, rcyaml: Run, text: str) -> None:
+    path = component / ("src/specificworker.py" if language == "python" else "src/specificworker.h")
+    path.write_text(text)
+    assert [d["code"] for d in told(rcyaml)] == ["RC6205"]
+    assert {d["code"] for d in told(rcyaml, "--merge")} == {"RC6204"}
+    assert path.read_text() == text
+
+
+def test_a_link_is_not_written_through(component: Path, language: str, rcyaml: Run) -> None:
+    path = component / ("src/specificworker.py" if language == "python" else "src/specificworker.h")
+    path.rename(component / "elsewhere.txt")
+    path.symlink_to("../elsewhere.txt")
+    change(component, "      stop:\n", f"      stop:\n{SING}")
+    before = read_tree(component / "src")
+    assert "RC6204" in {d["code"] for d in told(rcyaml, "--merge")}
+    assert path.is_symlink() and read_tree(component / "src") == before

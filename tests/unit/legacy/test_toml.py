@@ -133,6 +133,13 @@ def test_what_is_no_config_is_refused(rcyaml: Run, tmp_path: Path, text: str, co
     assert [path.name for path in tmp_path.rglob("*.yaml")] == []
 
 
+def test_a_number_among_texts_is_told(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"config.toml": "[T]\nmixed = [1, 'a']\n"})
+    result = rcyaml("migrate", "config.toml")
+    assert result.exit_code == 0 and "RC5028" in result.output
+    assert 'mixed: ["1", a]\n' in (tmp_path / "config.toml.config.yaml").read_text()
+
+
 def test_dates_and_infinities_are_told(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"config.toml": "[T]\nday = 2024-01-31\nmost = inf\n"})
     result = rcyaml("migrate", "config.toml")

@@ -125,3 +125,21 @@ def test_layers_merge_replace_and_return_to_defaults(tmp_path: Path) -> None:
 ])
 def test_nothing_gives_a_traceback(tmp_path: Path, text: str) -> None:
     assert faults(tmp_path, ("component: c.cdsl.yaml\n" if "component" not in text else "") + text)
+
+
+@pytest.mark.parametrize("pdsl", [
+    "types: {M: {struct: {a: int}}}\nparameters: {m: {list: M}}\nlegacy: {m: {key: 'M{no}', columns: [a]}}\n",
+    "parameters: {m: {list: {list: int}, default: [[1, 0: 0]]}}\n", "parameters: {m: {type: int, default: [1]}}\n",
+    "parameters: {m: {type: int, default: {env: X}}}\n", "parameters: {m: {type: int, range: [.inf, 1e999]}}\n",
+    "parameters: {m: {type: int, values: [.nan, 1e400]}}\n", "parameters: {m: {type: strnig}}\n",
+    "parameters: {m: {map: int, size: [3, 1], default: {a: x}}}\n", "parameters: {m: {}}\nconstraints: ['(((', '1', m]\n",
+    "types: {A: {list: B}, B: {list: A}}\nparameters: {m: A}\n",
+    "types: {" + ", ".join(f"T{n}: {{list: T{n + 1}}}" for n in range(90)) + ", T90: {type: int}}\nparameters: {m: T0}\n",
+])
+def test_values_of_faulty_parameters_give_no_traceback(tmp_path: Path, pdsl: str) -> None:
+    write_tree(tmp_path, {
+        "c.cdsl.yaml": "component: C\nlanguage: python\n", "c.pdsl.yaml": f"component: c.cdsl.yaml\n{pdsl}",
+        "x.config.yaml": "component: c.cdsl.yaml\nparameters: {m: [{a: 1}]}\n",
+        "rcyaml.yaml": "lint: {RC3113: warning, RC3121: warning}\n",
+    })
+    assert analyse([str(tmp_path)]).diagnostics

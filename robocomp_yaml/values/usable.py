@@ -1,0 +1,47 @@
+"""Whether a document of parameters is sound enough for values to be completed and written by it."""
+
+from __future__ import annotations
+
+from robocomp_yaml.link.program import LinkedParameters
+from robocomp_yaml.model.parameters import RecordType, Type, leaves
+from robocomp_yaml.source.tree import Mapping, Node, Sequence
+from robocomp_yaml.values.judge import judge
+from robocomp_yaml.values.spelling import fault
+
+
+def is_usable(linked: LinkedParameters) -> bool:
+    """Every parameter has a type, every default fits its own, and the legacy table can spell what it names. What is
+    wrong has been told at the document's lines; values are then judged each by itself, and no further."""
+    if linked.broken:
+        return False
+    if "usable" not in linked.compiled:
+        parameters = linked.parameters
+        types = {path: member.type for path, member in leaves(parameters.root)}
+        records = [parameters.root, *(type_ for type_ in parameters.types if isinstance(type_, RecordType))]
+        spellings = ((spelling, types.get(spelling.path)) for spelling in parameters.spellings)
+        linked.compiled["usable"] = all(map(_defaults_fit, records)) and all(
+            type_ is None or not fault(spelling, type_) for spelling, type_ in spellings
+        )
+    usable: bool = linked.compiled["usable"]
+    return usable
+
+
+def _defaults_fit(record: RecordType) -> bool:
+    for member in record.members:
+        if isinstance(member.type, RecordType) and member.is_group:
+            if not _defaults_fit(member.type):
+                return False
+        elif member.default is not None and member.default.node is not None:
+            if not _fits(member.type, member.default.node):
+                return False
+    return True
+
+
+def _fits(type_: Type, node: Node) -> bool:
+    return not _has_reference(node) and not any(judge(type_, node, (), complete=True))
+
+
+def _has_reference(node: Node) -> bool:
+    if isinstance(node, Mapping):
+        return node.entries.keys() == {"env"} or any(_has_reference(value) for _, value in node.items())
+    return isinstance(node, Sequence) and any(map(_has_reference, node.items))
