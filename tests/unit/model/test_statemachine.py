@@ -74,7 +74,7 @@ def test_both_spellings_become_the_same_tables(tmp_path: Path) -> None:
     inline = lower(machine_of(tmp_path / "inline", INLINE))
     file = lower(machine_of(tmp_path / "file", " c.scxml\n", SCXML))
     assert _sorted(inline) == _sorted(file)
-    assert len(inline.states) == 10 and len(inline.transitions) == 11
+    assert len(inline.states) == 10 and len(inline.transitions) == 10
 
 
 def _sorted(machine: tables.Machine) -> tables.Machine:
