@@ -18,9 +18,9 @@ GRACE = 1.5  # seconds from the request to the end, however stuck a method may b
 class Stopping:
     """The request to stop, which anyone may make at any time.
 
-    A signal's handler may interrupt any line of Python, so it takes no lock: Python itself writes the signal's number to
-    a pipe (at once, even while the main thread is in the event loop of a window). A thread reads from there, tells all
-    who wait, and then counts to `GRACE`.
+    A signal's handler may interrupt any line of Python, so it takes no lock: Python itself writes the signal's number
+    to a pipe (at once, even while the main thread is in the event loop of a window). A thread reads from there, tells
+    all who wait, and then counts to `GRACE`.
     """
 
     def __init__(self) -> None:

@@ -15,10 +15,10 @@ COMPONENT = Component(
             interface=RoboCompSpeech.Speech,
             methods=(
                 Method("say", calls="Speech_say", throws=(RoboCompSpeech.HardwareFailed, RoboCompSpeech.Mute)),
-                Method("status", calls="Speech_status"),
+                Method("status", calls="Speech_status", is_tuple=True),
                 Method("record", calls="Speech_record", throws=(RoboCompSpeech.Mute,)),
                 Method("stop", calls="Speech_stop"),
-                Method("whereIsTheMouthThatSaysAllThis", calls="Speech_whereIsTheMouthThatSaysAllThis"),
+                Method("whereIsTheMouthThatSaysAllThis", calls="Speech_whereIsTheMouthThatSaysAllThis", is_tuple=True),
             ),
         ),
     ),
