@@ -28,6 +28,7 @@ _NAMED = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
 _NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
 _NAMED |= {sign + dot: float(sign + "inf") for sign in ("", "+", "-") for dot in (".inf", ".Inf", ".INF")}
 _NAMED |= {word: float("nan") for word in (".nan", ".NaN", ".NAN")}
+_SURROGATE = re.compile("[\ud800-\udfff]")
 _CORE_START = frozenset("0123456789+-.~nNtTfF")  # no other first character can begin a core scalar
 
 
@@ -160,10 +161,17 @@ class _Builder:
                 limit=size_in_words(MAX_SCALAR),
             )
         if node.style is not None and node.style != "":
-            return Scalar(self.path, node, lexeme)
+            return self._quoted(node)
         if lexeme and lexeme[0] not in _CORE_START:
             return Scalar(self.path, node, lexeme)
         return Scalar(self.path, node, self._core(node, lexeme))
+
+    def _quoted(self, node: ScalarNode) -> Scalar:
+        """Text in quotes; an escape in it can spell half of a character, which is none."""
+        half = None if node.value.isascii() else _SURROGATE.search(node.value)
+        if half:
+            self._say(codes.BINARY, node, byte=f"U+{ord(half[0]):04X}", hint="write the character itself")
+        return Scalar(self.path, node, node.value)
 
     def _core(self, node: ScalarNode, lexeme: str) -> object:
         """A plain scalar by YAML 1.2's core schema."""
@@ -218,7 +226,7 @@ class _Builder:
             if node.value.endswith(":") or missing_value:
                 head, _, tail = node.value.partition(":")
                 self._say(codes.KEY_COLON, node, key=node.value, hint=f"write '{head}: {tail.lstrip(':')}'".rstrip())
-        return Scalar(self.path, node, node.value)
+        return self._quoted(node)
 
     def _explicit_tag(self, node: YamlNode) -> None:
         tag = str(node.tag).replace("tag:yaml.org,2002:", "!!")
