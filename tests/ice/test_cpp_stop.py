@@ -101,7 +101,7 @@ def test_what_it_tells(turns: list[str | Path], start: Start, behavior: Ask, por
     assert 0 <= first < PATIENCE * 1000
     until(lambda: asked.timeAwake() > first, "time to pass")
     parameters = asked.getParameterList()
-    assert set(parameters) == {"CommonBehavior.Endpoints", "a"}
+    assert set(parameters) == {"CommonBehavior.Endpoints", "a", "period.compute", "period.emergency"}
     assert (parameters["a"].editable, parameters["a"].value, parameters["a"].type) == (False, "1", "string")
 
 
