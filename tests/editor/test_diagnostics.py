@@ -12,6 +12,7 @@ import pytest
 from editor.workbench import Workbench
 
 from robocomp_yaml.source import schema, tree
+from robocomp_yaml.source.discover import kind_of
 
 DOCUMENTS = Path(__file__).resolve().parent / "documents"
 C = "component: A\nlanguage: cpp\n"
@@ -241,7 +242,7 @@ def test_a_fault_has_one_message(
 
 @pytest.mark.parametrize("name", sorted(path.name for path in DOCUMENTS.iterdir()))
 def test_a_right_document_is_clean(editor: Workbench, name: str) -> None:
-    kind = {"Speech.idsl.yaml": "idsl", "speech.cdsl.yaml": "cdsl", "rcyaml.yaml": "workspace"}[name]
+    kind = kind_of(name) or "workspace"
     assert editor.messages(kind, [(DOCUMENTS / name).read_text(encoding="utf-8")]) == [[]]
 
 

@@ -45,18 +45,24 @@ def families(configs: Sequence[Config], guesses: Guesses) -> Iterator[Plan]:
 
 
 def _stems(configs: Sequence[Config], proxies: bool = False) -> Stems:
+    """The settings whose keys differ in a last number only. Where one of them cannot be a row, none is: its key would
+    be that of a row."""
     found: Stems = {}
+    spoilt: set[str] = set()
     for config in configs:
         entries: list[tuple[Setting, Named | None]] = [(setting, None) for setting in config.parameters]
         if proxies:
             entries += [(named.setting, named) for named in config.sorted.proxies]
         for setting, named in entries:
             match = _INDEXED.match(setting.key)
-            if match and isinstance(setting.value, Leaf) and not setting.is_quoted and setting.raw:
-                if not _FREE.search(setting.key):
-                    row = _Row(config, setting, match["index"], named)
-                    found.setdefault(match["stem"], {}).setdefault(config.name, []).append(row)
-    return found
+            if match is None or not setting.raw or _FREE.search(setting.key):
+                continue
+            if isinstance(setting.value, Leaf) and not setting.is_quoted:
+                row = _Row(config, setting, match["index"], named)
+                found.setdefault(match["stem"], {}).setdefault(config.name, []).append(row)
+            else:
+                spoilt.add(match["stem"])
+    return {stem: by_config for stem, by_config in found.items() if stem not in spoilt}
 
 
 def _numbering(groups: Sequence[list[_Row]]) -> int | None:
