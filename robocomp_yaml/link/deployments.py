@@ -1,0 +1,167 @@
+"""A deployment with all that it includes: every instance with its component and values, every group with its members.
+
+Names are full here: what stands in an include that has a name is called `arm.elbow`, and an entry with instances is
+there once for each, with `{i}` filled in everywhere. Ports and connections are derived from this, by `network`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port
+from robocomp_yaml.model.deployment import Deployment, Entry, Exposed, Group, Host, Storm
+
+
+@dataclass(eq=False, slots=True)
+class LinkedInstance:
+    """An instance of an entry of `components:`. `entry` has this instance's texts (only its ports are not counted up);
+    `number` counts from 0, None for an entry without `instances:`. `scope` is what full names begin with where the
+    entry stands: '' or `arm.`; `document` is where that is.
+
+    `component` is None for a program, and for a document with errors. `values` are those of the document that
+    `config:` names, else of the component's `etc/config.yaml`; `flat` is the path (as opened) of a configuration file
+    that is none of our documents. `folder` is where the component's document stands, or where a program runs.
+    `host` is None for this machine. `process` is the instance that a PROCESS entry is a second name of.
+    """
+
+    name: str
+    entry: Entry
+    document: Deployment
+    scope: str = ""
+    number: int | None = None
+    component: LinkedComponent | None = None
+    values: LinkedValues | None = None
+    flat: str = ""
+    folder: str = ""
+    host: Host | None = None
+    process: LinkedInstance | None = None
+    after: list[LinkedInstance | LinkedStorm] = field(default_factory=list)
+    groups: list[LinkedGroup] = field(default_factory=list)
+    broken: bool = False
+    """Whether something about it has been reported, so that what depends on it is not judged."""
+
+
+@dataclass(eq=False, slots=True)
+class LinkedStorm:
+    """An entry of `services:` by its full name."""
+
+    name: str
+    storm: Storm
+    document: Deployment
+    scope: str = ""
+    host: Host | None = None
+    broken: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Served:
+    """An interface that a group serves: `name` to those outside, `port` (of `implements`) of the member `instance`.
+    `rule` is the entry of `expose:` with a rate or access rule, else None."""
+
+    name: str
+    instance: LinkedInstance
+    port: Port
+    rule: Exposed | None = None
+
+
+@dataclass(eq=False, slots=True)
+class LinkedGroup:
+    """A group by its full name. `members` are all instances in it, those of inner groups too. `serves` is what a closed
+    group offers; what an open one does is whatever its members implement."""
+
+    name: str
+    group: Group
+    document: Deployment
+    scope: str = ""
+    members: list[LinkedInstance] = field(default_factory=list)
+    facade: LinkedComponent | None = None
+    serves: list[Served] = field(default_factory=list)
+    broken: bool = False
+
+    @property
+    def is_closed(self) -> bool:
+        return self.group.is_closed
+
+
+Target = LinkedInstance | LinkedStorm | LinkedGroup
+
+
+@dataclass(eq=False, slots=True)
+class LinkedDeployment:
+    """One DDSL document with its includes, in the order of the documents. `real` is its real path. `hosts` is empty
+    where everything runs on this machine. `names` are, by scope, the names that stand in it and what they mean: an
+    entry with instances stands for all of them. `is_included` when another document builds on this one, so that what
+    it requires may be there."""
+
+    deployment: Deployment
+    real: str
+    hosts: dict[str, Host] = field(default_factory=dict)
+    instances: dict[str, LinkedInstance] = field(default_factory=dict)
+    storms: dict[str, LinkedStorm] = field(default_factory=dict)
+    groups: dict[str, LinkedGroup] = field(default_factory=dict)
+    names: dict[str, dict[str, list[Target]]] = field(default_factory=dict)
+    documents: list[Deployment] = field(default_factory=list)
+    is_included: bool = False
+    broken: bool = False
+
+    def find(self, text: str, scope: str) -> tuple[list[Target], str]:
+        """What a text such as `speech`, `speech.Speech` or `arm.elbow.Motor` means where names begin with `scope`: the
+        targets of the longest name that is there, and what is left behind it (an interface, or '')."""
+        name, behind = text, ""
+        while True:
+            found = self._named(name, scope)
+            if found or "." not in name:
+                return found, behind
+            name, _, last = name.rpartition(".")
+            behind = f"{last}.{behind}" if behind else last
+
+    def _named(self, name: str, scope: str) -> list[Target]:
+        found = self.names.get(scope, {}).get(name)
+        if found is None and "." in name:
+            inner, _, last = name.rpartition(".")
+            found = self.names.get(f"{scope}{inner}.", {}).get(last)
+        return found or []
+
+    def is_reachable(self, target: Target, source: LinkedInstance) -> bool:
+        """Whether no closed group that `source` is outside of owns the target."""
+        return not self.closed_around(target, source)
+
+    def closed_around(self, target: Target, source: LinkedInstance) -> list[LinkedGroup]:
+        """The closed groups that hold the target but not `source`, the outermost first."""
+        held = set(map(id, _instances(target)))
+        return [
+            group for group in sorted(self.groups.values(), key=lambda g: -len(g.members))
+            if group is not target and group.is_closed and source not in group.members
+            and held and held <= set(map(id, group.members))
+        ]
+
+    def rings(self, source: LinkedInstance) -> Iterator[list[LinkedInstance | LinkedGroup]]:
+        """What `source` may be connected to without a word: first what stands in its own scope, then further out.
+        A closed group stands for its members. The first ring that has an interface decides."""
+        seen: set[int] = {id(source)}
+        scope = source.scope
+        while True:
+            around: list[LinkedInstance | LinkedGroup] = [
+                group for group in self.groups.values()
+                if f"{group.name}.".startswith(scope) and group.is_closed and source not in group.members
+            ]
+            around += [i for i in self.instances.values() if i.scope.startswith(scope) and i.process is None]
+            ring = [x for x in around if id(x) not in seen and self.is_reachable(x, source)]
+            seen.update(map(id, ring))
+            yield ring
+            if not scope:
+                return
+            scope = scope[:-1].rpartition(".")[0]
+            scope = f"{scope}." if scope else ""
+
+    def storms_for(self, source: LinkedInstance) -> list[LinkedStorm]:
+        """The IceStorms whose scope `source` stands in, the nearest scope first."""
+        around = [storm for storm in self.storms.values() if source.scope.startswith(storm.scope)]
+        return sorted(around, key=lambda storm: -len(storm.scope))
+
+
+def _instances(target: Target) -> list[LinkedInstance]:
+    if isinstance(target, LinkedGroup):
+        return target.members
+    return [target] if isinstance(target, LinkedInstance) else []

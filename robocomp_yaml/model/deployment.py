@@ -1,0 +1,190 @@
+"""The DDSL model: which components and programs make a network, where they run and how they are connected.
+
+Names and paths are as written; `{i}` still stands in the strings of an entry that has instances.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.interface import _span
+from robocomp_yaml.source.tree import Mapping
+
+COMPONENT, PROGRAM, PROCESS = "component", "program", "process"
+NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
+ARGUMENT = "argument"
+INDEX = "{i}"
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A text of the document and its place: a path, a name, an argument."""
+
+    text: str
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Host:
+    """An entry of `hosts:`. `user` is for ssh, '' for the caller's own."""
+
+    name: str
+    address: Text
+    user: str = ""
+    doc: str = ""
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Storm:
+    """An entry of `services:`: an IceStorm. `port` is None where none is given."""
+
+    name: str
+    host: Text | None = None
+    port: int | None = None
+    doc: str = ""
+    span: Span = _span()
+    port_span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """A variable of the environment: `value`, or the caller's variable `source`."""
+
+    name: str
+    value: str = ""
+    source: str = ""
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A port: that of the interface `name`, which is '' for `port:`."""
+
+    name: str
+    number: int
+    span: Span = _span()
+    name_span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """A key and its text: of `connect`, `topics`, `endpoints` or `expose`. `span` is the text's place."""
+
+    name: str
+    text: str
+    span: Span = _span()
+    name_span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """When others may start: `port` listens, `command` exits with 0, a line of output matches `log`; with none of
+    these, what is served answers a ping. `within` are seconds, None where nothing is said."""
+
+    within: float | None = None
+    port: int | None = None
+    command: tuple[str, ...] = ()
+    log: str = ""
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Restart:
+    """`policy` is NEVER, ON_FAILURE or ALWAYS; the others are None where nothing is said. Times are seconds."""
+
+    policy: str = ON_FAILURE
+    delay: float | None = None
+    tries: int | None = None
+    within: float | None = None
+    span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """An entry of `components:`. `kind` is the key that says what it is: COMPONENT, PROGRAM, or PROCESS (a second name
+    of another entry's process); `target` is that key's value. `program` of a component is its `executable:`.
+
+    `settings` is the tree of `set:`. `config_as` is ARGUMENT or an option such as `--Ice.Config`. `instances` is None
+    where the key does not stand. `extra` is the plain data of `x-rcmanager:`.
+    """
+
+    name: str
+    kind: str
+    target: Text
+    executable: Text | None = None
+    args: tuple[Text, ...] = ()
+    cwd: Text | None = None
+    env: tuple[Variable, ...] = ()
+    host: Text | None = None
+    port: Number | None = None
+    ports: tuple[Number, ...] = ()
+    config: Text | None = None
+    config_as: Text | None = None
+    connect: tuple[Pair, ...] = ()
+    topics: tuple[Pair, ...] = ()
+    settings: Mapping | None = None
+    restart: Restart | None = None
+    ready: Ready | None = None
+    endpoints: tuple[Pair, ...] = ()
+    after: tuple[Text, ...] = ()
+    enabled: bool = True
+    instances: int | None = None
+    extra: tuple[tuple[str, object], ...] = ()
+    doc: str = ""
+    span: Span = _span()
+    instances_span: Span = _span()
+
+
+@dataclass(frozen=True, slots=True)
+class Exposed:
+    """An entry of a group's `expose:`: the interface `name` is that of a member (`name.Interface` where its name
+    differs). A `rate` (calls a second, at most) or `allow` (the methods that may be called; None: all) asks for a
+    proxy in between."""
+
+    name: str
+    member: Text
+    rate: float | None = None
+    allow: tuple[Text, ...] | None = None
+    span: Span = _span()
+    rate_span: Span = _span()
+
+    @property
+    def has_rule(self) -> bool:
+        return self.rate is not None or self.allow is not None
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """An entry of `groups:`, or of `include:` in its form with names. `members` are names of this document, and
+    `include` another deployment's document; `facade` is the CDSL of `as:`. `host` is for members that name none."""
+
+    name: str
+    members: tuple[Text, ...] = ()
+    include: Text | None = None
+    facade: Text | None = None
+    exposed: tuple[Exposed, ...] = ()
+    host: Text | None = None
+    doc: str = ""
+    span: Span = _span()
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether what is outside reaches the members only through the group."""
+        return self.facade is not None or bool(self.exposed)
+
+
+@dataclass(frozen=True, slots=True)
+class Deployment:
+    """One DDSL document. `includes` are those without a name: what they hold counts as if it stood here."""
+
+    name: str
+    path: str
+    hosts: tuple[Host, ...] = ()
+    services: tuple[Storm, ...] = ()
+    entries: tuple[Entry, ...] = ()
+    groups: tuple[Group, ...] = ()
+    includes: tuple[Text, ...] = ()
+    doc: str = ""
+    span: Span = _span()
