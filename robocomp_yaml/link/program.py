@@ -17,6 +17,7 @@ from robocomp_yaml.model.interface import (
 )
 
 if TYPE_CHECKING:
+    from robocomp_yaml.link.deployments import LinkedDeployment
     from robocomp_yaml.model.parameters import Parameters
     from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
     from robocomp_yaml.model.statemachine import StateMachine
@@ -173,6 +174,7 @@ class Program:
     components: dict[str, LinkedComponent] = field(default_factory=dict)
     parameters: dict[str, LinkedParameters] = field(default_factory=dict)
     values: dict[str, LinkedValues] = field(default_factory=dict)
+    deployments: dict[str, LinkedDeployment] = field(default_factory=dict)
     asked: set[str] = field(default_factory=set)
     documents: int = 0
 
