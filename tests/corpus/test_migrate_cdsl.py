@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import re
-import shutil
 from pathlib import Path
 
 import pytest
@@ -22,21 +21,6 @@ DESERVED = {  # what the Slice compiler refuses in the originals too
     "RC1005": {"OpenposeBodyData"},
     "RC1010": {"CameraBus", "CloudPrimitives", "FaceRecognition", "Kinect", "MSKFace", "RobotTrajectory"},
 }
-
-
-@pytest.fixture(scope="module")
-def migrated(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The corpus as a repository, each component in a folder of its own, migrated to `yaml`."""
-    folder = tmp_path_factory.mktemp("corpus")
-    shutil.copytree(CORPUS / "idsl", folder / "source/interfaces", copy_function=shutil.copyfile)
-    for path in sorted((CORPUS / "cdsl").glob("*.cdsl")):
-        own = folder / "source/components" / path.stem
-        own.mkdir(parents=True)
-        shutil.copyfile(path, own / path.name)
-    arguments = ["migrate", str(folder / "source"), "-o", str(folder / "yaml"), "--report", str(folder / "ledger.json")]
-    result = CliRunner().invoke(group, arguments)
-    assert isinstance(result.exception, SystemExit) and result.exit_code == 1, result.output
-    return folder
 
 
 def _ledger(migrated: Path) -> list[dict]:  # type: ignore[type-arg]

@@ -12,7 +12,7 @@ from conftest import CORPUS, needs_corpus
 from robocomp_yaml.cli import group
 from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.pipeline import analyse
-from slice_oracle import checksums
+from corpus.slice_oracle import checksums
 
 DEBIAN = Path("/usr/share/ice/slice")
 ICES_OWN = "RC1002"  # no module of a user can be called Ice…, and Ice's own files are
