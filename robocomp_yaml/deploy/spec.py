@@ -56,7 +56,7 @@ class Spec:
             ready=_readiness(process["ready"]),
             restart=Restart(**process["restart"]),
         )
-        for key in ("command", "after", "watched", "aliases", "groups"):
+        for key in ("command", "after", "watched", "folders", "aliases", "groups"):
             process[key] = tuple(process[key])
         digests = tuple((path, hash_) for path, hash_ in data["digests"])
         return cls(Process(**process), data["address"], tuple(data["command"]), data["config_path"], digests)

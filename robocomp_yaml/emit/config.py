@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan
-from robocomp_yaml.emit.ports import Endpoint, Ports, interface_key
+from robocomp_yaml.emit.ports import IceEndpoint, Ports, interface_key
 from robocomp_yaml.source.properties import entry_line
 from robocomp_yaml.link.program import LinkedComponent
 
@@ -64,7 +64,7 @@ def _needs(linked: LinkedComponent, table: Ports) -> Iterator[str]:
             endpoint = table.endpoint(other, adapter)
         else:
             yield "# No component of this workspace implements it: set host and port of the one that does."
-            endpoint = Endpoint(ports.default_port("", port.interface.name))
+            endpoint = IceEndpoint(ports.default_port("", port.interface.name))
         where = f"{endpoint.protocol} -h {endpoint.host or 'localhost'} -p {endpoint.port}"
         yield entry_line(f"{port.name}Proxy", f"{identity}:{where}")
 

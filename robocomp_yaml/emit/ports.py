@@ -1,44 +1,25 @@
-"""Default ports: a hash of component and interface, and what moves on when two of them meet.
+"""The ports of a workspace: those that stand in an `etc/config`, else defaults.
 
-The range 10000–29999 lies above IceStorm's usual 9999 and RoboComp's habits, and below the ports that Linux hands out
-by itself (32768 and up). A port that an existing `etc/config` of the workspace names is taken; of two defaults that
-meet, the later name (component, then interface) moves on to the next free port. So the ports depend on the workspace's
-names alone, and stay once they stand in an `etc/config`.
+A port that an existing `etc/config` of the workspace names is taken; of two defaults that meet, the later name
+(component, then interface) moves on to the next free port. So the ports depend on the workspace's names alone, and
+stay once they stand in an `etc/config`.
 """
 
 from __future__ import annotations
 
 import os
-import re
-import zlib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.source import properties
 from robocomp_yaml.emit.plan import CONFIG
-from robocomp_yaml.source.properties import Entry
 from robocomp_yaml.link.program import LinkedComponent, Port
-
-FIRST, COUNT = 10000, 20000
-COMMON_BEHAVIOR = "CommonBehavior"
-
-_RESERVED = frozenset((11311, 11345))
-"""The masters of ROS 1 and Gazebo, which often run beside."""
-
-_ENDPOINT = re.compile(r"\s*(tcp|udp|ssl|ws|wss|default)\b([^:]*)")
-_OPTION = re.compile(r"-(\w)\s+(\S+)")
-
-
-@dataclass(frozen=True, slots=True)
-class Endpoint:
-    """Where an adapter listens: the first endpoint of its property. `host` is '' for all interfaces."""
-
-    port: int
-    protocol: str = "tcp"
-    host: str = ""
+from robocomp_yaml.network.ice_endpoint import IceEndpoint, parse_endpoint
+from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, default_port, next_free
+from robocomp_yaml.source import properties
+from robocomp_yaml.source.properties import Entry
 
 
 @dataclass(slots=True)
@@ -46,15 +27,11 @@ class Ports:
     """The endpoint of each adapter (real path of the component's document, interface's name) of a workspace, and which
     components implement an interface (module, name), in order of their paths."""
 
-    endpoints: dict[tuple[str, str], Endpoint] = field(default_factory=dict)
+    endpoints: dict[tuple[str, str], IceEndpoint] = field(default_factory=dict)
     implementers: dict[tuple[str, str], list[tuple[LinkedComponent, str]]] = field(default_factory=dict)
 
-    def endpoint(self, linked: LinkedComponent, name: str) -> Endpoint:
+    def endpoint(self, linked: LinkedComponent, name: str) -> IceEndpoint:
         return self.endpoints[document(linked), name]
-
-
-def default_port(component: str, interface: str) -> int:
-    return FIRST + zlib.crc32(f"{component}/{interface}".encode()) % COUNT
 
 
 def document(linked: LinkedComponent) -> str:
@@ -72,7 +49,7 @@ def assign(components: Iterable[LinkedComponent]) -> Ports:
     distinct = {document(linked): linked for linked in components}
     ordered = sorted(distinct.items(), key=lambda item: (item[1].component.name, item[0]))
     result = Ports()
-    taken = set(_RESERVED)
+    taken = set(RESERVED)
     for key, linked in ordered:
         for name, entry in _written(linked):
             endpoint = parse_endpoint(entry.value)
@@ -82,8 +59,8 @@ def assign(components: Iterable[LinkedComponent]) -> Ports:
     for key, linked in ordered:
         for name in sorted(adapters(linked)):
             if (key, name) not in result.endpoints:
-                number = _next_free(default_port(linked.component.name, name), taken)
-                result.endpoints[key, name] = Endpoint(number)
+                number = next_free(default_port(linked.component.name, name), taken)
+                result.endpoints[key, name] = IceEndpoint(number)
                 taken.add(number)
     for _, linked in sorted(distinct.items()):
         for port in linked.implements:
@@ -93,19 +70,6 @@ def assign(components: Iterable[LinkedComponent]) -> Ports:
 
 def interface_key(port: Port) -> tuple[str, str]:
     return port.scope.module.name, port.interface.name
-
-
-def parse_endpoint(value: str) -> Endpoint | None:
-    """The first endpoint of a property with a fixed port."""
-    match = _ENDPOINT.match(properties.unquoted(value))
-    if not match:
-        return None
-    options = dict(_OPTION.findall(match[2]))
-    port = options.get("p", "")
-    if not port.isascii() or not port.isdigit() or not 0 < int(port) < 65536:
-        return None
-    host = options.get("h", "").strip('"')
-    return Endpoint(int(port), match[1], "" if host in ("*", "0.0.0.0", "::") else host)
 
 
 def clashes(components: Iterable[LinkedComponent]) -> list[Diagnostic]:
@@ -147,9 +111,3 @@ def _written(linked: LinkedComponent) -> Iterator[tuple[str, Entry]]:
             yield key.removeprefix("Endpoints."), entry
         elif key.endswith(".Endpoints"):
             yield key.removesuffix(".Endpoints"), entry
-
-
-def _next_free(port: int, taken: set[int]) -> int:
-    while port in taken:
-        port = FIRST + (port + 1 - FIRST) % COUNT
-    return port

@@ -45,7 +45,7 @@ class Variable:
 @dataclass(frozen=True, slots=True)
 class Endpoint:
     """What a process serves: an interface at an address. `identity` is Ice's identity, '' for a plain port; `module`
-    is the interface's module, '' where it is not known. `text` is the adapter's own spelling, such as `tcp -p 10001`."""
+    is the interface's module, '' where it is not known. `text` is the adapter's own spelling: `tcp -p 10001`."""
 
     interface: str
     identity: str
@@ -96,7 +96,7 @@ class Process:
     absolute path, or a bare name that PATH finds; the placeholder CONFIG in an argument stands for the absolute path
     of `config`. `after` are the processes that must be ready before. `aliases` are further names of the same process.
     `watched` are the files whose change is a reason to restart it (its executable, code and configuration).
-    `is_ice` is False for a program that knows nothing of Ice.
+    `is_ice` is False for a program that knows nothing of Ice. `folders` are to be there before it starts.
     """
 
     name: str
@@ -111,6 +111,7 @@ class Process:
     ready: Readiness = Readiness()
     restart: Restart = Restart()
     watched: tuple[str, ...] = ()
+    folders: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
     groups: tuple[str, ...] = ()
     enabled: bool = True

@@ -94,6 +94,19 @@ class Sequence(Node):
         self.is_flow = bool(node.flow_style)
 
 
+def text_at(place: Node, text: str) -> Scalar:
+    """A text that no document holds, made for what stands at a place."""
+    return Scalar(place.file, ScalarNode(None, text, place._start, place._end), text)
+
+
+def mapping_at(place: Node, entries: dict[str, tuple[Scalar, Node]]) -> Mapping:
+    return Mapping(place.file, MappingNode(None, [], place._start, place._end), entries)
+
+
+def sequence_at(place: Node, items: list[Node]) -> Sequence:
+    return Sequence(place.file, MappingNode(None, [], place._start, place._end), items)
+
+
 def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
     """The tree of a document's text, and all that is wrong with it; no tree when there is an error."""
     try:

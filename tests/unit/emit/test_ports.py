@@ -8,7 +8,7 @@ import pytest
 from talk import component, workspace
 
 from robocomp_yaml.emit import ports
-from robocomp_yaml.emit.ports import Endpoint
+from robocomp_yaml.emit.ports import IceEndpoint
 from robocomp_yaml.link.program import LinkedComponent
 
 
@@ -63,8 +63,8 @@ def test_a_port_in_a_config_is_taken() -> None:
 
 
 @pytest.mark.parametrize(("value", "expected"), [
-    ("tcp -p 10", Endpoint(10)), ('"tcp -p 10"', Endpoint(10)), ("ws -h 1.2.3.4 -p 10", Endpoint(10, "ws", "1.2.3.4")),
-    ("udp -p 10:tcp -p 11", Endpoint(10, "udp")), ("tcp -h * -p 10", Endpoint(10)), ("tcp -p 0", None), ("tcp", None),
+    ("tcp -p 10", IceEndpoint(10)), ('"tcp -p 10"', IceEndpoint(10)), ("ws -h 1.2.3.4 -p 10", IceEndpoint(10, "ws", "1.2.3.4")),
+    ("udp -p 10:tcp -p 11", IceEndpoint(10, "udp")), ("tcp -h * -p 10", IceEndpoint(10)), ("tcp -p 0", None), ("tcp", None),
     ("tcp -p x", None), ("tcp -p 70000", None), ("", None), ("tcp -p ²", None), ("tcpx -p 1", None),
 ])
 def test_endpoints(value: str, expected: Endpoint | None) -> None:

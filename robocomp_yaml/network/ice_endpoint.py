@@ -1,0 +1,37 @@
+"""Endpoints as Ice spells them: `tcp -h 10.0.0.2 -p 10001`."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from robocomp_yaml.source import properties
+
+_ENDPOINT = re.compile(r"\s*(tcp|udp|ssl|ws|wss|default)\b([^:]*)")
+_OPTION = re.compile(r"-(\w)\s+(\S+)")
+
+
+@dataclass(frozen=True, slots=True)
+class IceEndpoint:
+    """Where an adapter listens: the first endpoint of its property. `host` is '' for all interfaces."""
+
+    port: int
+    protocol: str = "tcp"
+    host: str = ""
+
+    def reached_at(self, address: str) -> str:
+        """The same for a proxy, whose component runs at `address`."""
+        return f"{self.protocol} -h {self.host or address} -p {self.port}"
+
+
+def parse_endpoint(value: str) -> IceEndpoint | None:
+    """The first endpoint of a property with a fixed port."""
+    match = _ENDPOINT.match(properties.unquoted(value))
+    if not match:
+        return None
+    options = dict(_OPTION.findall(match[2]))
+    port = options.get("p", "")
+    if not port.isascii() or not port.isdigit() or not 0 < int(port) < 65536:
+        return None
+    host = options.get("h", "").strip('"')
+    return IceEndpoint(int(port), match[1], "" if host in ("*", "0.0.0.0", "::") else host)
