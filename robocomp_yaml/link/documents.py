@@ -19,15 +19,17 @@ from robocomp_yaml.source.tree import Mapping, Node, parse
 
 if TYPE_CHECKING:
     from robocomp_yaml.model.component import Component
+    from robocomp_yaml.model.deployment import Deployment
     from robocomp_yaml.model.interface import Module
     from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
 
-    Model = Module | Component | ParameterDocument | ValuesDocument
+    Model = Module | Component | ParameterDocument | ValuesDocument | Deployment
 
 _BUILDERS = {
     "idsl": "build_interface.build",
     "cdsl": "build_component.build",
     "pdsl": "build_parameters.build",
+    "ddsl": "build_deployment.build",
     "config": "build_parameters.build_values",
 }
 

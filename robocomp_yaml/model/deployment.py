@@ -107,7 +107,7 @@ class Entry:
     of another entry's process); `target` is that key's value. `program` of a component is its `executable:`.
 
     `settings` is the tree of `set:`. `config_as` is ARGUMENT or an option such as `--Ice.Config`. `instances` is None
-    where the key does not stand. `extra` is the plain data of `x-rcmanager:`.
+    where the key does not stand. `extra` is the data of `x-rcmanager:`, every scalar as spelled.
     """
 
     name: str

@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
-KINDS = ("idsl", "cdsl", "pdsl", "config")
+KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config")
 _MODELINE = re.compile(
     rb"#\s*yaml-language-server:\s*\$schema=\S*(?:\.rcyaml/schemas|generated)/config\.schema\.json\s*$"
 )

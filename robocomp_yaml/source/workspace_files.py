@@ -14,6 +14,7 @@ GLOBS = {
     "idsl": ["*.idsl.yaml", "idsl.yaml"],
     "cdsl": ["*.cdsl.yaml", "cdsl.yaml"],
     "pdsl": ["*.pdsl.yaml", "pdsl.yaml"],
+    "ddsl": ["*.ddsl.yaml", "ddsl.yaml"],
     "config": ["*.config.yaml", "etc/config.yaml"],
     "workspace": ["rcyaml.yaml"],
 }

@@ -17,7 +17,7 @@ from editor.yaml_language_server import LanguageServer
 from robocomp_yaml.source import workspace_files
 
 SUFFIX = {
-    "idsl": ".idsl.yaml", "cdsl": ".cdsl.yaml", "pdsl": ".pdsl.yaml", "config": ".config.yaml",
+    "idsl": ".idsl.yaml", "cdsl": ".cdsl.yaml", "pdsl": ".pdsl.yaml", "ddsl": ".ddsl.yaml", "config": ".config.yaml",
     "workspace": "/rcyaml.yaml",
 }
 

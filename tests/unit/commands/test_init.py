@@ -13,7 +13,7 @@ from conftest import read_tree, write_tree
 Run = Callable[..., Result]
 OWN_FILES = {
     "rcyaml.yaml", ".gitignore", ".vscode/settings.json",
-    *(f".rcyaml/schemas/{kind}.schema.json" for kind in ("idsl", "cdsl", "pdsl", "config", "workspace")),
+    *(f".rcyaml/schemas/{kind}.schema.json" for kind in ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")),
 }  # fmt: skip
 EXAMPLE = {"interfaces/Hello.idsl.yaml", "components/hellocomp/hellocomp.cdsl.yaml"}
 

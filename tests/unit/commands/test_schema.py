@@ -15,7 +15,7 @@ from conftest import write_tree
 Run = Callable[..., Result]
 
 
-@pytest.mark.parametrize("kind", ["idsl", "cdsl", "pdsl", "config", "workspace"])
+@pytest.mark.parametrize("kind", ["idsl", "cdsl", "pdsl", "ddsl", "config", "workspace"])
 def test_a_kind_is_printed(rcyaml: Run, kind: str) -> None:
     said = rcyaml("schema", kind)
     assert said.exit_code == 0
@@ -24,7 +24,7 @@ def test_a_kind_is_printed(rcyaml: Run, kind: str) -> None:
 
 def test_the_kinds_are_listed(rcyaml: Run) -> None:
     rows = rcyaml("schema").stdout.splitlines()
-    assert [row.split()[0] for row in rows] == ["idsl", "cdsl", "pdsl", "config", "workspace"]
+    assert [row.split()[0] for row in rows] == ["idsl", "cdsl", "pdsl", "ddsl", "config", "workspace"]
     assert all(Path(row.split()[-1]).is_file() for row in rows)
 
 
@@ -67,7 +67,7 @@ def test_a_stale_schema_is_told(rcyaml: Run, tmp_path: Path, content: str | None
     ("argument", "reason"),
     [
         ("ids", "did you mean 'idsl'?"),
-        ("robot", "kinds are idsl, cdsl, pdsl, config, workspace"),
+        ("robot", "kinds are idsl, cdsl, pdsl, ddsl, config, workspace"),
         ("a.idsl.yaml", "there is no file"),
     ],
 )

@@ -15,11 +15,11 @@ import pytest
 from robocomp_yaml import resources
 from robocomp_yaml.source import tree
 
-KINDS = ("idsl", "cdsl", "pdsl", "config", "workspace")
+KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")
 EDITOR = Path(__file__).resolve().parents[2] / "editor"
 RIGHT = {
     "idsl": "Speech.idsl.yaml", "cdsl": "speech.cdsl.yaml", "pdsl": "speech.pdsl.yaml", "config": "speech.config.yaml",
-    "workspace": "rcyaml.yaml",
+    "ddsl": "robot.ddsl.yaml", "workspace": "rcyaml.yaml",
 }
 SCHEMAS: dict[str, dict[str, Any]] = {kind: json.loads(resources.text(f"schemas/{kind}.schema.json")) for kind in KINDS}
 ANNOTATIONS = ("title", "description", "markdownDescription")
