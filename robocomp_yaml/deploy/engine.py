@@ -6,7 +6,7 @@ Order, readiness, plan and rollback are not its business: they are the same for 
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Iterable, Sequence
+from collections.abc import AsyncIterator, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -33,8 +33,9 @@ STOP_WITHIN = 5.0
 class Running:
     """A process that the engine started, as it is now. `spec` is what it was started with (None where the engine
     cannot say: another version of rcyaml started it). `uptime` are seconds since its present run began, or since the
-    last one ended. `restarts` counts those that the engine made by itself, `last_exit` says how the last run ended
-    ('exit code 3', 'SIGSEGV', '' for none). `memory` are bytes, of the process and all that it started."""
+    last one ended, by a clock that nobody sets. `restarts` counts those that the engine made by itself, `last_exit`
+    says how the last run ended ('exit code 3', 'SIGSEGV', '' for none). `memory` are bytes and `cpu` seconds, of the
+    process and all that it started."""
 
     name: str
     spec: Spec | None
@@ -50,10 +51,11 @@ class Running:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line that a process wrote on its standard output or error."""
+    """A line that a process wrote on its standard output or error; `time` as in ISO 8601, '' where it is not known."""
 
     name: str
     text: str
+    time: str = ""
 
 
 class DeployFailed(Exception):
@@ -68,6 +70,8 @@ class Engine(Protocol):
     """One network's engine. Every method may raise DeployFailed; calls for different processes may run at once."""
 
     name: str
+    notes: list[Diagnostic]
+    """What was found on the way and should be told; whoever uses the engine empties the list."""
 
     async def open(self, network: Network, *, create: bool) -> bool:
         """Reaches what runs the network; where nothing does and `create`, starts it. Whether it was reached: if not,
@@ -75,6 +79,10 @@ class Engine(Protocol):
 
     async def observe(self) -> dict[str, Running]:
         """All processes that it was ever given by `prepare` and did not `forget`, as they are now."""
+
+    async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
+        """What would keep these from starting on their hosts, seen before anything is started: a port that another
+        program has, an executable that is missing. `leaving` are processes that will be stopped before."""
 
     async def prepare(self, specs: Sequence[Spec]) -> None:
         """Takes over what is to hold from now on, for some of the processes, all at once: writes their configurations

@@ -1,0 +1,1 @@
+"""The engine of one machine: a small supervisor for each deployment, and its client."""

@@ -1,0 +1,59 @@
+"""The control socket of a deployment's supervisor: where it is, and who may use it.
+
+Only its owner may: it lies in a folder of mode 0700, and the kernel says who calls. The folder's path may be longer
+than an address of a socket can be (108 bytes), so that it is always named through the folder's descriptor.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+import struct
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+SOCKET = "control"
+
+
+@contextmanager
+def _short_path(folder: str) -> Iterator[str]:
+    descriptor = os.open(folder, os.O_PATH | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        yield f"/proc/self/fd/{descriptor}/{SOCKET}"
+    finally:
+        os.close(descriptor)
+
+
+def listen(folder: str) -> socket.socket:
+    """A listening socket in the folder; one that a dead supervisor left there is replaced."""
+    server = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    with _short_path(folder) as path:
+        if os.path.lexists(path):
+            os.unlink(path)
+        mask = os.umask(0o177)
+        try:
+            server.bind(path)
+        finally:
+            os.umask(mask)
+    server.listen(64)
+    server.setblocking(False)
+    return server
+
+
+def connect(folder: str) -> socket.socket | None:
+    """A connection to the supervisor of this folder; None where there is none."""
+    client = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        with _short_path(folder) as path:
+            client.connect(path)
+    except OSError:
+        client.close()
+        return None
+    client.setblocking(False)
+    return client
+
+
+def is_ours(connection: socket.socket) -> bool:
+    """Whether the one at the other end is the same user, or root."""
+    data = connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize("3i"))
+    return struct.unpack("3i", data)[1] in (0, os.getuid())

@@ -1,0 +1,71 @@
+"""The log of one process: every line with its time, in files of limited size; a full disk loses lines, and no more."""
+
+from __future__ import annotations
+
+import errno
+import os
+import time
+
+LIMIT = 10 << 20
+"""Bytes of a log, of which the older part is kept once, as `NAME.log.1`."""
+
+LONGEST = 1 << 16
+"""Bytes of a line: a longer one is broken."""
+
+
+class LogFile:
+    """Takes what a process writes, as it comes, and lines of our own."""
+
+    def __init__(self, path: str, limit: int = LIMIT) -> None:
+        self.path, self.limit = path, limit
+        self._rest = b""
+        self._lost = 0
+        self._file = -1
+        self._size = 0
+
+    def take(self, data: bytes) -> None:
+        """What the process wrote; a line is written once it is whole."""
+        *whole, self._rest = (self._rest + data).split(b"\n")
+        while len(self._rest) > LONGEST:
+            whole.append(self._rest[:LONGEST])
+            self._rest = self._rest[LONGEST:]
+        if whole:
+            self._write(whole)
+
+    def say(self, text: str) -> None:
+        """A line of rcyaml's own; what the process left unfinished becomes a line before it."""
+        rest, self._rest = self._rest, b""
+        self._write([*([rest] if rest else []), f"rcyaml: {text}".encode(errors="surrogateescape")])
+
+    def close(self) -> None:
+        if self._file >= 0:
+            os.close(self._file)
+            self._file = -1
+
+    def _write(self, lines: list[bytes]) -> None:
+        # The time is for people; nothing is reckoned by it.
+        now = time.time()
+        stamp = time.strftime(f"%Y-%m-%dT%H:%M:%S.{int(now % 1 * 1000):03}Z ", time.gmtime(now)).encode()
+        if self._lost:
+            lines = [f"rcyaml: {self._lost} lines are missing here: they could not be written".encode(), *lines]
+        text = b"".join(stamp + line.rstrip(b"\r") + b"\n" for line in lines)
+        try:
+            self._open(len(text))
+            written = os.write(self._file, text)
+            if written < len(text):  # the disk is full: no half lines
+                os.ftruncate(self._file, self._size)
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            self._size += written
+        except OSError:
+            self._lost += len(lines) - bool(self._lost)
+            return
+        self._lost = 0
+
+    def _open(self, more: int) -> None:
+        """Opens the file, or a new one where this text would make it too large."""
+        if self._file >= 0 and self._size + more > self.limit:
+            self.close()
+            os.replace(self.path, f"{self.path}.1")
+        if self._file < 0:
+            self._file = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, 0o600)
+            self._size = os.fstat(self._file).st_size

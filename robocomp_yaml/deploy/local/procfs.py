@@ -1,0 +1,142 @@
+"""What /proc says: which processes belong together, what they use, and who listens on a port.
+
+Processes come and go while it is read: what is gone is passed over.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+
+MARK = "RCYAML_PROCESS"
+"""The variable by which everything that a process of a deployment started is known: `FOLDER:NAME`."""
+
+_TICKS = os.sysconf("SC_CLK_TCK")
+_PAGE = os.sysconf("SC_PAGE_SIZE")
+_LISTEN = "0A"
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A process: `start` is in clock ticks since boot, so that (pid, start) is never used twice."""
+
+    pid: int
+    parent: int
+    session: int
+    start: int
+    cpu: float
+    is_dead: bool
+
+
+def pids() -> Iterator[int]:
+    return (int(name) for name in os.listdir("/proc") if name.isdigit())
+
+
+def entry(pid: int) -> Entry | None:
+    text = _read(f"/proc/{pid}/stat")
+    if not text:
+        return None
+    # The name, in parentheses, may hold anything.
+    fields = text[text.rindex(b")") + 2 :].split()
+    return Entry(
+        pid, int(fields[1]), int(fields[3]), int(fields[19]), (int(fields[11]) + int(fields[12])) / _TICKS,
+        fields[0] in (b"Z", b"X"),
+    )  # fmt: skip
+
+
+def table() -> dict[int, Entry]:
+    """All processes that are alive."""
+    found = (entry(pid) for pid in pids())
+    return {one.pid: one for one in found if one and not one.is_dead}
+
+
+def mark_of(pid: int) -> str:
+    """The MARK in the environment that a process began with; '' for others, and those of other users."""
+    prefix = f"{MARK}=".encode()
+    for part in _read(f"/proc/{pid}/environ").split(b"\0"):
+        if part.startswith(prefix):
+            return os.fsdecode(part[len(prefix) :])
+    return ""
+
+
+def marked(folder: str) -> list[int]:
+    """The processes that a deployment in this folder started, found by nothing but their mark."""
+    return [pid for pid in pids() if mark_of(pid).rpartition(":")[0] == folder]
+
+
+def family(root: int, mark: str, adopter: int, alive: dict[int, Entry], roots: Collection[int] = ()) -> set[int]:
+    """Those alive that came from `root`: its descendants; those of its session; and those that lost their parent, so
+    that they are now children of `adopter`, but carry the mark. `roots` are the roots of other families."""
+    members = {
+        one.pid
+        for one in alive.values()
+        if one.pid == root
+        or one.session == root
+        or (one.parent == adopter and one.pid not in roots and mark_of(one.pid) == mark)
+    }
+    return descendants(members, alive)
+
+
+def descendants(of: Collection[int], alive: dict[int, Entry]) -> set[int]:
+    """These processes and all that came from them."""
+    children: dict[int, list[int]] = {}
+    for one in alive.values():
+        children.setdefault(one.parent, []).append(one.pid)
+    found, rest = set(of), list(of)
+    while rest:
+        for child in children.get(rest.pop(), ()):
+            if child not in found:
+                found.add(child)
+                rest.append(child)
+    return found
+
+
+def memory(members: Collection[int]) -> int:
+    """The bytes of real memory that they hold."""
+    sizes = (_read(f"/proc/{pid}/statm").split() for pid in members)
+    return sum(int(size[1]) for size in sizes if size) * _PAGE
+
+
+def listeners(ports: Collection[int]) -> dict[int, list[int]]:
+    """Of these TCP ports, those on which something listens, each with the processes that do, as far as one may see
+    them."""
+    inodes: dict[str, int] = {}
+    for file in ("/proc/net/tcp", "/proc/net/tcp6"):
+        for line in _read(file).decode().splitlines()[1:]:
+            fields = line.split()
+            port = int(fields[1].rpartition(":")[2], 16)
+            if fields[3] == _LISTEN and port in ports:
+                inodes[f"socket:[{fields[9]}]"] = port
+    found: dict[int, list[int]] = {port: [] for port in inodes.values()}
+    for pid in pids() if inodes else ():
+        for port in {inodes[link] for link in _open_files(pid) if link in inodes}:
+            found[port].append(pid)
+    return found
+
+
+def command_line(pid: int) -> str:
+    """A process's command as one would type it; '' for one that is gone."""
+    words = _read(f"/proc/{pid}/cmdline").rstrip(b"\0").split(b"\0")
+    return os.fsdecode(b" ".join(words))
+
+
+def _open_files(pid: int) -> Iterator[str]:
+    folder = f"/proc/{pid}/fd"
+    try:
+        names = os.listdir(folder)
+    except OSError:
+        return
+    for name in names:
+        try:
+            yield os.readlink(f"{folder}/{name}")
+        except OSError:
+            continue
+
+
+def _read(path: str) -> bytes:
+    try:
+        with open(path, "rb") as file:
+            return file.read()
+    except OSError:
+        return b""

@@ -1,0 +1,186 @@
+"""The supervisor proper: its children, and what clients may ask on the control socket.
+
+A request is a line `{"id", "do", …}`, and its answer a line `{"id", …}` with what was asked for, or with `error`: an
+`errno`'s text, in words. Requests run at once; those for one child wait for each other.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import sys
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from robocomp_yaml.deploy.local import channel, procfs
+from robocomp_yaml.deploy.local.child import Child
+from robocomp_yaml.deploy.local.kernel import OpenFiles
+from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
+
+PROTOCOL = 1
+"""Raised with each change of what is said on the socket: clients of another version are told."""
+
+LONGEST = 1 << 28  # bytes of a request: configurations may be long
+END_WITHIN = 5.0
+RECORD = "state/supervisor"
+"""A file that is there from the supervisor's start to its orderly end."""
+
+Request = dict[str, Any]
+
+
+def serve(folder: str) -> None:
+    """Runs until it is asked to end, by a client or by a signal."""
+    asyncio.run(_Service(folder).run())
+
+
+class _Service:
+    def __init__(self, folder: str) -> None:
+        self.folder = folder
+        self.children: dict[str, Child] = {}
+        self._files = OpenFiles()
+        self._limit = int(os.environ.get("RCYAML_LOG_LIMIT") or LIMIT)
+        self._over = asyncio.Event()
+
+    async def run(self) -> None:
+        self._files.raise_limit()
+        loop = asyncio.get_running_loop()
+        loop.add_signal_handler(signal.SIGCHLD, self._reap)
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            loop.add_signal_handler(number, self._over.set)
+        self._end_leftovers()
+        record = f"{self.folder}/{RECORD}"
+        with open(record, "w", encoding="utf-8", opener=lambda path, flags: os.open(path, flags, 0o600)) as file:
+            file.write(f"{os.getpid()}\n")
+        server = await asyncio.start_unix_server(
+            self._talk, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
+        )
+        await self._over.wait()
+        server.close()
+        stops = (self._stop(child, END_WITHIN) for child in self.children.values())
+        await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
+        os.unlink(record)
+        for child in self.children.values():
+            child.log.close()
+
+    def _end_leftovers(self) -> None:
+        """Kills what an earlier supervisor of this folder left, which was killed together with its keeper."""
+        for pid in procfs.marked(self.folder):
+            print(f"killed pid {pid}, which was left of an earlier run: {procfs.command_line(pid)}", file=sys.stderr)
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                continue
+
+    def _reap(self) -> None:
+        """Takes the exit codes of all that ended: children, and what they left to us."""
+        by_pid = {child.pid: child for child in self.children.values() if child.pid}
+        while True:
+            try:
+                pid, status = os.waitpid(-1, os.WNOHANG)
+            except ChildProcessError:
+                return
+            if pid == 0:
+                return
+            if child := by_pid.get(pid):
+                child.on_exit(status, self._roots())
+
+    def _roots(self) -> set[int]:
+        return {child.pid for child in self.children.values() if child.pid}
+
+    async def _talk(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        tasks: set[asyncio.Task[None]] = set()
+        try:
+            if not channel.is_ours(writer.get_extra_info("socket")):
+                return
+            while line := await reader.readline():
+                task = asyncio.create_task(self._answer(json.loads(line), writer))
+                tasks.add(task)
+                task.add_done_callback(tasks.discard)
+        except (ValueError, ConnectionError):
+            pass  # what talks like this is no client of ours
+        finally:
+            # What a client began is brought to its end, even where the client is gone.
+            await asyncio.gather(*tasks)
+            writer.close()
+
+    async def _answer(self, request: Request, writer: asyncio.StreamWriter) -> None:
+        try:
+            answer = await _REQUESTS[request["do"]](self, request)
+        except OSError as error:
+            answer = {"error": (error.strerror or "it does not end, even though it was killed").lower()}
+        try:
+            writer.write(json.dumps({"id": request["id"], **answer}).encode() + b"\n")
+            await writer.drain()
+        except ConnectionError:
+            pass
+
+    async def _hello(self, request: Request) -> Request:
+        return {"protocol": PROTOCOL, "pid": os.getpid()}
+
+    async def _observe(self, request: Request) -> Request:
+        now, alive, roots = asyncio.get_running_loop().time(), procfs.table(), self._roots()
+        found = []
+        for child in self.children.values():
+            members = procfs.family(child.pid, child.mark, os.getpid(), alive, roots) if child.pid else set()
+            found.append(
+                {
+                    "spec": child.spec,
+                    "state": child.state,
+                    "pid": child.pid,
+                    "uptime": now - child.since,
+                    "restarts": child.restarts,
+                    "last_exit": child.last_exit,
+                    "memory": procfs.memory(members),
+                    "cpu": sum(alive[pid].cpu for pid in members),
+                    "members": sorted(members),
+                }
+            )
+        return {"processes": found}
+
+    async def _prepare(self, request: Request) -> Request:
+        for spec in request["specs"]:
+            name = spec["process"]["name"]
+            if name in self.children:
+                self.children[name].spec = spec
+            else:
+                log = LogFile(f"{self.folder}/logs/{name}.log", self._limit)
+                self.children[name] = Child(spec, f"{self.folder}:{name}", log, self._files)
+        return {}
+
+    async def _start(self, request: Request) -> Request:
+        child = self.children[request["name"]]
+        async with child.lock:
+            child.start({**request["environment"], procfs.MARK: child.mark})
+        return {}
+
+    async def _stop_one(self, request: Request) -> Request:
+        if child := self.children.get(request["name"]):
+            await self._stop(child, request["within"])
+        return {}
+
+    async def _stop(self, child: Child, within: float) -> None:
+        async with child.lock:
+            await child.stop(within, self._roots())
+
+    async def _forget(self, request: Request) -> Request:
+        for name in request["names"]:
+            if child := self.children.pop(name, None):
+                child.log.close()
+        return {}
+
+    async def _end(self, request: Request) -> Request:
+        self._over.set()
+        return {}
+
+
+_REQUESTS: dict[str, Callable[[_Service, Request], Awaitable[Request]]] = {
+    "hello": _Service._hello,
+    "observe": _Service._observe,
+    "prepare": _Service._prepare,
+    "start": _Service._start,
+    "stop": _Service._stop_one,
+    "forget": _Service._forget,
+    "end": _Service._end,
+}

@@ -1,0 +1,61 @@
+"""The supervisor of one deployment on this machine: `python -m robocomp_yaml.deploy.local.supervisor FOLDER`.
+
+It is two processes. The supervisor proper starts and watches the children, and answers on the control socket, in lines
+of JSON. Its parent, the keeper, does nothing until the supervisor is gone: everything that this left behind, and that
+Linux has made a child of the keeper's, is then killed. Only the standard library is used, and the keeper forks before
+most of it is imported: both stay small.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+
+from robocomp_yaml.deploy.local import kernel, procfs
+
+
+def main() -> None:
+    folder = sys.argv[1]
+    kernel.adopt_orphans()
+    supervisor = os.fork()
+    if supervisor == 0:
+        from robocomp_yaml.deploy.local.service import serve
+
+        kernel.adopt_orphans()
+        serve(folder)
+        sys.exit(0)
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, lambda number, frame: _pass_on(supervisor, number))
+    _wait_for(supervisor)
+    _end_all()
+
+
+def _pass_on(supervisor: int, number: int) -> None:
+    try:
+        os.kill(supervisor, number)
+    except ProcessLookupError:
+        pass
+
+
+def _wait_for(supervisor: int) -> None:
+    while os.wait()[0] != supervisor:
+        pass
+
+
+def _end_all() -> None:
+    """Kills all that came from this process, until nothing is left: what is killed leaves its children to us."""
+    while True:
+        for pid in procfs.descendants([os.getpid()], procfs.table()) - {os.getpid()}:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except OSError:
+                continue
+        try:
+            os.wait()
+        except ChildProcessError:
+            return
+
+
+if __name__ == "__main__":
+    main()
