@@ -242,7 +242,7 @@ def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...]) -
 
         click.echo(toml_text(loaded.values, values), nl=False)
         return
-    from robocomp_yaml.emit.property_text import property_text
+    from robocomp_yaml.values.property_text import property_text
     from robocomp_yaml.values.properties import properties
 
     sections, _ = properties(loaded.values, values)

@@ -10,13 +10,13 @@ from robocomp_yaml.emit import config
 from robocomp_yaml.emit.parameter_docs import parameter_docs
 from robocomp_yaml.emit.plan import CONFIG, FilePlan
 from robocomp_yaml.emit.ports import Ports
-from robocomp_yaml.emit.property_text import property_text
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.source.properties import read
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.json_schema import DOCUMENT, EFFECTIVE, document_schema
 from robocomp_yaml.values.new import new_document
 from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties
+from robocomp_yaml.values.property_text import property_text
 from robocomp_yaml.values.write import Property
 
 SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from ruamel.yaml.nodes import MappingNode, ScalarNode
+from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
 from ruamel.yaml.nodes import Node as YamlNode
 
 from robocomp_yaml.diag.code import Code
@@ -94,17 +95,28 @@ class Sequence(Node):
         self.is_flow = bool(node.flow_style)
 
 
-def text_at(place: Node, text: str) -> Scalar:
+@dataclass(frozen=True, slots=True)
+class _Mark:
+    line: int
+    column: int
+    index: int = -1
+
+
+def _marks(span: Span) -> tuple[_Mark, _Mark]:
+    return _Mark(span.line - 1, span.column - 1), _Mark(span.end_line - 1, span.end_column - 1)
+
+
+def text_at(span: Span, text: str) -> Scalar:
     """A text that no document holds, made for what stands at a place."""
-    return Scalar(place.file, ScalarNode(None, text, place._start, place._end), text)
+    return Scalar(span.file, ScalarNode(None, text, *_marks(span)), text)
 
 
-def mapping_at(place: Node, entries: dict[str, tuple[Scalar, Node]]) -> Mapping:
-    return Mapping(place.file, MappingNode(None, [], place._start, place._end), entries)
+def mapping_at(span: Span, entries: dict[str, tuple[Scalar, Node]]) -> Mapping:
+    return Mapping(span.file, MappingNode(None, [], *_marks(span)), entries)
 
 
-def sequence_at(place: Node, items: list[Node]) -> Sequence:
-    return Sequence(place.file, MappingNode(None, [], place._start, place._end), items)
+def sequence_at(span: Span, items: list[Node]) -> Sequence:
+    return Sequence(span.file, SequenceNode(None, [], *_marks(span)), items)
 
 
 def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:

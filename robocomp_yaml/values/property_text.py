@@ -10,11 +10,15 @@ from robocomp_yaml.values.properties import Section
 
 def property_text(sections: list[Section], name: str, source: str) -> str:
     """The text of `etc/config` of a component, made of the values document `source` (a path from the file)."""
-    return "".join(f"{line}\n" for line in _lines(sections, name, source))
+    head = f"# Configuration of {name}, written by rcyaml from {source}: change it there, and compile again."
+    return f"{head}\n{section_text(sections)}"
 
 
-def _lines(sections: list[Section], name: str, source: str) -> Iterator[str]:
-    yield f"# Configuration of {name}, written by rcyaml from {source}: change it there, and compile again."
+def section_text(sections: list[Section]) -> str:
+    return "".join(f"{line}\n" for line in _lines(sections))
+
+
+def _lines(sections: list[Section]) -> Iterator[str]:
     for section in sections:
         yield ""
         yield f"# {section.title}."

@@ -1,0 +1,141 @@
+"""What a network is derived from step by step: each instance and each IceStorm, with what they serve and are given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.deployments import LinkedInstance, LinkedStorm
+from robocomp_yaml.link.program import Port
+from robocomp_yaml.network.ice_endpoint import IceEndpoint, parse_endpoint
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host
+from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
+
+MANAGER, PUBLISH = "TopicManager", "Publish"
+STORM_INSTANCE = "IceStorm"
+
+
+def is_loopback(address: str) -> bool:
+    return address in (LOOPBACK, "::1", "ip6-localhost") or address.startswith("127.")
+
+
+def listening(host: Host, number: int) -> str:
+    """Where an adapter listens: on a machine that others reach, on all its interfaces."""
+    return f"tcp -h {host.address} -p {number}" if is_loopback(host.address) else f"tcp -p {number}"
+
+
+@dataclass(eq=False, slots=True)
+class Offer:
+    """An interface that a draft serves on the adapter `adapter`. `port` is the entry of the component's `implements`;
+    None where only a name is known: of a program's endpoint, and of CommonBehavior. `given` is the endpoint as the
+    document spells it; else `number` is its port, 0 as long as it has none."""
+
+    owner: Draft
+    adapter: str
+    interface: str
+    span: Span
+    port: Port | None = None
+    number: int = 0
+    given: str = ""
+
+    @property
+    def full_name(self) -> str:
+        """As `connect:` may name it."""
+        return f"{self.owner.name}.{self.adapter}"
+
+    @property
+    def is_ice(self) -> bool:
+        return not self.given.isdigit()
+
+    @property
+    def endpoint(self) -> IceEndpoint | None:
+        if self.given.isdigit():
+            return IceEndpoint(int(self.given))
+        return parse_endpoint(self.given) if self.given else IceEndpoint(self.number)
+
+    @property
+    def text(self) -> str:
+        """The value of the adapter's property."""
+        return self.given or listening(self.owner.host, self.number)
+
+    @property
+    def proxy(self) -> str:
+        endpoint = self.endpoint
+        assert endpoint is not None
+        return f"{self.interface.lower()}:{endpoint.reached_at(self.owner.host.address)}"
+
+    def resolved(self) -> Endpoint:
+        found = self.endpoint or IceEndpoint(0)
+        identity = self.interface.lower() if self.is_ice else ""
+        module = self.port.scope.module.name if self.port else ""
+        if self.port is None and self.interface == COMMON_BEHAVIOR:
+            module = f"RoboComp{COMMON_BEHAVIOR}"
+        return Endpoint(self.adapter, identity, found.port, self.text, found.protocol, module, self.span)
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A text that a configuration gets, and the place in the deployment that it comes from."""
+
+    text: str
+    span: Span
+
+
+@dataclass(eq=False, slots=True)
+class Draft:
+    """An instance on its way to become a process. `aliases` are the entries that are a second name of it. `proxies` by
+    proxy name, `topics` (full names by the port's name) and `manager` (the proxy of its IceStorm) are what its
+    configuration gets."""
+
+    instance: LinkedInstance
+    host: Host
+    aliases: list[LinkedInstance] = field(default_factory=list)
+    offers: list[Offer] = field(default_factory=list)
+    proxies: dict[str, Given] = field(default_factory=dict)
+    topics: dict[str, Given] = field(default_factory=dict)
+    manager: Given | None = None
+
+    @property
+    def name(self) -> str:
+        return self.instance.name
+
+    @property
+    def span(self) -> Span:
+        return self.instance.entry.span
+
+    @property
+    def speaks_ice(self) -> bool:
+        """Whether its configuration is for Ice."""
+        entry = self.instance.entry
+        is_told = bool(entry.config_as or entry.connect or entry.topics)
+        return self.instance.component is not None or is_told or any(offer.is_ice for offer in self.offers)
+
+
+@dataclass(eq=False, slots=True)
+class StormDraft:
+    """An IceStorm, with the ports of its topic manager and of its publishers."""
+
+    linked: LinkedStorm
+    host: Host
+    manager: int = 0
+    publish: int = 0
+
+    @property
+    def name(self) -> str:
+        return self.linked.name
+
+    @property
+    def span(self) -> Span:
+        return self.linked.storm.span
+
+    @property
+    def proxy(self) -> str:
+        return f"{STORM_INSTANCE}/{MANAGER}:tcp -h {self.host.address} -p {self.manager}"
+
+    def endpoints(self) -> tuple[Endpoint, ...]:
+        storm = self.linked.storm
+        manager = Endpoint(
+            MANAGER, f"{STORM_INSTANCE}/{MANAGER}", self.manager, listening(self.host, self.manager), module="IceStorm",
+            span=storm.port_span if storm.port else storm.span,
+        )
+        return manager, Endpoint(PUBLISH, "", self.publish, listening(self.host, self.publish), span=storm.span)
