@@ -105,6 +105,7 @@ def component(folder: Path, language: str) -> Path:
 
 
 def main(runs: int) -> None:
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # what is installed has its bytecode; the run to warm up makes it
     with tempfile.TemporaryDirectory() as name:
         work = Path(name)
         docs = documents(work)

@@ -6,11 +6,11 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 
 from robocomp_yaml import resources
-from robocomp_yaml.emit import config, parameter_files, uses
+from robocomp_yaml.emit import config, parameter_files
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
 from robocomp_yaml.emit.ports import assign
-from robocomp_yaml.emit.targets import languages
+from robocomp_yaml.emit.targets import target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.model.pdsl import ValuesDocument
@@ -33,8 +33,10 @@ def component_plan(
             common = resources.text("templates/slice/CommonBehavior.ice")
             plan.files.append(FilePlan("slice/CommonBehavior.ice", common))
     if options.wants(component.language.name):
-        plan.files += languages()[component.language.name].plan(linked)
+        plan.files += target(component.language.name).plan(linked)
         if component.sources or component.libraries:
+            from robocomp_yaml.emit import uses
+
             plan.files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
     if options.wants("config"):
         written = os.path.lexists(os.path.join(root, CONFIG))

@@ -8,19 +8,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from typing import TYPE_CHECKING
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import cpp_parameters, cpp_qt, cpp_statemachine
+from robocomp_yaml.emit.targets import cpp_parameters, cpp_qt
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
 from robocomp_yaml.emit.targets.cpp_qt import QtView, RobocompView
-from robocomp_yaml.emit.targets.cpp_statemachine import MachineView
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
 
-LANGUAGE = "cpp"
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.targets.cpp_statemachine import MachineView
 
 DEFAULT_PERIOD = 100
 DEFAULT_STANDARD = 17
@@ -63,7 +64,7 @@ class View:
 
 def plan(component: LinkedComponent) -> list[FilePlan]:
     """The component's files but for `slice/` and `etc/`."""
-    copied = [*cpp_statemachine.files(component), *cpp_qt.files(component)]
+    copied = [*_machine_files(component), *cpp_qt.files(component)]
     view = _view(component, copied)
     if view.robocomp:
         return _robocomp(component, view, copied)
@@ -79,6 +80,22 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
         FilePlan("src/specificworker.cpp", render("cpp/specificworker.cpp.j2", view), ONCE),
         FilePlan("CMakeLists.txt", render("cpp/CMakeLists.txt.j2", view), ONCE),
     ]
+
+
+def _machine_files(linked: LinkedComponent) -> list[FilePlan]:
+    if linked.machine is None:
+        return []
+    from robocomp_yaml.emit.targets import cpp_statemachine  # with all about machines, which few have
+
+    return cpp_statemachine.files(linked.machine)
+
+
+def _machine_view(linked: LinkedComponent) -> MachineView | None:
+    if linked.machine is None:
+        return None
+    from robocomp_yaml.emit.targets import cpp_statemachine
+
+    return cpp_statemachine.view(linked.machine)
 
 
 def _unused(component: LinkedComponent) -> frozenset[str]:
@@ -157,7 +174,7 @@ def _view(linked: LinkedComponent, copied: list[FilePlan]) -> View:
         libraries=" ".join(f"Ice::{name}" for name in ice),
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
         sources=["genericworker.cpp", "parameters.cpp", *(path for path in sources if path.endswith(".cpp"))],
-        machine=cpp_statemachine.view(linked.machine) if linked.machine else None,
+        machine=_machine_view(linked),
         base=_base(linked),
         qt=cpp_qt.qt_view(linked),
         robocomp=cpp_qt.robocomp_view(linked, ports),

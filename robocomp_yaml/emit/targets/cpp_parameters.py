@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from robocomp_yaml.emit.parameter_facts import inside, records
 from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets.cpp_constraints import lambda_of
 from robocomp_yaml.emit.targets.cpp_kinds import kind, pattern_count, spelling
 from robocomp_yaml.emit.targets.cpp_literals import number, string, text as quoted, value
 from robocomp_yaml.emit.targets.cpp_members import documented, plain_type, set_name
@@ -133,14 +132,19 @@ def _view(parameters: Parameters, name: str, source: str) -> View:
         spellings=[
             folded(f"{{{quoted(each.path)}, {spelling(each)}}},", 3 * IN) for each in parameters.spellings
         ],
-        constraints=[
-            ConstraintView(
-                quoted(each.text), quoted(each.message),
-                folded(f"{lambda_of(each.expression, parameters.root)},", 4 * IN),
-            )
-            for each in parameters.constraints
-        ],
+        constraints=_constraints(parameters) if parameters.constraints else [],
     )
+
+
+def _constraints(parameters: Parameters) -> list[ConstraintView]:
+    from robocomp_yaml.emit.targets.cpp_constraints import lambda_of  # with all about expressions
+
+    return [
+        ConstraintView(
+            quoted(each.text), quoted(each.message), folded(f"{lambda_of(each.expression, parameters.root)},", 4 * IN)
+        )
+        for each in parameters.constraints
+    ]
 
 
 class _Types:

@@ -11,7 +11,6 @@ from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.cpp_names import parameter
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line
-from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.statemachine import State, StateMachine
 
@@ -62,11 +61,8 @@ def _comment(state: State) -> str:
     return comment(f"The state '{state.id}' has been entered.\n\n{state.doc}", "    ")
 
 
-def files(linked: LinkedComponent) -> list[FilePlan]:
-    """Nothing for a component without a machine."""
-    machine = linked.machine
-    if machine is None:
-        return []
+def files(machine: StateMachine) -> list[FilePlan]:
+    """The interpreter, and the tables of the component's machine."""
     shown = TablesView(
         source=one_line(machine.path.rpartition("/")[2]),
         events=_events(machine),

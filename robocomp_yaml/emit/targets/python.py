@@ -11,21 +11,22 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import TYPE_CHECKING
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets import python_parameters, python_qt, python_statemachine
+from robocomp_yaml.emit.targets import python_parameters, python_qt
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
 from robocomp_yaml.emit.targets.python_ports import AccessorView, Ports, ServedView
-from robocomp_yaml.emit.targets.python_statemachine import MachineView
 from robocomp_yaml.emit.targets.python_stubs import ModuleStub, stub
 from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.references import groups
 
-LANGUAGE = "python"
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.targets.python_statemachine import MachineView
 
 DEFAULT_PERIOD = 100
 BEHAVIOR = "RoboCompCommonBehavior"
@@ -86,7 +87,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     stubs = [*signatures, *(method.value for method in methods)]
     return [
         *_runtime(),
-        *python_statemachine.files(component),
+        *_machine_files(component),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
         FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
         python_parameters.plan(component),
@@ -98,6 +99,22 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
         ]),
         FilePlan(f"bin/{view.name}", _rendered("launcher", view), ONCE, executable=True),
     ]
+
+
+def _machine_files(linked: LinkedComponent) -> list[FilePlan]:
+    if linked.machine is None:
+        return []
+    from robocomp_yaml.emit.targets import python_statemachine  # with all about machines, which few have
+
+    return python_statemachine.files(linked.machine, linked.component.name)
+
+
+def _machine_view(linked: LinkedComponent) -> MachineView | None:
+    if linked.machine is None:
+        return None
+    from robocomp_yaml.emit.targets import python_statemachine
+
+    return python_statemachine.view(linked.machine)
 
 
 def _robocomp(view: View) -> list[FilePlan]:
@@ -158,7 +175,7 @@ def _view(linked: LinkedComponent) -> View:
         window=component.gui.base if component.gui else "",
         qt_base=python_qt.qt_base(linked),
         sequences=python_qt.sequences(linked),
-        machine=python_statemachine.view(linked.machine) if linked.machine else None,
+        machine=_machine_view(linked),
         base=_base(linked),
     )
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from robocomp_yaml.emit.parameter_facts import facts, inside, records
 from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.emit.targets.python_constraints import lambda_of
 from robocomp_yaml.emit.targets.python_names import Names
 from robocomp_yaml.emit.targets.python_text import docstring, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
@@ -89,10 +88,7 @@ def text(parameters: Parameters, component: str, source: str) -> str:
 def _view(parameters: Parameters, name: str, source: str) -> View:
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
-    constraints = [
-        ConstraintView(literal(each.text), literal(each.message), lambda_of(each.expression, parameters.root))
-        for each in parameters.constraints
-    ]
+    constraints = _constraints(parameters) if parameters.constraints else []
     said = f"The parameters of {name}."
     return View(
         source=source,
@@ -103,6 +99,15 @@ def _view(parameters: Parameters, name: str, source: str) -> View:
         spellings=[f"{literal(spelling.path)}: {_spelling(spelling)}" for spelling in parameters.spellings],
         constraints=constraints,
     )
+
+
+def _constraints(parameters: Parameters) -> list[ConstraintView]:
+    from robocomp_yaml.emit.targets.python_constraints import lambda_of  # with all about expressions
+
+    return [
+        ConstraintView(literal(each.text), literal(each.message), lambda_of(each.expression, parameters.root))
+        for each in parameters.constraints
+    ]
 
 
 def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints: bool) -> Iterator[str]:

@@ -15,7 +15,6 @@ from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.python_names import python_name
 from robocomp_yaml.emit.targets.python_text import docstring, one_line
-from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import PYTHON, State, StateMachine
@@ -68,12 +67,9 @@ def _docstring(state: State) -> str:
     return docstring(f"The state '{state.id}' has been entered.\n\n{state.doc}", "        ")
 
 
-def files(linked: LinkedComponent) -> list[FilePlan]:
-    """Nothing for a component without a machine."""
-    machine = linked.machine
-    if machine is None:
-        return []
-    return [*_runtime(_scripts(machine)), FilePlan("generated/statemachine.py", tables(machine, linked.component.name))]
+def files(machine: StateMachine, component: str) -> list[FilePlan]:
+    """The interpreter, and the tables of the component's machine."""
+    return [*_runtime(_scripts(machine)), FilePlan("generated/statemachine.py", tables(machine, component))]
 
 
 def tables(machine: StateMachine, component: str) -> str:
