@@ -139,7 +139,7 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Exposed:
-    """An entry of a group's `expose:`: the interface `name` is that of a member (`name.Interface` where its name
+    """An entry of a group's `expose:`: `name` is served by a member (`member.Interface` where its interface's name
     differs). A `rate` (calls a second, at most) or `allow` (the methods that may be called; None: all) asks for a
     proxy in between."""
 
