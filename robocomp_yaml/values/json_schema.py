@@ -141,9 +141,10 @@ class _Maker:
         """A list or mapping: what holds for it, and one message for everything else."""
         made: Schema = {"if": {"type": kind}, "then": then, "else": {"type": _types(kind, nullable)}}
         if self.with_words:
-            made["else"]["errorMessage"] = f"this is {in_words(type_)}"
+            words = in_words(type_)
+            made["else"]["errorMessage"] = f"this is {words}"
             if not (isinstance(type_, RecordType) and type_.is_group):
-                snippet = {"label": _label(type_), "description": in_words(type_), "body": flow(example_of(type_))}
+                snippet = {"label": _label(type_), "description": words, "body": flow(example_of(type_))}
                 made["anyOf"] = [{"type": "string", "defaultSnippets": [snippet]}, {}]
         return made
 
@@ -234,6 +235,12 @@ def _types(name: str, nullable: bool) -> str | list[str]:
 
 def in_words(type_: Type) -> str:
     """A type with its limits and unit: `a number from 0 to 2 (rad/s)`."""
+    if isinstance(type_, RecordType):
+        return type_.name or "a mapping of parameters to values"
+    if isinstance(type_, ListType | MapType):
+        kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
+        size = f" of {type_.size.in_words} entries" if type_.size != Size() else ""
+        return f"a {kind}{size}, each {one} {in_words(type_.element)}"
     words = kind_in_words(type_)
     if isinstance(type_, BasicType):
         if type_.values:
@@ -243,12 +250,6 @@ def in_words(type_: Type) -> str:
         elif type_.pattern:
             words += f" that matches {type_.pattern.text}"
         words += f" ({type_.unit})" if type_.unit else ""
-    elif isinstance(type_, ListType | MapType):
-        kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
-        size = f" of {type_.size.in_words} entries" if type_.size != Size() else ""
-        words = f"a {kind}{size}, each {one} {in_words(type_.element)}"
-    elif isinstance(type_, RecordType):
-        words = type_.name or "a mapping of parameters to values"
     return words
 
 
