@@ -76,7 +76,7 @@ class _Comment:
     def __init__(self, token: Token, source: Source) -> None:
         text = str(token)
         self.start, self.end = token.start_pos or 0, token.end_pos or 0
-        self.block = text.startswith("/*")
+        self.block = text.startswith(("/*", "<!--"))
         self.doc = bool(_DOC.match(text))
         self.behind = bool(_BEHIND.match(text))
         raw = _block_lines(text) if self.block else [_one_line(text)]
@@ -129,8 +129,9 @@ def _one_line(text: str) -> str:
 
 
 def _block_lines(text: str) -> list[str]:
-    """The lines of a `/* */`; none of a banner, which has nothing but stars."""
-    body = re.sub(r"^\*+<?", "", re.sub(r"\*+$", "", text[1:-1]))
+    """The lines of a `/* */` or `<!-- -->`; none of a banner, which has nothing but stars."""
+    is_xml = text.startswith("<!--")
+    body = text[4:-3] if is_xml else re.sub(r"^\*+<?", "", re.sub(r"\*+$", "", text[1:-1]))
     lines = [line.expandtabs(4).rstrip() for line in body.split("\n")]
     lines[0] = lines[0].strip()
     rest = [line for line in lines[1:] if line.strip()]

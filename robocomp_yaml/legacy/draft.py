@@ -13,6 +13,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.comments import Placed
 from robocomp_yaml.legacy.document import Entry, List, Map, Name, Notes
 from robocomp_yaml.legacy.grammar import Parsed, token
+from robocomp_yaml.legacy.networks.node import NetworkDraft
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import Settings
@@ -76,6 +77,8 @@ class Draft:
     """Of a config: its documents are made together with those of the other configs of its component."""
     machine: MachineDraft | None = None
     text: str = ""
+    network: NetworkDraft | None = None
+    """Of a manager or a launcher: its document is made once the run's components are known."""
 
 
 @dataclass(slots=True, eq=False)

@@ -15,8 +15,11 @@ from robocomp_yaml.source import properties
 
 def by_name(path: str) -> Rules | None:
     """The format that a file's suffix says."""
-    suffix = os.path.splitext(path)[1].lower()
-    return next((rules for rules in formats() if suffix in rules.suffixes), None)
+    return next((rules for rules in formats() if not rules.by_content and _has_suffix(path, rules)), None)
+
+
+def _has_suffix(path: str, rules: Rules) -> bool:
+    return os.path.splitext(path)[1].lower() in rules.suffixes
 
 
 def recognize(source: Source) -> tuple[Rules | None, list[Diagnostic]]:
@@ -75,7 +78,9 @@ def candidate(path: str) -> bool:
     fits = {rules.files.fit(path) for rules in formats() if rules.files is not None}
     if "certain" in fits:
         return True
-    if "perhaps" not in fits:
+    told = any(rules.by_content and _has_suffix(path, rules) for rules in formats())
+    if "perhaps" not in fits and not told:
         return False
     source, _ = read(path)
-    return source is not None and recognize(source)[0] is not None
+    found = recognize(source)[0] if source is not None else None
+    return found is not None and ("perhaps" in fits or found.by_content)

@@ -14,6 +14,7 @@ from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
+from robocomp_yaml.legacy.networks.settle import settle as settle_networks
 from robocomp_yaml.legacy.result import Migration
 from robocomp_yaml.legacy.settings.components import Inferred, settle
 from robocomp_yaml.legacy.settings.plan import Guesses
@@ -50,6 +51,7 @@ def migrate(
     chosen, said = names([(file, entry.file.rules) for file, entry in good if entry.file.rules is not None])
     _tell(run, said)
     _link(run, good, chosen, known, extra)
+    settle_networks([entry for _, entry in good], chosen, known)
     inferred = settle(good, chosen, run.remembers, guesses, exact=exact)
     _plan(run, good, chosen, known, inferred, force)
     upgrade(run, paths)

@@ -62,6 +62,7 @@ class Rules:
     is_made: bool = False
     weak: bool = False
     keep_suffix: bool = False
+    by_content: bool = False
     files: Files | None = None
     foreign: tuple[tuple[re.Pattern[str], str], ...] = ()
     invalid: Mapping[str, Any] = field(default_factory=dict)

@@ -330,7 +330,7 @@ def test_what_is_no_config_is_refused(rcyaml: Run, tmp_path: Path, text: str) ->
 
 def test_other_files_of_a_folder_are_left_alone(rcyaml: Run, tmp_path: Path) -> None:
     others = {"config.h": "#define A\n", "config.yaml": "a: 1\n", "tsconfig.json": "{}\n", "etc/readme": "hello\n",
-              "etc/pyproject.toml": "[project]\nname = 'x'\n", "etc/sub.toml": "[[components]]\nname = 'x'\n"}  # fmt: skip
+              "etc/pyproject.toml": "[project]\nname = 'x'\n", "a.xml": "<a/>\n", "b.toml": "[a]\n"}  # fmt: skip
     write_tree(tmp_path, {**others, "etc/robot": "Volume = 1\n"})
     assert rcyaml("migrate", ".", "--report", "ledger.json").exit_code == 0
     files = json.loads((tmp_path / "ledger.json").read_text())["files"]

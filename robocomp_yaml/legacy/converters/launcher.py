@@ -1,0 +1,102 @@
+"""A launcher's list of components to a network; it becomes a deployment once the run's components are known."""
+
+from __future__ import annotations
+
+import tomllib
+
+from lark import Token, Tree
+
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.legacy.document import Map, Notes
+from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.grammar import trees
+from robocomp_yaml.legacy.networks import command, endpoint
+from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+
+_KEYS = {"name": "", "cwd": "cwd", "cmd": "program", "ice_name": "endpoints"}
+"""The keys of a component, and those of the document that take their comments."""
+
+_Pairs = dict[str, tuple[str, Tree[Token]]]
+
+
+def convert(reader: Reader) -> Draft | None:
+    tree = reader.parsed.tree
+    assert tree is not None
+    try:
+        tomllib.loads(reader.source.text)  # what the grammar does not judge: keys that stand twice
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        at = reader.source.span(0, 1)
+        reader.diagnostics.append(codes.SYNTAX.at(at, problem=f"this is no TOML: {error}", hint=""))
+        return None
+    return _Converter(reader).draft(tree)
+
+
+class _Converter:
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+        self.network = NetworkDraft("", [])
+
+    def draft(self, tree: Tree[Token]) -> Draft:
+        head: Tree[Token] | None = None
+        pairs: _Pairs = {}
+        for node in trees(tree):
+            if node.data != "pair":
+                self.component(head, pairs)
+                head, pairs = node, {}
+                if node.data == "table" or _key(node) not in ("component", "components"):
+                    self.refused("foreign", node, f"[{_key(node)}]")
+            elif head is None or _key(node) not in _KEYS:
+                self.refused("foreign", node, _key(node))
+            else:
+                pairs[_key(node)] = (self.text(node), node)
+        self.component(head, pairs)
+        return Draft(Map(), [], self.reader.placed.around, network=self.network)
+
+    def component(self, head: Tree[Token] | None, pairs: _Pairs) -> None:
+        if head is None:
+            return
+        texts = {key: text for key, (text, _) in pairs.items()}
+        name = texts.get("name", "")
+        at = pairs["name"][1] if "name" in pairs else head
+        if not name.strip():
+            self.refused("unnamed", at)
+        taken = [node.name for node in self.network.nodes]
+        node = Node(name, safe_name(name, taken), self.reader.span(at), notes=self.reader.notes(head))
+        if any(name == known.alias for known in self.network.nodes):
+            self.reader.diagnostics.append(codes.DUPLICATE.at(node.span, name=name))
+        elif node.name != name:
+            what = self.reader.rules.repairs["name"].format(text=name, name=node.name)
+            self.reader.diagnostics.append(codes.REPAIRED.at(node.span, what=what))
+        for key, (_, pair) in pairs.items():
+            self.comments(self.reader.notes(pair), node.by_key.setdefault(_KEYS[key], Notes()))
+        node.notes.add(node.by_key.pop("", Notes()))
+        node.command = command.parse(texts.get("cmd", ""), texts.get("cwd", ""))
+        node.endpoint = endpoint.parse(texts.get("ice_name", ""))
+        if "ice_name" in pairs:
+            node.endpoint_span = self.reader.span(pairs["ice_name"][1])
+            if node.endpoint is None:
+                node.extra.put("endpoint", texts["ice_name"])
+        if node.endpoint is not None:
+            node.interface = node.endpoint.identity
+        self.network.nodes.append(node)
+
+    def text(self, pair: Tree[Token]) -> str:
+        value = trees(pair)[1]
+        if value.data != "text":
+            self.refused("no_text", pair, _key(pair))
+            return ""
+        return str(tomllib.loads(f"x = {value.children[0]}")["x"])
+
+    def comments(self, notes: Notes, other: Notes) -> None:
+        other.head += notes.head
+        other.tail += notes.tail
+        other.foot += notes.foot
+
+    def refused(self, refusal: str, node: Tree[Token], text: str = "") -> None:
+        reason = self.reader.rules.refusals[refusal].format(text=text)
+        self.reader.diagnostics.append(codes.REFUSED.at(self.reader.span(node), reason=reason))
+
+
+def _key(node: Tree[Token]) -> str:
+    """The key of a pair or a table, as it is spelled."""
+    return ".".join(str(part) for part in trees(node, "key")[0].children)

@@ -1,0 +1,1 @@
+"""Legacy networks (managers and launchers) as deployments: commands, endpoints, and the components that they start."""

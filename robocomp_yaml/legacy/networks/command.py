@@ -1,0 +1,88 @@
+"""The command that starts a node: on which host, in which folder, which program with which arguments."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+import shlex
+from dataclasses import dataclass
+
+LOCAL = "localhost"
+LOOPBACK = frozenset((LOCAL, "127.0.0.1", "::1"))
+_REMOTE = re.compile(r"\s*rcremote\s+(?P<host>\S+)\s+(?P<tab>\S+)\s+(?P<folder>\S+)(?P<rest>.*)", re.DOTALL)
+_NEEDS_SHELL = re.compile(r"[;&|<>$`()*?]|^\s*\w+=")
+_INTERPRETER = re.compile(r"python[\d.]*|perl|ruby|java|node")
+_OPTION = re.compile(r"(?P<option>--Ice\.Config)=(?P<path>.+)", re.DOTALL)
+_CONFIG = re.compile(r"(?:^|/)(?:etc/[^/]+|[^/]*config[^/]*|[^/]+\.(?:conf|cfg|toml|ini))$", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """`words` are the program and its arguments, without its configuration, which `config` names. `config_as` is the
+    option that takes it, '' where it is the last argument."""
+
+    host: str
+    folder: str
+    words: tuple[str, ...]
+    config: str = ""
+    config_as: str = ""
+    in_shell: bool = False
+
+    @property
+    def program(self) -> str:
+        """The path of what runs: of a script, not its interpreter's."""
+        first, *more = self.words
+        script = more and _INTERPRETER.fullmatch(posixpath.basename(first)) and not more[0].startswith("-")
+        return more[0] if script else first
+
+    @property
+    def stem(self) -> str:
+        """The name of what runs, as a component is called."""
+        return posixpath.basename(self.program).removesuffix(".py").removesuffix(".sh")
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """Equal for what is one process."""
+        return (self.host, posixpath.normpath(self.folder), self.words, self.config)
+
+
+def parse(text: str, folder: str) -> Command | None:
+    """A manager's `rcremote HOST TAB FOLDER PROGRAM ARGUMENTS…`, or a plain command that runs here, in `folder`; None
+    where there is nothing to run."""
+    remote = _REMOTE.fullmatch(text)
+    host, rest = (remote["host"], remote["rest"]) if remote else (LOCAL, text)
+    folder = remote["folder"] if remote else folder
+    if not rest.strip() or (remote is None and text.split()[0] == "rcremote"):
+        return None
+    if _NEEDS_SHELL.search(_unquoted(rest)):
+        return Command(host, folder, ("sh", "-c", rest.strip()), in_shell=True)
+    words = _split(rest)
+    return _with_config(host, folder, words) if words else None
+
+
+def _with_config(host: str, folder: str, words: tuple[str, ...]) -> Command:
+    last = words[-1]
+    option = _OPTION.fullmatch(last)
+    plain = Command(host, folder, words)
+    if option and len(words) > 1:
+        return Command(host, folder, words[:-1], option["path"], option["option"])
+    if len(words) > 1 and last != plain.program and not last.startswith("-") and _CONFIG.search(last):
+        return Command(host, folder, words[:-1], last)
+    return plain
+
+
+def _unquoted(text: str) -> str:
+    """The text without what its quotes hold."""
+    return re.sub(r"'[^']*'|\"[^\"]*\"", "", text)
+
+
+def _split(text: str) -> tuple[str, ...]:
+    try:
+        return tuple(shlex.split(text))
+    except ValueError:  # a quote that is not closed stands for itself
+        return tuple(text.split())
+
+
+def is_config(word: str) -> bool:
+    """Whether a word that stands where the program should is a configuration file."""
+    return posixpath.splitext(word)[1] in (".conf", ".cfg", ".toml", ".ini")

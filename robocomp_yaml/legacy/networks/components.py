@@ -1,0 +1,85 @@
+"""The components that a legacy network may start: those of the same run, and documents that are there already."""
+
+from __future__ import annotations
+
+import os
+import posixpath
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from robocomp_yaml.legacy.convert import Converted
+from robocomp_yaml.legacy.document import List, Map, Name, Value
+from robocomp_yaml.legacy.networks.command import Command
+from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.text import decode, read_bytes
+from robocomp_yaml.source.tree import parse
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """A component's document at `path`; `implements` and `requires` are interfaces, the latter by proxy name."""
+
+    name: str
+    path: str
+    implements: tuple[str, ...] = ()
+    requires: Mapping[str, str] = field(default_factory=dict)
+
+
+def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[Known]:
+    """Those that this run writes."""
+    found = []
+    for file in files:
+        if file.draft is not None and file.rules is not None and file.rules.kind == "cdsl":
+            found.append(_known(chosen[file.path], _plain(file.draft.document)))
+    return found
+
+
+def of_folder(folder: str, but: Iterable[str]) -> list[Known]:
+    """Those that stand below a folder, but for these paths."""
+    skipped = {os.path.normpath(path) for path in but}
+    found = []
+    for path in documents_below(folder):
+        if kind_of(path) == "cdsl" and os.path.normpath(path) not in skipped:
+            raw, _ = read_bytes(path)
+            text = decode(path, raw)[0] if raw is not None else None
+            tree, _ = parse(path, text) if text is not None else (None, [])
+            if tree is not None and isinstance(tree.data, dict):
+                found.append(_known(path, tree.data))
+    return found
+
+
+def match(command: Command, known: Iterable[Known]) -> Known | None:
+    """The component that a command runs, by its name; of several, the one in the folder where it runs, else none."""
+    same = [component for component in known if component.name.lower() == command.stem.lower()]
+    if len(same) > 1:
+        place = posixpath.normpath(command.folder).split("/")
+        same = [item for item in same if os.path.basename(os.path.dirname(os.path.abspath(item.path))) in place]
+    return same[0] if len(same) == 1 else None
+
+
+def _known(path: str, data: Mapping[str, object]) -> Known:
+    implements, requires = data.get("implements"), data.get("requires")
+    needed: dict[str, str] = {}
+    for item in requires if isinstance(requires, list) else []:
+        for name, interface in item.items() if isinstance(item, dict) else [(item, item)]:
+            told = interface.get("interface", name) if isinstance(interface, dict) else interface
+            needed[str(name)] = str(told).rpartition(".")[2]
+    served = implements if isinstance(implements, list) else []
+    names = [str(next(iter(item), "")) if isinstance(item, dict) else str(item) for item in served]
+    return Known(str(data.get("component", "")), path, tuple(name.rpartition(".")[2] for name in names), needed)
+
+
+def _plain(value: Map) -> dict[str, object]:
+    return {entry.key: _data(entry.value) for entry in value.entries}
+
+
+def _data(value: Value) -> object:
+    match value:
+        case Map():
+            return _plain(value)
+        case List():
+            return [_data(item.value) for item in value.items]
+        case Name():
+            return value.text
+        case _:
+            return value

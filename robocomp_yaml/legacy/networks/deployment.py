@@ -1,0 +1,195 @@
+"""A legacy network as a DDSL document: hosts, services, and what runs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import managers as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
+from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
+from robocomp_yaml.legacy.networks.components import Known, match
+from robocomp_yaml.legacy.networks.entries import COMMON, Site, component_entry, program_entry
+from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+
+_IP = re.compile(r"[\d.:]+")
+
+
+def build(network: NetworkDraft, known: Sequence[Known], site: Site, key: str) -> tuple[Map, list[Diagnostic]]:
+    """The document of a network that starts some of the components known. What only an exporter needs stands under
+    `key`."""
+    builder = _Builder(network, known, site, key)
+    return builder.document(), builder.said
+
+
+@dataclass(slots=True, eq=False)
+class _Builder:
+    network: NetworkDraft
+    known: Sequence[Known]
+    site: Site
+    key: str
+    said: list[Diagnostic] = field(default_factory=list)
+    by_alias: dict[str, Node] = field(default_factory=dict)
+    owners: dict[str, Node] = field(default_factory=dict)
+    """By the name of a node, the node whose process it is too."""
+
+    def document(self) -> Map:
+        nodes = self.network.nodes
+        self.by_alias = {node.alias: node for node in nodes}
+        spelled = _spellings(self.known)
+        for node in nodes:
+            node.interface = spelled.get(node.interface.lower(), node.interface)
+        running = [node for node in nodes if self.is_started(node)]
+        self.find_owners(running)
+        hosts = self.hosts(running)
+        notes = self.network.notes
+        document, services, components = Map(block=True), Map(block=True), Map(block=True)
+        document.put("deployment", self.network.name, Notes(notes.head, notes.tail))
+        if hosts:
+            document.put("hosts", self.hosts_map(hosts))
+        kept = Map(block=True)
+        for node in nodes:
+            self.judge(node)
+            if node not in running:
+                self.keep(kept, node)
+            elif node.endpoint is not None and node.endpoint.is_storm:
+                services.put(node.name, self.service(node, hosts), node.notes)
+                self.keep(kept, node)
+            else:
+                components.put(node.name, self.entry(node, hosts), node.notes)
+        if services.entries:
+            document.put("services", services)
+        document.put("components", components)
+        if kept.entries:
+            self.network.extra.put("nodes", kept)
+        if self.network.extra.entries:
+            document.put(self.key, self.network.extra)
+        document.entries[-1].notes.foot += notes.foot
+        return document
+
+    def is_started(self, node: Node) -> bool:
+        if node.command is None:
+            reason = "it has no command that names a program"
+            self.said.append(codes.NOT_STARTED.at(node.span, name=node.alias, reason=reason))
+            return False
+        return True
+
+    def find_owners(self, running: Sequence[Node]) -> None:
+        first: dict[tuple[object, ...], Node] = {}
+        for node in running:
+            if node.command is None or (node.endpoint is not None and node.endpoint.is_storm):
+                continue
+            owner = first.setdefault(node.command.key, node)
+            if owner is not node:
+                self.owners[node.name] = owner
+                self.said.append(codes.SAME_PROCESS.at(node.span, name=node.alias, other=owner.alias))
+
+    def hosts(self, running: Sequence[Node]) -> dict[str, str]:
+        """The name of each host by its address; none where everything runs here."""
+        addresses = dict.fromkeys(_address(node) for node in running)
+        if set(addresses) <= {LOCAL}:
+            return {}
+        names: dict[str, str] = {}
+        for address in addresses:
+            wanted = f"host{len(names) + 1}" if _IP.fullmatch(address) else address.partition(".")[0]
+            names[address] = safe_name(wanted, names.values())
+        return names
+
+    def hosts_map(self, hosts: dict[str, str]) -> Map:
+        made = Map(block=True)
+        for address, name in hosts.items():
+            host = Map()
+            host.put("address", address)
+            if address in self.network.users:
+                host.put("user", self.network.users[address])
+            made.put(name, host)
+        return made
+
+    def judge(self, node: Node) -> None:
+        """What is odd about a node, though the document can say it."""
+        command, endpoint = node.command, node.endpoint
+        if command is not None and command.in_shell:
+            self.said.append(codes.NEEDS_SHELL.at(node.span, name=node.alias))
+        elif command is not None and len(command.words) == 1 and not command.config and is_config(command.words[0]):
+            self.said.append(codes.NO_PROGRAM.at(node.span, name=node.alias, word=command.words[0]))
+        if endpoint is None:
+            if node.endpoint_span.file:
+                problem = f"the endpoint of '{node.alias}' is no address with a port, so nothing says where it answers"
+                self.said.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
+            return
+        host = LOCAL if endpoint.host in LOOPBACK else endpoint.host
+        if command is not None and host and host != _address(node):
+            problem = f"'{node.alias}' is started on {_address(node)}, but its endpoint is on {endpoint.host}"
+            self.said.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
+
+    def service(self, node: Node, hosts: dict[str, str]) -> Map:
+        storm, made = Map(), Map()
+        if hosts:
+            storm.put("host", hosts[_address(node)])
+        assert node.endpoint is not None
+        storm.put("port", Raw(str(node.endpoint.port)))
+        made.put("icestorm", storm)
+        return made
+
+    def keep(self, kept: Map, node: Node) -> None:
+        """All that is said of a node which is no entry of `components:`."""
+        if node.after:
+            self.keep_dependences(node)
+            for _, _, notes in node.after:
+                node.extra.entries[-1].notes.add(notes)
+        kept.put(node.name, node.extra, Notes() if node.command is not None else node.notes)
+
+    def entry(self, node: Node, hosts: dict[str, str]) -> Map:
+        owner = self.owners.get(node.name)
+        if owner is not None:
+            if node.after:
+                self.keep_dependences(node)
+            return program_entry(node, "", List(), self.key, process=owner.name)
+        assert node.command is not None
+        after = self.after(node)
+        host = hosts.get(_address(node), "")
+        component = None if node.command.in_shell else match(node.command, self.known)
+        if component is None:
+            return program_entry(node, host, after, self.key)
+        depends = [self.by_alias[alias] for alias, _, _ in node.after if alias in self.by_alias]
+        made, problem = component_entry(node, component, host, after, self.key, self.site, depends)
+        if problem:
+            self.said.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
+        return made
+
+    def after(self, node: Node) -> List:
+        """The entries that a process waits for: those of all its names, but for itself."""
+        listed, is_plain = List(), True
+        second = [other for other in self.network.nodes if self.owners.get(other.name) is node]
+        for at in (node, *second):
+            for alias, span, notes in at.after:
+                target = self.by_alias.get(alias)
+                if target is None:
+                    self.said.append(codes.DANGLING.at(span, name=at.alias, other=alias))
+                if target is None or target.command is None or self.owners.get(target.name, target) is node:
+                    is_plain = is_plain and at is not node
+                    node.notes.add(notes)
+                    continue
+                is_plain = is_plain and at is node and target.name == alias and target.name not in self.owners
+                if all(item.value != target.name for item in listed.items):
+                    listed.put(target.name, notes)
+        if not is_plain:
+            self.keep_dependences(node)
+        return listed
+
+    def keep_dependences(self, node: Node) -> None:
+        """The dependences as the file has them, where `after:` does not say the same."""
+        node.extra.put("dependence", List([Entry("", alias) for alias, _, _ in node.after]))
+
+
+def _spellings(known: Sequence[Known]) -> dict[str, str]:
+    """Interfaces as components spell them, by their identities."""
+    names = [COMMON, *(name for item in known for name in (*item.implements, *item.requires.values()))]
+    return {name.lower(): name for name in names}
+
+
+def _address(node: Node) -> str:
+    host = node.command.host if node.command is not None else LOCAL
+    return LOCAL if host in LOOPBACK else host

@@ -1,0 +1,155 @@
+"""One node as an entry of `components:`: a program, a second name of a process, or a component."""
+
+from __future__ import annotations
+
+import os
+import posixpath
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from robocomp_yaml.legacy.document import Entry, List, Map, Raw
+from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, Command
+from robocomp_yaml.legacy.networks.components import Known
+from robocomp_yaml.legacy.networks.node import Node
+
+COMMON = "CommonBehavior"
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """Where a document will stand, and what each legacy file of the run becomes (by its real path)."""
+
+    document: str
+    chosen: Mapping[str, str]
+
+    @property
+    def folder(self) -> str:
+        return os.path.dirname(self.document) or "."
+
+
+def program_entry(node: Node, host: str, after: List, key: str, *, process: str = "") -> Map:
+    made = Map(block=True)
+    command = node.command
+    if process:
+        made.put("process", process)
+    elif command is not None:
+        made.put("program", command.words[0], node.by_key.get("program"))
+        if host:
+            made.put("host", host)
+        if command.folder:
+            made.put("cwd", command.folder, node.by_key.get("cwd"))
+        config = command.config
+        flat = posixpath.isabs(config)
+        args = [*command.words[1:], *([] if flat or not config else [_config_argument(command)])]
+        if args:
+            made.put("args", List([Entry("", word) for word in args]))
+        if flat:
+            made.put("config", config)
+            made.put("config-as", command.config_as or "argument")
+    if node.endpoint is not None:
+        endpoints = Map()
+        endpoints.put(node.interface, node.endpoint.text)
+        made.put("endpoints", endpoints, node.by_key.get("endpoints"))
+        identity = node.endpoint.identity
+        if node.is_identity and identity != identity.lower() and not process:  # a ping would ask for the lower case
+            ready = Map()
+            ready.put("port", Raw(str(node.endpoint.port)))
+            made.put("ready", ready)
+    return _closed(made, node, after, key)
+
+
+def _config_argument(command: Command) -> str:
+    return f"{command.config_as}={command.config}" if command.config_as else command.config
+
+
+def component_entry(
+    node: Node, component: Known, host: str, after: List, key: str, site: Site, depends: Sequence[Node]
+) -> tuple[Map, str]:
+    """The entry, and what is odd about its endpoint, or ''."""
+    command = node.command
+    assert command is not None
+    made, problem = Map(block=True), ""
+    home = os.path.dirname(component.path) or "."
+    made.put("component", os.path.relpath(component.path, site.folder), node.by_key.get("program"))
+    executable = _below(command.program, command.folder, home)
+    if executable and executable != f"bin/{component.name}" and os.path.isfile(os.path.join(home, executable)):
+        made.put("executable", executable)
+    if host:
+        made.put("host", host)
+    args = command.words[command.words.index(command.program) + 1 :]
+    if args:
+        made.put("args", List([Entry("", word) for word in args]))
+    if command.config:
+        made.put("config", _config(command, home, site))
+    if node.endpoint is not None:
+        problem = _ports(made, node, component)
+    connect = Map()
+    for proxy, interface in component.requires.items():
+        serving = [other for other in depends if other.interface.lower() == interface.lower()]
+        if len(serving) == 1:
+            connect.put(proxy, serving[0].name)
+    if connect.entries:
+        made.put("connect", connect)
+    return _closed(made, node, after, key), problem
+
+
+def _ports(made: Map, node: Node, component: Known) -> str:
+    endpoint = node.endpoint
+    assert endpoint is not None
+    served = [*component.implements, COMMON]
+    name = next((name for name in served if name.lower() == node.interface.lower()), None)
+    if name is None:
+        return f"'{node.alias}' answers as '{node.interface}', which {component.name} does not implement"
+    port = Raw(str(endpoint.port))
+    notes = node.by_key.get("endpoints")
+    if endpoint.options or endpoint.protocol not in ("tcp", "default"):
+        endpoints = Map()
+        endpoints.put(name, endpoint.text)
+        made.put("endpoints", endpoints, notes)
+    elif name == served[0]:
+        made.put("port", port, notes)
+    else:
+        ports = Map()
+        ports.put(name, port)
+        made.put("ports", ports, notes)
+    return ""
+
+
+def _config(command: Command, home: str, site: Site) -> str:
+    """The component's configuration from its folder: what this run makes of it, where it makes something."""
+    below = _below(command.config, command.folder, home)
+    if not below:
+        return command.config
+    document = site.chosen.get(os.path.realpath(os.path.join(home, below)))
+    return os.path.relpath(document, home) if document is not None else below
+
+
+def _below(path: str, folder: str, home: str) -> str:
+    """A path of the machine that the file is about, from the component's folder; '' where it is not below."""
+    if not posixpath.isabs(path) and not path.startswith("~"):
+        path = posixpath.join(folder, path)
+    name = os.path.basename(os.path.abspath(home))
+    _, found, inner = posixpath.normpath(path).rpartition(f"/{name}/")
+    return inner if found else ""
+
+
+def _closed(made: Map, node: Node, after: List, key: str) -> Map:
+    """The entry with what it waits for, and with what only an exporter needs and cannot know otherwise."""
+    if after.items:
+        made.put("after", after)
+    known = _known_anyway(node)
+    for entry in list(node.extra.entries):
+        if entry.key in known and entry.value == known[entry.key]:
+            node.extra.entries.remove(entry)
+            node.notes.add(entry.notes)
+    if node.extra.entries:
+        made.put(key, node.extra)
+    return made
+
+
+def _known_anyway(node: Node) -> dict[str, str]:
+    """What an exporter says where nothing is kept."""
+    if node.command is None or node.endpoint is None:
+        return {}
+    host = LOCAL if node.command.host in LOOPBACK else node.command.host
+    return {"workingDir": node.command.folder, "endpoint": node.endpoint.proxy(host)}

@@ -1,0 +1,56 @@
+"""What a legacy file says of a network, before it becomes a document: nodes, and what goes with them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.legacy.document import Map, Notes
+from robocomp_yaml.legacy.networks.command import Command
+from robocomp_yaml.legacy.networks.endpoint import Endpoint
+
+_NO_NAME = re.compile(r"[^A-Za-z0-9_-]+[^A-Za-z0-9_]*")
+
+
+@dataclass(slots=True, eq=False)
+class Node:
+    """`alias` is its name in the file, `name` that in the document. `command` is None where nothing starts it.
+    `interface` is what its endpoint is called. `after` are the aliases that it depends on. `extra` is what only an
+    exporter needs. `by_key` are comments by the key that they belong to."""
+
+    alias: str
+    name: str
+    span: Span
+    command: Command | None = None
+    endpoint: Endpoint | None = None
+    endpoint_span: Span = field(default_factory=lambda: Span(""))
+    interface: str = ""
+    after: list[tuple[str, Span, Notes]] = field(default_factory=list)
+    notes: Notes = field(default_factory=Notes)
+    by_key: dict[str, Notes] = field(default_factory=dict)
+    extra: Map = field(default_factory=Map)
+    is_identity: bool = False
+    """Whether the endpoint gives Ice's identity as it is, and not an interface's name."""
+
+
+@dataclass(slots=True, eq=False)
+class NetworkDraft:
+    """`users` are the names for ssh by host; `extra` is what only an exporter needs of the network as such."""
+
+    name: str
+    nodes: list[Node]
+    users: dict[str, str] = field(default_factory=dict)
+    notes: Notes = field(default_factory=Notes)
+    extra: Map = field(default_factory=Map)
+
+
+def safe_name(text: str, taken: Collection[str] = ()) -> str:
+    """A name that documents, files and other programs take: letters, digits, '_' and '-', and none of `taken`."""
+    bare = _NO_NAME.sub("_", text).strip("_-") or "node"
+    bare = bare if bare[0].isalpha() else f"n{bare}"
+    name, number = bare, 2
+    while name in taken:
+        name, number = f"{bare}_{number}", number + 1
+    return name
