@@ -21,7 +21,7 @@ LONG = 50
 
 
 @click.command(short_help="Carry legacy files over to YAML, losing nothing.")
-@click.argument("paths", nargs=-1, required=True, type=click.Path())
+@click.argument("paths", nargs=-1, required=True, type=click.Path(exists=True))
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False),
               help="Write below DIR, in the folders of the sources. Default: beside each source.")
 @click.option("--dry-run", is_flag=True, help="Write nothing; say what would be written.")
