@@ -295,7 +295,7 @@ def test_an_empty_folder_is_an_error(rcyaml: Run, tmp_path: Path) -> None:
     assert read_tree(tmp_path) == {}
 
 
-def test_a_path_that_is_not_there_is_wrong_usage(rcyaml: Callable[..., Result]) -> None:
+def test_a_path_that_is_not_there_is_wrong_usage(rcyaml: Run) -> None:
     result = rcyaml("migrate", "no.idsl")
     assert result.exit_code == 2
     assert "'no.idsl' does not exist" in result.output
