@@ -6,7 +6,7 @@ Order, readiness, plan and rollback are not its business: they are the same for 
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Collection, Iterable, Sequence
+from collections.abc import AsyncGenerator, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -24,6 +24,12 @@ ENDED = "ended"
 STOPPED = "stopped"
 LOST = "lost"
 """Nobody can say: its host does not answer."""
+
+OWN = "rcyaml: "
+"""How a line in a process's log begins that the engine wrote."""
+
+STARTED = f"{OWN}started"
+"""How the line begins that stands before what a run of a process wrote."""
 
 STOP_WITHIN = 5.0
 """Seconds that a process has to end when it is asked to, before it is killed."""
@@ -99,7 +105,7 @@ class Engine(Protocol):
     async def forget(self, names: Iterable[str]) -> None:
         """Drops processes that were stopped and are no longer part of the network, with their configurations."""
 
-    async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncIterator[Line]:
+    async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncGenerator[Line, None]:
         """The last lines that these processes wrote (of each so many), and, with `follow`, those that come. The place
         from which it follows is that at the time of this call: `lines` before `start` misses nothing. The caller
         closes the iterator."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import heapq
 import os
-from collections.abc import AsyncIterator, Iterator, Sequence
+from collections.abc import AsyncGenerator, Iterator, Sequence
 from typing import BinaryIO
 
 from robocomp_yaml.deploy.engine import Line
@@ -77,7 +77,7 @@ class LogReader:
         return Line(self.name, text[_STAMP + 1 :], text[:_STAMP])
 
 
-async def merged(readers: Sequence[LogReader], last: int, follow: bool) -> AsyncIterator[Line]:
+async def merged(readers: Sequence[LogReader], last: int, follow: bool) -> AsyncGenerator[Line, None]:
     """The lines of all, by time; those of one process always in their own order, whatever the clock did."""
     try:
         for line in _by_time([reader.last(last) for reader in readers]):

@@ -18,14 +18,13 @@ from robocomp_yaml.deploy.local import channel, procfs
 from robocomp_yaml.deploy.local.child import Child
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
+from robocomp_yaml.deploy.local.supervisor import RECORD
 
 PROTOCOL = 1
 """Raised with each change of what is said on the socket: clients of another version are told."""
 
 LONGEST = 1 << 28  # bytes of a request: configurations may be long
 END_WITHIN = 5.0
-RECORD = "state/supervisor"
-"""A file that is there from the supervisor's start to its orderly end."""
 
 Request = dict[str, Any]
 
@@ -50,8 +49,7 @@ class _Service:
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             loop.add_signal_handler(number, self._over.set)
         self._end_leftovers()
-        record = f"{self.folder}/{RECORD}"
-        with open(record, "w", encoding="utf-8", opener=lambda path, flags: os.open(path, flags, 0o600)) as file:
+        with open(f"{self.folder}/{RECORD}", "w", encoding="utf-8", opener=lambda path, flags: os.open(path, flags, 0o600)) as file:
             file.write(f"{os.getpid()}\n")
         server = await asyncio.start_unix_server(
             self._talk, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
@@ -60,7 +58,6 @@ class _Service:
         server.close()
         stops = (self._stop(child, END_WITHIN) for child in self.children.values())
         await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
-        os.unlink(record)
         for child in self.children.values():
             child.log.close()
 

@@ -14,6 +14,9 @@ import sys
 
 from robocomp_yaml.deploy.local import kernel, procfs
 
+RECORD = "state/supervisor"
+"""A file that is there from the supervisor's start to its orderly end."""
+
 
 def main() -> None:
     folder = sys.argv[1]
@@ -27,8 +30,10 @@ def main() -> None:
         sys.exit(0)
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         signal.signal(number, lambda number, frame: _pass_on(supervisor, number))
-    _wait_for(supervisor)
+    status = _wait_for(supervisor)
     _end_all()
+    if status == 0:
+        os.unlink(f"{folder}/{RECORD}")
 
 
 def _pass_on(supervisor: int, number: int) -> None:
@@ -38,9 +43,11 @@ def _pass_on(supervisor: int, number: int) -> None:
         pass
 
 
-def _wait_for(supervisor: int) -> None:
-    while os.wait()[0] != supervisor:
-        pass
+def _wait_for(supervisor: int) -> int:
+    while True:
+        pid, status = os.wait()
+        if pid == supervisor:
+            return status
 
 
 def _end_all() -> None:

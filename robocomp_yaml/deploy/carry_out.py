@@ -1,0 +1,205 @@
+"""Carrying out a plan: what stops, in reverse order; then what starts, each as soon as all it is after are ready."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Awaitable, Callable, Iterable, Mapping
+from contextlib import aclosing
+from dataclasses import dataclass, field
+
+from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step, in_order
+from robocomp_yaml.deploy.readiness import LOG_LINES, until_ready
+from robocomp_yaml.diag.diagnostic import Diagnostic
+
+STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
+
+_LOOK = 0.1  # seconds for which what was seen of the processes holds while many wait
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something happened to a process; `seconds` since it began to happen, `text` what to add."""
+
+    name: str
+    kind: str
+    text: str = ""
+    seconds: float = 0.0
+
+
+@dataclass(slots=True)
+class Outcome:
+    """`began` are the processes that were started, ready or not; `failed` why some are not ready; `skipped` are those
+    that were not tried because of these."""
+
+    began: list[str] = field(default_factory=list)
+    failed: dict[str, Diagnostic] = field(default_factory=dict)
+    skipped: list[str] = field(default_factory=list)
+
+
+Report = Callable[[Event], None]
+
+
+class Watch:
+    """What the engine sees, asked for no more often than needed, however many wait for it."""
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+        self._seen: dict[str, Running] = {}
+        self._until = 0.0
+        self._changes = 0
+        self._lock = asyncio.Lock()
+
+    def of(self, name: str) -> Callable[[], Awaitable[Running | None]]:
+        async def look() -> Running | None:
+            async with self._lock:
+                if time.monotonic() > self._until:
+                    changes = self._changes
+                    self._seen = await self._engine.observe()
+                    if changes == self._changes:
+                        self._until = time.monotonic() + _LOOK
+            return self._seen.get(name)
+
+        return look
+
+    def forget(self) -> None:
+        """What was seen, and what is being looked at, no longer holds."""
+        self._changes += 1
+        self._until = 0.0
+
+
+async def carry_out(engine: Engine, plan: Plan, report: Report, *, keep_going: bool) -> Outcome:
+    """Does what the plan says. Where a process fails, nothing more is started, or, with `keep_going`, only what
+    depends on it is not."""
+    leaving = plan.of(STOP, RESTART) + [step for step in plan.of(START) if _is_in_the_way(step)]
+    await stop_all(engine, [step.running for step in leaving if step.running], report)
+    await engine.forget([step.name for step in plan.of(STOP)])
+    await engine.prepare([step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec])
+    starts = _Starts(engine, plan, report, keep_going)
+    return await starts.run()
+
+
+def _is_in_the_way(step: Step) -> bool:
+    return step.running is not None and step.running.state in (RUNNING, WAITING)
+
+
+async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -> None:
+    """Stops processes, each after all that are after it. Raises DeployFailed when all that can stop have stopped."""
+    leaving = {one.name: one for one in running if one.state not in (STOPPED, LOST)}
+    after = {name: one.spec.process.after if one.spec else () for name, one in leaving.items()}
+    tasks: dict[str, asyncio.Task[None]] = {}
+
+    async def stop(name: str, users: list[asyncio.Task[None]]) -> None:
+        if users:
+            await asyncio.wait(users)
+        began = time.monotonic()
+        report(Event(name, STOPPING))
+        await engine.stop(name)
+        report(Event(name, GONE, seconds=time.monotonic() - began))
+
+    for name in reversed(in_order(after)):
+        users = [task for user, task in tasks.items() if name in after[user]]
+        tasks[name] = asyncio.create_task(stop(name, users))
+    for result in await asyncio.gather(*tasks.values(), return_exceptions=True):
+        if isinstance(result, BaseException):
+            raise result
+
+
+class _Starts:
+    """The starts of one plan under way."""
+
+    def __init__(self, engine: Engine, plan: Plan, report: Report, keep_going: bool) -> None:
+        self._engine, self._plan, self._report, self._keep_going = engine, plan, report, keep_going
+        self._outcome = Outcome()
+        self._watch = Watch(engine)
+        self._tasks: dict[str, asyncio.Task[bool]] = {}
+        self._order = in_order({step.name: _after(step) for step in plan.of(START, RESTART, CHANGE, KEEP)})
+
+    async def run(self) -> Outcome:
+        starting = {step.name for step in self._plan.of(START, RESTART)}
+        needed = {name for step in self._plan.of(START, RESTART) for name in _after(step)}
+        try:
+            for step in (self._plan.steps[name] for name in self._order):
+                if step.name in starting:
+                    # Those that close a cycle come later in the order, and are not waited for.
+                    before = [self._tasks[name] for name in _after(step) if name in self._tasks]
+                    self._tasks[step.name] = asyncio.create_task(self._start(step, before))
+                elif step.name in needed:
+                    self._tasks[step.name] = asyncio.create_task(self._wait_for(step))
+            pending = set(self._tasks.values())
+            while pending:
+                done, pending = await asyncio.wait(pending, return_when=asyncio.FIRST_COMPLETED)
+                for task in done:
+                    if not task.cancelled():
+                        task.result()
+                if self._outcome.failed and not self._keep_going:
+                    break
+        finally:
+            await _cancel(self._tasks.values())
+        tried = {*self._outcome.began, *self._outcome.failed}
+        self._outcome.skipped = [step.name for step in self._plan.of(START, RESTART) if step.name not in tried]
+        for name in self._outcome.skipped:
+            self._report(Event(name, SKIPPED))
+        return self._outcome
+
+    async def _start(self, step: Step, before: list[asyncio.Task[bool]]) -> bool:
+        """Starts a process when all it is after are ready; whether it is ready then."""
+        if before and not all(await asyncio.gather(*(asyncio.shield(task) for task in before))):
+            return False
+        self._report(Event(step.name, STARTING))
+        return await self._ends_ready(step, time.monotonic(), self._begin)
+
+    async def _wait_for(self, step: Step) -> bool:
+        """Waits for a process that runs already and is needed: as a rule it answers at once."""
+        return await self._ends_ready(step, time.monotonic(), None)
+
+    async def _begin(self, name: str) -> None:
+        self._outcome.began.append(name)
+        await self._engine.start(name)
+        self._watch.forget()
+
+    async def _ends_ready(
+        self, step: Step, began: float, begin: Callable[[str], Awaitable[None]] | None
+    ) -> bool:  # fmt: skip
+        assert step.spec
+        try:
+            lines = await self._engine.lines([step.name], 0 if begin else LOG_LINES, True)
+            async with aclosing(lines):
+                if begin:
+                    await begin(step.name)
+                await until_ready(self._engine, step.spec, lines, self._watch.of(step.name))
+        except DeployFailed as error:
+            self._outcome.failed[step.name] = error.diagnostic
+            self._report(Event(step.name, FAILED, error.diagnostic.message, time.monotonic() - began))
+            return False
+        if begin:
+            self._report(Event(step.name, READY, seconds=time.monotonic() - began))
+        return True
+
+
+def _after(step: Step) -> tuple[str, ...]:
+    return step.spec.process.after if step.spec else ()
+
+
+async def _cancel(tasks: Iterable[asyncio.Task[bool]]) -> None:
+    rest = [task for task in tasks if not task.done()]
+    for task in rest:
+        task.cancel()
+    await asyncio.gather(*rest, return_exceptions=True)
+
+
+def undo(plan: Plan, before: Mapping[str, Running], now: Mapping[str, Running]) -> Plan:
+    """The plan back to what ran before this plan was carried out, wholly or in part."""
+    steps: dict[str, Step] = {}
+    for name, step in plan.steps.items():
+        spec = before[name].spec if name in before and before[name].state in (RUNNING, WAITING) else None
+        if step.action == KEEP:
+            steps[name] = step
+        elif spec is None:
+            if name in now:
+                steps[name] = Step(name, STOP, "it did not run before", running=now[name])
+        else:
+            action = CHANGE if step.action == CHANGE else START
+            steps[name] = Step(name, action, "it ran before", spec=spec, running=now.get(name))
+    return Plan(steps)

@@ -1,0 +1,91 @@
+"""Whether an Ice object answers: `ice_ping` in Ice's own protocol, over one plain connection.
+
+A dozen bytes each way need neither the Ice runtime nor its threads, so that readiness can be asked of many processes at
+once, and where Ice is not installed. What is not plain TCP, or names no address, is left to the Ice runtime.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import re
+import struct
+
+_MAGIC = b"IceP\x01\x00\x01\x00"  # protocol 1.0, its encoding 1.0
+_REQUEST, _REPLY, _VALIDATE, _CLOSE = 0, 2, 3, 4
+_HEADER = struct.Struct("<8sBBi")
+_IDEMPOTENT = 2
+_NO_ARGUMENTS = struct.pack("<iBB", 6, 1, 1)
+_LONGEST = 1 << 16
+
+_PROXY = re.compile(r"(?P<identity>\"[^\"]+\"|'[^']+'|[^\s:\"'@\\]+)(?P<options>[^:@]*):(?P<endpoints>.+)", re.DOTALL)
+_OPTION = re.compile(r"-([hp])\s+(\"[^\"]*\"|\S+)")
+
+
+def address_of(proxy: str) -> tuple[str, str, int] | None:
+    """The identity, host and port of a proxy's first endpoint; None where the endpoint is not plain TCP."""
+    parts = _PROXY.fullmatch(proxy.strip())
+    if not parts or "-f" in parts["options"]:
+        return None
+    # A colon separates endpoints unless it is one of an IPv6 address, which stands in quotes.
+    endpoint = re.split(r":(?=\s*(?:tcp|default|udp|ssl|ws|wss)\b)", parts["endpoints"])[0].strip()
+    options = {letter: value.strip('"') for letter, value in _OPTION.findall(endpoint)}
+    if endpoint.split()[0] not in ("tcp", "default") or not options.get("p", "").isdigit():
+        return None
+    return parts["identity"].strip("\"'"), options.get("h") or "127.0.0.1", int(options["p"])
+
+
+async def answers(proxy: str, within: float) -> bool:
+    """Whether the object that a proxy names answers a ping; never raises because of what is at the other end."""
+    address = address_of(proxy)
+    try:
+        async with asyncio.timeout(within):
+            if address is None:
+                return await asyncio.to_thread(_answers_by_ice, proxy, within)
+            identity, host, port = address
+            reader, writer = await asyncio.open_connection(host, port)
+            try:
+                return await _ping(identity, reader, writer)
+            finally:
+                writer.close()
+    except (OSError, asyncio.IncompleteReadError, struct.error):
+        return False
+
+
+async def _ping(identity: str, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> bool:
+    if await _message(reader) != (_VALIDATE, b""):
+        return False
+    category, _, name = identity.rpartition("/")
+    body = struct.pack("<i", 1) + _text(name) + _text(category)
+    body += b"\0" + _text("ice_ping") + bytes([_IDEMPOTENT, 0]) + _NO_ARGUMENTS
+    writer.write(_HEADER.pack(_MAGIC, _REQUEST, 0, _HEADER.size + len(body)) + body)
+    kind, reply = await _message(reader)
+    # Ice closes a connection in good order by saying so.
+    writer.write(_HEADER.pack(_MAGIC, _CLOSE, 0, _HEADER.size))
+    return kind == _REPLY and reply[:5] == struct.pack("<iB", 1, 0)
+
+
+async def _message(reader: asyncio.StreamReader) -> tuple[int, bytes]:
+    """The next message's kind and body; (-1, b"") for what is not Ice."""
+    magic, kind, _, size = _HEADER.unpack(await reader.readexactly(_HEADER.size))
+    if magic[:4] != _MAGIC[:4] or not _HEADER.size <= size <= _LONGEST:
+        return -1, b""
+    return kind, await reader.readexactly(size - _HEADER.size)
+
+
+def _text(text: str) -> bytes:
+    data = text.encode()
+    return (struct.pack("<Bi", 255, len(data)) if len(data) > 254 else bytes([len(data)])) + data
+
+
+def _answers_by_ice(proxy: str, within: float) -> bool:
+    """By the Ice runtime; without it, nothing is known, and the object counts as silent."""
+    try:
+        import Ice
+    except ImportError:
+        return False
+    try:
+        with Ice.initialize([f"--Ice.Default.InvocationTimeout={int(within * 1000)}"]) as communicator:
+            communicator.stringToProxy(proxy).ice_ping()
+    except Ice.Exception:
+        return False
+    return True

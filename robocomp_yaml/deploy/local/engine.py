@@ -1,0 +1,155 @@
+"""The engine of one machine: what `deploy` asks of a network's supervisor."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+from collections.abc import AsyncGenerator, Collection, Iterable, Sequence
+from functools import partial
+from typing import Any
+
+from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
+from robocomp_yaml.deploy.local import folder as own_folder
+from robocomp_yaml.deploy.local import launch
+from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
+from robocomp_yaml.deploy.local.kernel import die_with
+from robocomp_yaml.deploy.local.log_reader import LogReader, merged
+from robocomp_yaml.deploy.local.obstacles import environment_of, obstacles
+from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.network.network import Network
+
+
+class LocalEngine:
+    """See `deploy.engine.Engine`."""
+
+    name = "local"
+
+    def __init__(self) -> None:
+        self.notes: list[Diagnostic] = []
+        self._client: Client | None = None
+        self._network = Network("", "", "")
+        self._specs: dict[str, Spec] = {}
+
+    async def open(self, network: Network, *, create: bool) -> bool:
+        self._network = network
+        try:
+            connection = launch.reach(network.folder)
+            if connection is None and launch.was_killed(network.folder):
+                self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(network.path)))
+            if connection is None and create:
+                own_folder.make(network.folder)
+                connection = await launch.start(network.folder)
+        except OSError as error:
+            raise self._folder_failed(network.folder, error.strerror or str(error)) from error
+        if connection is None:
+            return False
+        self._client = await Client.over(connection)
+        if (await self._ask("", "hello"))["protocol"] != launch.PROTOCOL:
+            raise self._folder_failed(network.folder, "another version of rcyaml started what runs there")
+        return True
+
+    async def observe(self) -> dict[str, Running]:
+        answer = await self._ask("", "observe")
+        found = [_running(entry) for entry in answer["processes"]]
+        return {running.name: running for running in found}
+
+    async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
+        own: set[int] = set()
+        if self._client:
+            for entry in (await self._ask("", "observe"))["processes"]:
+                if entry["spec"]["process"]["name"] in leaving:
+                    own.update(entry["members"])
+        return obstacles(specs, own)
+
+    async def prepare(self, specs: Sequence[Spec]) -> None:
+        for spec in specs:
+            config = spec.process.config
+            try:
+                if config:
+                    own_folder.write(self._network.folder, config.path, config.text)
+                for path in spec.process.folders:
+                    os.makedirs(path, mode=0o700, exist_ok=True)
+            except OSError as error:
+                raise self._folder_failed(error.filename or self._network.folder, error.strerror or "") from error
+        self._specs.update({spec.name: spec for spec in specs})
+        await self._ask("", "prepare", specs=[spec.as_data() for spec in specs])
+
+    async def start(self, name: str) -> None:
+        spec = self._specs[name]
+        if found := obstacles([spec], ()):
+            raise DeployFailed(found[0])
+        await self._ask(name, "start", name=name, environment=environment_of(spec.process))
+
+    async def stop(self, name: str, within: float = STOP_WITHIN) -> None:
+        await self._ask(name, "stop", name=name, within=within)
+
+    async def forget(self, names: Iterable[str]) -> None:
+        gone = list(names)
+        running = await self.observe()
+        await self._ask("", "forget", names=gone)
+        for spec in (running[name].spec for name in gone if name in running):
+            if spec and spec.process.config:
+                own_folder.remove(self._network.folder, spec.process.config.path)
+
+    async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncGenerator[Line, None]:
+        return merged([LogReader(self._network.folder, name) for name in names], last, follow)
+
+    async def run(self, name: str, command: Sequence[str], within: float) -> int:
+        process = self._specs[name].process if name in self._specs else self._network.processes[name]
+        try:
+            started = await asyncio.create_subprocess_exec(
+                *command, cwd=process.cwd or None, env=environment_of(process), stdin=asyncio.subprocess.DEVNULL,
+                stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.DEVNULL, start_new_session=True,
+                preexec_fn=partial(die_with, os.getpid()),
+            )  # fmt: skip
+        except OSError:
+            return 127
+        try:
+            return await asyncio.wait_for(started.wait(), within)
+        except TimeoutError:
+            return 124
+        finally:
+            if started.returncode is None:
+                os.killpg(started.pid, signal.SIGKILL)
+                await started.wait()
+
+    async def close(self, *, end: bool = False) -> None:
+        if client := self._client:
+            if end:
+                await self._ask("", "end")
+                await client.wait_closed()
+                await launch.wait_gone(self._network.folder)
+            self._client = None
+            await client.close()
+
+    async def _ask(self, about: str, do: str, **facts: object) -> dict[str, Any]:
+        """An answer of the supervisor, about the process of that name where there is one."""
+        assert self._client, "open it first"
+        try:
+            return await self._client.ask(do, **facts)
+        except RequestFailed as error:
+            process = self._network.processes.get(about)
+            where = process.span if process and process.span.file else Span(self._network.path)
+            raise DeployFailed(deploying.REFUSED.at(where, name=about, what=_DONE.get(do, do), reason=error)) from error
+        except SupervisorGone as error:
+            raise DeployFailed(deploying.SUPERVISOR_KILLED.at(Span(self._network.path))) from error
+
+    def _folder_failed(self, path: str, reason: str) -> DeployFailed:
+        return DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason.lower()))
+
+
+_DONE = {"start": "started", "stop": "stopped"}
+
+
+def _running(entry: dict[str, Any]) -> Running:
+    try:
+        spec = Spec.of_data(entry["spec"])
+    except (KeyError, TypeError, ValueError):
+        spec = None
+    process = entry["spec"]["process"]
+    kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu")
+    return Running(process["name"], spec, process["host"], **{key: entry[key] for key in kept})

@@ -1,0 +1,63 @@
+"""The deployment's own folder: only its owner may look into it, and its files are whole or not there at all."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import tempfile
+import time
+from collections.abc import Iterator
+
+_PARTS = ("config", "logs", "state")
+
+
+def make(folder: str) -> None:
+    """Makes the folder and its parts. Raises OSError."""
+    os.makedirs(os.path.dirname(folder), exist_ok=True)
+    for path in (folder, *(f"{folder}/{part}" for part in _PARTS)):
+        with contextlib.suppress(FileExistsError):
+            os.mkdir(path)
+        os.chmod(path, 0o700)
+
+
+def write(folder: str, path: str, text: str) -> None:
+    """Writes a file of mode 0600, at once. Raises OSError."""
+    target = f"{folder}/{path}"
+    os.makedirs(os.path.dirname(target), mode=0o700, exist_ok=True)
+    descriptor, part = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".")
+    try:
+        with open(descriptor, "w", encoding="utf-8", errors="surrogateescape", newline="") as file:
+            file.write(text)
+        os.replace(part, target)
+    except BaseException:
+        os.unlink(part)
+        raise
+
+
+def remove(folder: str, path: str) -> None:
+    with contextlib.suppress(OSError):
+        os.unlink(f"{folder}/{path}")
+
+
+@contextlib.contextmanager
+def locked(folder: str, patience: float = 2.0) -> Iterator[bool]:
+    """Holds the deployment for one who changes it; False where another rcyaml has it for too long. The lock goes with
+    the process. Raises OSError."""
+    make(folder)
+    lock = os.open(f"{folder}/state", os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        until = time.monotonic() + patience
+        while not (is_ours := _acquire(lock)) and time.monotonic() < until:
+            time.sleep(0.05)
+        yield is_ours
+    finally:
+        os.close(lock)
+
+
+def _acquire(lock: int) -> bool:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True

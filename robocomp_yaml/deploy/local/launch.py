@@ -1,0 +1,62 @@
+"""Reaching a deployment's supervisor, and starting one where there is none."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import socket
+import subprocess
+import sys
+
+from robocomp_yaml.deploy.local import channel, procfs
+from robocomp_yaml.deploy.local.service import PROTOCOL
+from robocomp_yaml.deploy.local.supervisor import RECORD
+
+__all__ = ["PROTOCOL", "reach", "start", "wait_gone", "was_killed"]
+
+_PATIENCE = 20.0  # seconds: far more than it needs, also where the machine is busy
+
+
+def reach(folder: str) -> socket.socket | None:
+    """A connection to the supervisor; None where there is none. Raises OSError where the folder is none."""
+    return channel.connect(f"{folder}/state") if os.path.isdir(f"{folder}/state") else None
+
+
+def was_killed(folder: str) -> bool:
+    """Whether the last supervisor ended without taking leave."""
+    return os.path.exists(f"{folder}/{RECORD}")
+
+
+async def start(folder: str) -> socket.socket:
+    """A connection to a new supervisor. Raises OSError where it does not come to life, with what it said."""
+    package = os.path.abspath(f"{__file__}/../../../..")
+    environment = {key: value for key, value in os.environ.items() if key != procfs.MARK}
+    environment["PYTHONPATH"] = os.pathsep.join([package, *filter(None, [environment.get("PYTHONPATH")])])
+    said = os.open(f"{folder}/state/supervisor.log", os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
+    try:
+        # It stays when this process ends, and nobody waits for it then.
+        keeper = subprocess.Popen(
+            [sys.executable, "-m", "robocomp_yaml.deploy.local.supervisor", folder],
+            cwd="/", env=environment, stdin=subprocess.DEVNULL, stdout=said, stderr=said, start_new_session=True,
+        )  # fmt: skip
+        for _ in range(int(_PATIENCE / 0.02)):
+            if connection := reach(folder):
+                keeper.returncode = 0
+                return connection
+            if keeper.poll() is not None:
+                break
+            await asyncio.sleep(0.02)
+        keeper.kill()
+        keeper.wait()
+        text = os.pread(said, 1 << 16, 0).decode("utf-8", "replace").strip()
+        raise OSError(0, f"the supervisor does not start: {text[-500:]}")
+    finally:
+        os.close(said)
+
+
+async def wait_gone(folder: str) -> None:
+    """Until the supervisor has taken leave."""
+    for _ in range(int(_PATIENCE / 0.02)):
+        if not was_killed(folder):
+            return
+        await asyncio.sleep(0.02)

@@ -1,0 +1,69 @@
+"""What would keep a process from starting on this machine, seen before it is tried; and the environment it gets."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Collection, Iterator, Sequence
+
+from robocomp_yaml.deploy.local import procfs
+from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.network.network import Process
+
+
+def environment_of(process: Process) -> dict[str, str]:
+    """The caller's environment with the process's own variables. What Python programs print is seen at once."""
+    own = {
+        variable.name: os.environ.get(variable.source, "") if variable.source else variable.value
+        for variable in process.env
+    }
+    return {"PYTHONUNBUFFERED": "1", **os.environ, **own}
+
+
+def obstacles(specs: Sequence[Spec], own: Collection[int]) -> list[Diagnostic]:
+    """`own` are running processes that count as gone."""
+    ports = {e.port for spec in specs for e in spec.process.endpoints if e.protocol != "udp"}
+    taken = {
+        port: [pid for pid in pids if pid not in own]
+        for port, pids in procfs.listeners(ports).items()
+        if not pids or not set(pids) <= set(own)
+    }
+    return [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
+
+
+def _of_ports(spec: Spec, taken: dict[int, list[int]]) -> Iterator[Diagnostic]:
+    for endpoint in spec.process.endpoints:
+        if endpoint.port in taken and endpoint.protocol != "udp":
+            pids = taken[endpoint.port]
+            who = f"{procfs.command_line(pids[0])} (pid {pids[0]})" if pids else "one of another user"
+            yield deploying.PORT_TAKEN.at(
+                endpoint.span if endpoint.span.file else spec.process.span,
+                hint=f"end it (`kill {pids[0]}`), or give '{spec.name}' another port" if pids else "",
+                name=spec.name, port=endpoint.port, program=who,
+            )  # fmt: skip
+
+
+def _of_program(spec: Spec) -> Iterator[Diagnostic]:
+    process = spec.process
+    for variable in process.env:
+        if variable.source and variable.source not in os.environ:
+            yield deploying.UNSET_VARIABLE.at(
+                process.span, hint=f"export {variable.source}=…", name=spec.name, variable=variable.source
+            )
+    if reason := _why_not(spec):
+        yield deploying.REFUSED.at(process.span, name=spec.name, what="started", reason=reason)
+
+
+def _why_not(spec: Spec) -> str:
+    program, folder = spec.command[0], spec.process.cwd or "/"
+    if not os.path.isdir(folder):
+        return f"its folder '{folder}' does not exist"
+    if "/" not in program:
+        path = environment_of(spec.process).get("PATH", os.defpath)
+        return "" if shutil.which(program, path=path) else f"no program '{program}' is in the PATH"
+    full = os.path.join(folder, program)
+    if not os.path.exists(full):
+        return f"there is no file '{full}'"
+    return "" if os.access(full, os.X_OK) and os.path.isfile(full) else f"'{full}' is no program that may be run"

@@ -1,0 +1,153 @@
+"""What `up` would do: for each process of a network, against what runs, what happens to it and why.
+
+A process restarts when something of it changed that it cannot take over while it runs. What depends on it goes on:
+Ice connects again by itself, and where the process has moved, the configuration of those that use it has changed too.
+Only programs that are not Ice follow when something that they are `after` restarts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from robocomp_yaml.deploy.differences import Difference, differences
+from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, WAITING, Running
+from robocomp_yaml.deploy.spec import Spec, spec_of
+from robocomp_yaml.network.network import Network, Process
+
+START, STOP, RESTART, CHANGE, KEEP = "start", "stop", "restart", "change", "keep"
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What happens to one process. `spec` is what it shall run with, None where it stops; `before` is what it runs
+    with now. CHANGE takes over what needs no restart."""
+
+    name: str
+    action: str
+    reason: str
+    changes: tuple[Difference, ...] = ()
+    spec: Spec | None = None
+    running: Running | None = None
+
+    @property
+    def before(self) -> Spec | None:
+        return self.running.spec if self.running else None
+
+
+@dataclass(slots=True)
+class Plan:
+    """Steps by name: those that stop for good, then the network's in its order."""
+
+    steps: dict[str, Step] = field(default_factory=dict)
+
+    def of(self, *actions: str) -> list[Step]:
+        return [step for step in self.steps.values() if step.action in actions]
+
+    @property
+    def is_empty(self) -> bool:
+        return all(step.action == KEEP for step in self.steps.values())
+
+
+def plan(
+    network: Network, running: Mapping[str, Running], names: Iterable[str] = (), forced: Collection[str] = ()
+) -> Plan:
+    """`names` are processes to which it is limited, with all that they are after; `forced` restart in any case."""
+    chosen = with_dependences(network, names) if names else {process.name for process in network.enabled()}
+    steps: dict[str, Step] = {}
+    for name in running:
+        process = network.processes.get(name)
+        if not names and (process is None or not process.enabled):
+            reason = "it is no longer part of the deployment" if process is None else "it is disabled"
+            steps[name] = Step(name, STOP, reason, running=running[name])
+    digests: dict[str, str] = {}
+    for wave in network.order:
+        for name in wave:
+            if name in chosen:
+                process = network.processes[name]
+                spec = spec_of(network, process, digests)
+                steps[name] = _step(spec, running.get(name), forced, _restarting(process, steps))
+    return Plan(steps)
+
+
+def with_dependences(network: Network, names: Iterable[str]) -> set[str]:
+    """These processes and all that they are after, directly or not."""
+    found: set[str] = set()
+    rest = list(names)
+    while rest:
+        name = rest.pop()
+        if name in network.processes and name not in found:
+            found.add(name)
+            rest += network.processes[name].after
+    return {name for name in found if network.processes[name].enabled}
+
+
+def with_dependents(after: Mapping[str, Iterable[str]], names: Iterable[str]) -> set[str]:
+    """These processes and all that are after them, directly or not; `after` says of each what it is after."""
+    found = set(names)
+    while more := {name for name, before in after.items() if name not in found and found & set(before)}:
+        found |= more
+    return found
+
+
+def in_order(after: Mapping[str, Iterable[str]]) -> list[str]:
+    """The names, each behind those that it is after; where they form a cycle, behind as many as can be."""
+    order: list[str] = []
+    seen: set[str] = set()
+    for first in after:
+        path = [(first, iter(after[first]))] if first not in seen else []
+        seen.add(first)
+        while path:
+            name, before = path[-1]
+            other = next((other for other in before if other in after and other not in seen), None)
+            if other is None:
+                order.append(name)
+                path.pop()
+            else:
+                seen.add(other)
+                path.append((other, iter(after[other])))
+    return order
+
+
+def _restarting(process: Process, steps: Mapping[str, Step]) -> str:
+    """One that the process must follow, as it cannot connect again by itself."""
+    if process.is_ice:
+        return ""
+    return next((name for name in process.after if name in steps and steps[name].action == RESTART), "")
+
+
+def _step(spec: Spec, running: Running | None, forced: Collection[str], follows: str) -> Step:
+    name = spec.name
+    if running is None:
+        return Step(name, START, "it does not run yet", spec=spec)
+    if running.state in (WAITING, GIVEN_UP, LOST):
+        how = f": {running.last_exit}" if running.last_exit else ""
+        return Step(name, START, _STATES[running.state] + how, spec=spec, running=running)
+    if running.state not in (RUNNING, ENDED):
+        return Step(name, START, "it was stopped", spec=spec, running=running)
+    if running.spec is None:
+        return Step(name, RESTART, "another version of rcyaml started it", spec=spec, running=running)
+    changes = tuple(differences(running.spec, spec))
+    if name in forced:
+        return Step(name, RESTART, "you asked for it", changes, spec, running)
+    if any(not change.is_live for change in changes):
+        return Step(name, RESTART, _first(changes), changes, spec, running)
+    if follows and running.state == RUNNING:
+        return Step(name, RESTART, f"it is after {follows}, which restarts", changes, spec, running)
+    if changes:
+        return Step(name, CHANGE, _first(changes), changes, spec, running)
+    return Step(name, KEEP, "nothing changed", spec=spec, running=running)
+
+
+_STATES = {
+    WAITING: "it ended by itself",
+    GIVEN_UP: "it was given up",
+    LOST: "its host did not answer",
+}
+
+
+def _first(changes: tuple[Difference, ...]) -> str:
+    """The change that is the reason, and how many more there are."""
+    first = next((change for change in changes if not change.is_live), changes[0])
+    more = len(changes) - 1
+    return f"{first}" + (f", and {more} more" if more else "")

@@ -1,0 +1,146 @@
+"""Whether a process is ready: what its `Readiness` asks for, looked at until it holds or the time is over."""
+
+from __future__ import annotations
+
+import asyncio
+import re
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import aclosing, suppress
+
+from robocomp_yaml.deploy import ice_ping
+from robocomp_yaml.deploy.engine import (
+    ENDED, GIVEN_UP, LOST, OWN, RUNNING, STARTED, STOPPED, DeployFailed, Engine, Line, Running,
+)  # fmt: skip
+from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.network.network import ALWAYS
+
+SETTLED = 0.1
+"""Seconds for which a process runs that says nothing of its readiness, before it counts as ready."""
+
+LOG_LINES = 1000
+"""Lines of its log in which an older process's sign of readiness is looked for."""
+
+_SHORTEST, _LONGEST = 0.01, 0.2  # seconds between two looks, which become rarer
+_ONE_TRY = 2.0  # seconds for an answer
+
+
+async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
+    """Whether a process is ready now."""
+    ready = spec.process.ready
+    if running.state == ENDED:
+        return not (ready.pings or ready.port or ready.command or ready.log)
+    if running.state != RUNNING:
+        return False
+    if ready.log:
+        async with aclosing(await engine.lines([spec.name], LOG_LINES, False)) as lines:
+            texts = [line.text async for line in lines]
+        starts = [number for number, text in enumerate(texts) if text.startswith(STARTED)]
+        return any(_is_sign(ready.log, text) for text in texts[starts[-1] if starts else 0 :])
+    return await _look(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
+
+
+async def until_ready(
+    engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: Callable[[], Awaitable[Running | None]]
+) -> None:
+    """Waits for a process that was just started. Raises DeployFailed where it ends before, or takes too long.
+
+    `lines` are what it writes, from its start on; `state` gives what the engine last saw of it."""
+    watch = asyncio.create_task(_until_it_ends(spec, state))
+    look = asyncio.create_task(_until_it_holds(engine, spec, lines, state))
+    try:
+        done, _ = await asyncio.wait((watch, look), timeout=spec.process.ready.within,
+                                     return_when=asyncio.FIRST_COMPLETED)  # fmt: skip
+        if look in done:
+            return look.result()
+        running = await state()
+        if watch in done:
+            raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=watch.result()))
+        raise DeployFailed(
+            deploying.NOT_READY.at(
+                spec.process.span, name=spec.name, within=spec.process.ready.within, why=_why_not(spec, running)
+            )
+        )
+    finally:
+        for task in (watch, look):
+            task.cancel()
+            with suppress(asyncio.CancelledError, DeployFailed):
+                await task
+
+
+async def _until_it_ends(spec: Spec, state: Callable[[], Awaitable[Running | None]]) -> str:
+    """Until it has ended, and is not started again; says how."""
+    while True:
+        running = await state()
+        if running is None or running.state in (GIVEN_UP, STOPPED, LOST):
+            how = running.last_exit if running else "it is not known any more"
+            tries = running.restarts if running else 0
+            return f"{how}, after {tries} restarts" if tries else how or "it was stopped"
+        if running.state == ENDED and _asks_for_something(spec):
+            return running.last_exit
+        await asyncio.sleep(_LONGEST / 2)
+
+
+async def _until_it_holds(
+    engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: Callable[[], Awaitable[Running | None]]
+) -> None:
+    if spec.process.ready.log:
+        async for line in lines:
+            if _is_sign(spec.process.ready.log, line.text):
+                return
+    pause = _SHORTEST
+    while True:
+        if _asks_for_something(spec):
+            if await _look(engine, spec, min(_ONE_TRY, spec.process.ready.within)):
+                return
+        elif running := await state():
+            if running.state == ENDED and spec.process.restart.policy != ALWAYS:
+                return
+            if running.state == RUNNING and running.uptime >= SETTLED:
+                return
+        await asyncio.sleep(pause)
+        pause = min(pause * 1.5, _LONGEST)
+
+
+def _asks_for_something(spec: Spec) -> bool:
+    ready = spec.process.ready
+    return bool(ready.pings or ready.port or ready.command or ready.log)
+
+
+async def _look(engine: Engine, spec: Spec, within: float) -> bool:
+    """One look at all but the log."""
+    ready = spec.process.ready
+    if ready.pings:
+        return all(await asyncio.gather(*(ice_ping.answers(proxy, within) for proxy in ready.pings)))
+    if ready.port:
+        return await _listens(spec.address, ready.port, within)
+    if ready.command:
+        return await engine.run(spec.name, ready.command, within) == 0
+    return True
+
+
+async def _listens(host: str, port: int, within: float) -> bool:
+    try:
+        async with asyncio.timeout(within):
+            _, writer = await asyncio.open_connection(host, port)
+    except OSError:
+        return False
+    writer.close()
+    return True
+
+
+def _is_sign(pattern: str, text: str) -> bool:
+    return not text.startswith(OWN) and re.search(pattern, text) is not None
+
+
+def _why_not(spec: Spec, running: Running | None) -> str:
+    ready = spec.process.ready
+    if running and running.restarts:
+        return f"it ended {running.restarts} times meanwhile, the last time with {running.last_exit}"
+    if ready.pings:
+        return "no answer from " + ", ".join(proxy.partition(":")[0].split()[0] for proxy in ready.pings)
+    if ready.port:
+        return f"nothing listens on port {ready.port}"
+    if ready.command:
+        return f"`{' '.join(ready.command)}` did not succeed"
+    return f"no line of its log matches '{ready.log}'" if ready.log else "it does not keep running"
