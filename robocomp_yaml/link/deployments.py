@@ -17,8 +17,7 @@ from robocomp_yaml.model.deployment import Deployment, Entry, Exposed, Group, Ho
 class LinkedInstance:
     """An instance of an entry of `components:`. `entry` has this instance's texts (only its ports are not counted up);
     `number` counts from 0, None for an entry without `instances:`. `scope` is what full names begin with where the
-    entry stands: '' or `arm.`; `document` is where that is. The tree of `entry.settings` is as
-    written: `values.settings` puts it over `values`.
+    entry stands: '' or `arm.`; `document` is where that is.
 
     `component` is None for a program, and for a document with errors. `values` are those of the document that
     `config:` names, else of the component's `etc/config.yaml`; `flat` is the path (as opened) of a configuration file
@@ -57,13 +56,13 @@ class LinkedStorm:
 
 @dataclass(frozen=True, slots=True)
 class Served:
-    """An interface that a group serves: `name` to those outside. `port` is the one (of `implements`) of the member
-    `instance`, None for a program, of which only the name of its endpoint is known: `interface`. `rule` is the entry of
-    `expose:` with a rate or access rule, else None."""
+    """An interface that a group serves: `name` to those outside, `adapter` to the member `instance`, which has an entry
+    of this name under `implements` (its `port`) or, for a program, under `endpoints:`. `rule` is the entry of `expose:`
+    with a rate or access rule, else None."""
 
     name: str
     instance: LinkedInstance
-    interface: str
+    adapter: str
     port: Port | None = None
     rule: Exposed | None = None
 
@@ -99,10 +98,10 @@ def offers(instance: LinkedInstance) -> Iterator[Served]:
     """What an instance serves by its component, or else by its endpoints."""
     if instance.component is not None:
         for port in instance.component.implements:
-            yield Served(port.name, instance, port.interface.name, port)
+            yield Served(port.name, instance, port.name, port)
         return
     for endpoint in instance.entry.endpoints:
-        yield Served(endpoint.name, instance, endpoint.name.rpartition(".")[2])
+        yield Served(endpoint.name, instance, endpoint.name)
 
 
 Target = LinkedInstance | LinkedStorm | LinkedGroup

@@ -22,6 +22,7 @@ from robocomp_yaml.model.interface import Import, Module
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.attachments import Attachments
+    from robocomp_yaml.link.deployment_documents import DeploymentDocuments
 
 
 @dataclass(slots=True)
@@ -42,6 +43,7 @@ class Linker:
         self.program.asked = {document.real for document in todo}
         components: list[tuple[Document, LinkedComponent]] = []
         attachments: Attachments | None = None
+        deployments: DeploymentDocuments | None = None
         seen: set[str] = set()
         while todo:
             document = todo.pop()
@@ -51,6 +53,10 @@ class Linker:
             if isinstance(document.model, Module):
                 linked = self.program.modules[document.real] = LinkedModule(document.model)
                 todo += self._imports(document, document.model.imports, linked.unresolved, idsl)
+                continue
+            if document.kind == "ddsl" and document.model is not None:
+                deployments = deployments or self._deployments()
+                todo += deployments.follow(document)
                 continue
             if isinstance(document.model, Component):
                 model, diagnostics = options.expanded(document.model)
@@ -68,6 +74,8 @@ class Linker:
         for document, component in sorted(components, key=lambda pair: pair[0].path):
             self.diagnostics += link_ports(component, self._suggest_import(document))
             self._read_machine(component)
+        if deployments is not None:
+            deployments.join()
         self.program.documents = len(self.documents.read)
         return self.program
 
@@ -75,6 +83,11 @@ class Linker:
         from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
 
         return Attachments(self.documents, self.program, self.search.absent, self.diagnostics)
+
+    def _deployments(self) -> DeploymentDocuments:
+        from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
+
+        return DeploymentDocuments(self.documents, self.program, self.search.absent, self.diagnostics)
 
     def workspace_of(self, path: str) -> Workspace:
         """The workspace that a document belongs to; without a declared one, its own folder."""

@@ -193,7 +193,7 @@ SEVERAL_COMPONENTS = Code(
 NO_CONFIG = Code(
     "RC4103",
     "error",
-    "there is no configuration '{path}', neither {first} nor {second}",
+    "there is no configuration '{path}': no {places}",
     "`config:` is a path from the component's folder (of a program: from where it runs), else from the deployment's "
     "document: a values document, or a flat file, which is passed on as it is.",
     deployed(_BOTH.replace("mouth}", "mouth, config: etc/config}")),

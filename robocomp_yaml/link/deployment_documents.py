@@ -1,0 +1,130 @@
+"""The documents that deployments name: components, configurations and other deployments, all of which are read too."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import ddsl as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link import deployment_groups
+from robocomp_yaml.link import deployment_paths as paths
+from robocomp_yaml.link.deployment_names import Names
+from robocomp_yaml.link.deployments import LinkedDeployment
+from robocomp_yaml.link.documents import Document, Documents
+from robocomp_yaml.link.expand_deployments import Expansion
+from robocomp_yaml.link.program import Program
+from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Text
+
+
+@dataclass(slots=True)
+class DeploymentDocuments:
+    """Follows what deployments name; `absent` collects the paths at which a document would be found if it were
+    there."""
+
+    documents: Documents
+    program: Program
+    absent: set[str]
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    _deployments: dict[str, Deployment] = field(default_factory=dict)
+
+    def follow(self, document: Document) -> Iterator[Document]:
+        """The documents that a deployment names."""
+        model = document.model
+        assert isinstance(model, Deployment)
+        self._deployments[document.real] = model
+        for entry in model.entries:
+            if entry.kind != PROCESS:
+                yield from self._follow_entry(model, entry)
+        for include in (*model.includes, *(group.include for group in model.groups if group.include)):
+            yield from self._follow_include(model, include)
+        for group in model.groups:
+            if group.facade is not None:
+                component = self._component(model, group.facade)
+                if component is not None:
+                    yield self.documents.get(component)
+
+    def _follow_entry(self, model: Deployment, entry: Entry) -> Iterator[Document]:
+        component = ""
+        for target in _counted(entry, entry.target) if entry.kind == COMPONENT else ():
+            found = self._component(model, target)
+            if found is None:
+                return
+            component = found
+            yield self.documents.get(found)
+        for config in _counted(entry, entry.config) if entry.config else ():
+            place = paths.place_of(model, entry, component)
+            found = self._config(model, place, config)
+            if found is None:
+                return
+            if entry.kind == COMPONENT and paths.is_values(found):
+                yield self.documents.get(found, "config")
+
+    def _component(self, model: Deployment, target: Text) -> str | None:
+        found = paths.components_at(model, target.text)
+        if len(found) > 1:
+            names = " or ".join(os.path.basename(path) for path in found)
+            self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
+        elif not found:
+            path = paths.joined(paths.folder_of(model), target.text)
+            self.absent.add(path)
+            self.diagnostics.append(codes.NO_COMPONENT.at(
+                target.span, path=target.text, hint=_nearby(path, ".cdsl.yaml", "cdsl.yaml")
+            ))
+        return found[0] if len(found) == 1 else None
+
+    def _config(self, model: Deployment, place: str, config: Text) -> str | None:
+        places = paths.configs_at(model, place, config.text)
+        for path in places:
+            if os.path.isfile(path):
+                return path
+            self.absent.add(path)
+        self.diagnostics.append(codes.NO_CONFIG.at(
+            config.span, path=config.text, places=" and no ".join(dict.fromkeys(places)),
+            hint=_nearby(places[0]) or _nearby(places[1]),
+        ))
+        return None
+
+    def _follow_include(self, model: Deployment, include: Text) -> Iterator[Document]:
+        found = paths.include_at(model, include.text)
+        if found is not None:
+            yield self.documents.get(found)
+            return
+        path = paths.joined(paths.folder_of(model), include.text)
+        self.absent.add(path)
+        self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=_nearby(path, ".ddsl.yaml")))
+
+    def join(self) -> None:
+        """After all documents are linked: each deployment with what it includes."""
+        for real, model in self._deployments.items():
+            linked = self.program.deployments[real] = LinkedDeployment(model, real)
+            expansion = Expansion(linked, self.program, self._deployments)
+            expansion.run()
+            names = Names(linked, expansion.placed)
+            names.resolve()
+            self.diagnostics += expansion.diagnostics + names.diagnostics
+            self.diagnostics += deployment_groups.resolve(linked, expansion.placed)
+        for linked in self.program.deployments.values():
+            for other in linked.documents[1:]:
+                self.program.deployments[os.path.realpath(other.path)].is_included = True
+
+
+def _counted(entry: Entry, text: Text) -> Iterable[Text]:
+    """The texts that an entry's instances have, as long as they differ."""
+    if INDEX not in text.text or entry.instances is None:
+        return (text,)
+    return (Text(text.text.replace(INDEX, str(n)), span=text.span) for n in range(entry.instances))
+
+
+def _nearby(path: str, *suffixes: str) -> str:
+    """What was probably meant: a name in the same folder."""
+    folder, name = os.path.split(path)
+    try:
+        names = sorted(os.listdir(folder or "."))
+    except OSError:
+        return f"there is no folder '{folder}'"
+    fitting = [n for n in names if n.endswith(suffixes) or os.path.isdir(os.path.join(folder, n))] if suffixes else names
+    meant = suggest(name, fitting)
+    return f"did you mean '{meant}'?" if meant else ""

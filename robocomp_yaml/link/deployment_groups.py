@@ -1,0 +1,127 @@
+"""What the closed groups of a deployment offer to those outside, and which member serves it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from robocomp_yaml.diag.codes import ddsl as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, Served, offers
+from robocomp_yaml.link.expand_deployments import Placed
+from robocomp_yaml.link.program import Port
+from robocomp_yaml.model.deployment import Exposed
+
+
+def resolve(root: LinkedDeployment, placed: Iterable[Placed]) -> Iterator[Diagnostic]:
+    """Fills what each group serves; what is wrong with those of this document is told."""
+    for here in placed:
+        for group in here.groups:
+            found = list(_group(root, group)) if group.is_closed else []
+            if here.is_own:
+                yield from found
+
+
+def _group(root: LinkedDeployment, group: LinkedGroup) -> Iterator[Diagnostic]:
+    if any(member.broken or (member.component and member.component.broken) for member in group.members):
+        group.broken = True
+    rules = {rule.name: rule for rule in group.group.exposed}
+    facade = group.facade
+    for port in facade.implements if facade else ():
+        if port.name not in rules:
+            yield from _by_interface(group, port)
+    for rule in rules.values():
+        port = next((p for p in facade.implements if p.name == rule.name), None) if facade else None
+        if facade is not None and port is None and not facade.broken:
+            meant = suggest(rule.name, [p.name for p in facade.implements])
+            yield codes.UNKNOWN_PORT.at(
+                rule.span, component=facade.component.name, what="interface", name=rule.name,
+                hint=f"did you mean '{meant}'?" if meant else "",
+                related=[Related("the group is to act as this component", facade.component.span)],
+            )
+        else:
+            yield from _by_rule(root, group, rule, port)
+
+
+def _by_interface(group: LinkedGroup, port: Port) -> Iterator[Diagnostic]:
+    """The one member that serves an interface of the group's document."""
+    fitting = [served for member in group.members for served in offers(member) if _fits(served, port)]
+    exact = [served for served in fitting if served.adapter == port.name]
+    fitting = exact if len(exact) == 1 else fitting
+    span = group.group.facade.span if group.group.facade else group.group.span
+    if len(fitting) == 1:
+        group.serves.append(Served(port.name, fitting[0].instance, fitting[0].adapter, fitting[0].port))
+    elif fitting:
+        names = [_name(group, served.instance) for served in fitting]
+        yield codes.SEVERAL_SERVE.at(
+            span, group=group.group.name, name=port.name, members=", ".join(names),
+            hint=f"add `expose: {{{port.name}: {names[0]}}}`, or another",
+            related=[Related(f"'{name}' stands here", s.instance.entry.span)
+                     for name, s in zip(names, fitting, strict=True)],
+        )
+    elif not group.broken:
+        yield codes.NOT_SERVED.at(
+            span, group=group.group.name, name=port.name, hint="add the member that implements it",
+            related=[Related("it is to be offered", port.use.span)],
+        )
+
+
+def _by_rule(root: LinkedDeployment, group: LinkedGroup, rule: Exposed, port: Port | None) -> Iterator[Diagnostic]:
+    """The member that `expose:` names; it may name its interface too."""
+    found, behind = root.find(rule.member.text, group.scope)
+    members = [target for target in found if isinstance(target, LinkedInstance) and target in group.members]
+    if len(members) != 1 and group.group.include is not None:  # a member of what is included may go by its own name
+        found, behind = root.find(rule.member.text, f"{group.name}.")
+        members = [target for target in found if isinstance(target, LinkedInstance)]
+    if len(members) != 1:
+        if not group.broken:
+            meant = suggest(rule.member.text, [_name(group, member) for member in group.members])
+            yield codes.UNKNOWN_NAME.at(
+                rule.member.span, where=f"the group '{group.group.name}'", name=rule.member.text,
+                hint=f"did you mean '{meant}'?" if meant else "it is no member of the group",
+            )
+        return
+    wanted = behind or rule.name
+    every = list(offers(members[0]))
+    fitting = [served for served in every if served.adapter == wanted]
+    fitting = fitting or [served for served in every if served.port and served.port.interface.name == wanted]
+    fitting = [served for served in fitting if port is None or _fits(served, port)]
+    if len(fitting) == 1:
+        served = fitting[0]
+        limit = rule if rule.has_rule else None
+        group.serves.append(Served(rule.name, served.instance, served.adapter, served.port, limit))
+        yield from _methods(rule, served)
+    elif not group.broken:
+        there = ", ".join(served.adapter for served in every)
+        yield codes.NOT_SERVED.at(
+            rule.member.span, group=group.group.name, name=rule.name,
+            hint=f"'{rule.member.text}' serves {there}" if there else f"'{rule.member.text}' serves nothing",
+        )
+
+
+def _methods(rule: Exposed, served: Served) -> Iterator[Diagnostic]:
+    if served.port is None:
+        return
+    interface = served.port.interface
+    names = [method.name for method in interface.methods]
+    for method in rule.allow or ():
+        if method.text not in names:
+            meant = suggest(method.text, names)
+            yield codes.UNKNOWN_METHOD.at(
+                method.span, interface=interface.name, name=method.text,
+                hint=f"did you mean '{meant}'?" if meant else f"there are {', '.join(names)}",
+                related=[Related("the interface", interface.span)],
+            )
+
+
+def _fits(served: Served, port: Port) -> bool:
+    """Whether what a member serves is the interface that the group is to offer."""
+    if served.port is None:
+        return served.adapter.rpartition(".")[2] == port.interface.name
+    mine, other = served.port, port
+    return (mine.scope.module.name, mine.interface.name) == (other.scope.module.name, other.interface.name)
+
+
+def _name(group: LinkedGroup, instance: LinkedInstance) -> str:
+    """A member as the group's document calls it."""
+    return instance.name.removeprefix(group.scope)

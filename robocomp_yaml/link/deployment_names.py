@@ -1,0 +1,139 @@
+"""What the names in a deployment mean: second names of processes, what to wait for, members of groups, ports."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import ddsl as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
+from robocomp_yaml.link.expand_deployments import Placed
+from robocomp_yaml.model.deployment import INDEX, PROCESS, Text
+
+
+@dataclass(slots=True)
+class Names:
+    """Resolves what the documents of a deployment name."""
+
+    root: LinkedDeployment
+    placed: Iterable[Placed]
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def resolve(self) -> None:
+        inside: dict[LinkedGroup, list[Target]] = {}
+        for here in self.placed:
+            for group in here.groups:
+                inside[group] = list(self._direct(here, group))
+        for here in self.placed:
+            for group in here.groups:
+                self._fill(here, group, inside)
+        for here in self.placed:
+            for instance in here.instances:
+                self._processes(here, instance)
+                for named in instance.entry.after:
+                    for target in self._find(here, named, "`after:`", instance) or ():
+                        instance.after += target.members if isinstance(target, LinkedGroup) else [target]
+                if here.is_own:
+                    self.diagnostics += _ports(instance)
+
+    def _direct(self, here: Placed, group: LinkedGroup) -> Iterator[Target]:
+        for named in group.group.members:
+            for target in self._find(here, named, f"the group '{group.group.name}'", group) or ():
+                if isinstance(target, LinkedStorm):
+                    self._unknown(here, named, f"the group '{group.group.name}'", "a service belongs to no group")
+                else:
+                    yield target
+        if group.group.include is not None:
+            scope = f"{group.name}."
+            yield from (i for i in self.root.instances.values() if i.scope.startswith(scope))
+
+    def _fill(self, here: Placed, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
+        """All instances in a group, those of its inner groups too."""
+        todo, seen = list(inside[group]), {id(group)}
+        while todo:
+            target = todo.pop(0)
+            if target is group:
+                if here.is_own:
+                    self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))
+                group.broken = True
+            elif id(target) not in seen and isinstance(target, LinkedGroup):
+                todo += inside.get(target, ())
+            elif id(target) not in seen and isinstance(target, LinkedInstance):
+                group.members.append(target)
+                target.groups.append(group)
+            seen.add(id(target))
+
+    def _processes(self, here: Placed, instance: LinkedInstance) -> None:
+        if instance.entry.kind != PROCESS:
+            return
+        named = instance.entry.target
+        found = self._find(here, named, "`process:`", instance)
+        target = found[0] if found and len(found) == 1 else None
+        if isinstance(target, LinkedInstance) and target.entry.kind != PROCESS:
+            instance.process, instance.host = target, target.host
+            return
+        instance.broken = True
+        if found and here.is_own:
+            self.diagnostics.append(codes.NOT_A_PROCESS.at(named.span, name=named.text, what=_what(found)))
+
+    def _find(
+        self, here: Placed, named: Text, where: str, source: LinkedInstance | LinkedGroup
+    ) -> list[Target] | None:
+        """What a name means; None (told, where it is this document's fault) when it means nothing."""
+        found, behind = self.root.find(named.text, here.scope)
+        if found and not behind:
+            return found
+        source.broken = True
+        hides = any(isinstance(target, LinkedGroup) and target.broken for target in found)
+        if here.is_whole and not hides:
+            self._unknown(here, named, where, self._hint(here, named.text))
+        return None
+
+    def _unknown(self, here: Placed, named: Text, where: str, hint: str) -> None:
+        if here.is_own:
+            self.diagnostics.append(codes.UNKNOWN_NAME.at(named.span, where=where, name=named.text, hint=hint))
+
+    def _hint(self, here: Placed, text: str) -> str:
+        if INDEX in text:
+            return f"{INDEX} counts in an entry that has `instances:` itself"
+        names = [
+            scope.removeprefix(here.scope) + name for scope, names in self.root.names.items()
+            if scope.startswith(here.scope) for name in names
+        ]
+        meant = suggest(text, names)
+        return f"did you mean '{meant}'?" if meant else ""
+
+
+def _what(found: list[Target]) -> str:
+    if len(found) > 1:
+        return "an entry with instances"
+    if isinstance(found[0], LinkedGroup):
+        return "a group"
+    return "a service" if isinstance(found[0], LinkedStorm) else "itself a second name"
+
+
+def _ports(instance: LinkedInstance) -> Iterator[Diagnostic]:
+    """Every name that an entry says something about is one of its component's."""
+    linked, entry = instance.component, instance.entry
+    if linked is None or linked.broken:
+        return
+    served = ["CommonBehavior", *(port.name for port in (*linked.implements, *linked.subscribes))]
+    topics = [port.name for port in (*linked.publishes, *linked.subscribes)]
+    for what, names, keys in (
+        ("proxy", [port.name for port in linked.requires], entry.connect),
+        ("topic", topics, entry.topics),
+        ("interface", served, (*entry.ports, *entry.endpoints)),
+    ):
+        for key in keys:
+            if key.name not in names:
+                yield codes.UNKNOWN_PORT.at(
+                    key.name_span, component=linked.component.name, what=what, name=key.name,
+                    hint=_meant(key.name, names), related=[Related("the component", linked.component.span)],
+                )
+
+
+def _meant(name: str, names: list[str]) -> str:
+    meant = suggest(name, names)
+    return f"did you mean '{meant}'?" if meant else (f"there are {', '.join(names)}" if names else "")

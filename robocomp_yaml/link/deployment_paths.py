@@ -1,0 +1,52 @@
+"""Where the paths of a deployment's document lead: each as opened, from the document's own folder or another."""
+
+from __future__ import annotations
+
+import os
+
+from robocomp_yaml.model.deployment import COMPONENT, Deployment, Entry
+
+COMPONENT_SUFFIXES = (".cdsl.yaml", os.sep + "cdsl.yaml")
+
+
+def joined(folder: str, text: str) -> str:
+    return os.path.normpath(os.path.join(folder, text))
+
+
+def folder_of(deployment: Deployment) -> str:
+    return os.path.dirname(deployment.path)
+
+
+def components_at(deployment: Deployment, text: str) -> list[str]:
+    """The component's document at a path, or those in a folder; none where there is nothing of the kind."""
+    path = joined(folder_of(deployment), text)
+    if os.path.isdir(path):
+        names = sorted(name for name in os.listdir(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
+        return [os.path.join(path, name) for name in names]
+    is_component = f"{os.sep}{path}".endswith(COMPONENT_SUFFIXES) and os.path.isfile(path)
+    return [path] if is_component else []
+
+
+def place_of(deployment: Deployment, entry: Entry, component: str) -> str:
+    """The folder that an entry's own paths start from: that of its component's document, or where a program runs."""
+    if entry.kind == COMPONENT:
+        return os.path.dirname(component)
+    return joined(folder_of(deployment), entry.cwd.text if entry.cwd else "")
+
+
+def configs_at(deployment: Deployment, place: str, text: str) -> tuple[str, str]:
+    """Where a configuration is looked for: from the entry's folder, then from the deployment's document."""
+    return joined(place, text), joined(folder_of(deployment), text)
+
+
+def is_values(path: str) -> bool:
+    """Whether a configuration is a values document, and no flat file."""
+    name = os.path.basename(path)
+    return name == "config.yaml" or name.endswith(".config.yaml")
+
+
+def include_at(deployment: Deployment, text: str) -> str | None:
+    path = joined(folder_of(deployment), text)
+    name = os.path.basename(path)
+    is_deployment = name == "ddsl.yaml" or name.endswith(".ddsl.yaml")
+    return path if is_deployment and os.path.isfile(path) else None

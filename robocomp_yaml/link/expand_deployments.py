@@ -1,0 +1,247 @@
+"""A deployment's document becomes a `LinkedDeployment`: instances counted out, includes in their places, all on hosts.
+
+What is wrong with a document is told when it is expanded itself, not once more for each that includes it; here that is
+told which only the two together make wrong.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.codes import ddsl as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link import deployment_paths as paths
+from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
+from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
+from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Host, Text
+from robocomp_yaml.model.instances import instance as instance_of
+
+
+@dataclass(slots=True)
+class Placed:
+    """A document in its scope, and what it put there. `chain` are the real paths of the documents around it, the
+    outermost first, and `span` is where it is included. `hosts` are its own or, where it has none, those around it;
+    `only` is the host of what names none. `is_whole` when nothing has errors that could hide a name of this scope.
+    """
+
+    document: Deployment
+    scope: str = ""
+    chain: tuple[str, ...] = ()
+    span: Span | None = None
+    hosts: Mapping[str, Host] = field(default_factory=dict)
+    only: Host | None = None
+    instances: list[LinkedInstance] = field(default_factory=list)
+    groups: list[LinkedGroup] = field(default_factory=list)
+    is_whole: bool = True
+
+    @property
+    def is_own(self) -> bool:
+        """Whether this is the deployment's own document."""
+        return not self.chain
+
+
+@dataclass(slots=True)
+class Expansion:
+    """Puts documents in their places. `deployments` are those that could be read, by real path; `placed` are those
+    that this one consists of."""
+
+    root: LinkedDeployment
+    program: Program
+    deployments: Mapping[str, Deployment]
+    placed: list[Placed] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def run(self) -> None:
+        self._place(Placed(self.root.deployment))
+
+    def _place(self, here: Placed) -> None:
+        document = here.document
+        self.placed.append(here)
+        self.root.documents.append(document)
+        self.root.names.setdefault(here.scope, {})
+        for host in document.hosts:
+            self._merge_host(host, here)
+        if document.hosts:
+            here.hosts = {host.name: host for host in document.hosts}
+        if here.only is None and len(here.hosts) == 1:
+            here.only = next(iter(here.hosts.values()))
+        for storm in document.services:
+            linked = LinkedStorm(here.scope + storm.name, storm, document, here.scope)
+            linked.host, linked.broken = self._host(here, storm.host, storm.name, storm.span)
+            if self._name(here, storm.name, linked, storm.span):
+                self.root.storms[linked.name] = linked
+        for entry in document.entries:
+            self._place_entry(here, entry)
+        for group in document.groups:
+            self._place_group(here, LinkedGroup(here.scope + group.name, group, document, here.scope))
+        seen: set[str] = set()
+        for include in document.includes:
+            real = self._place_include(here, include, here.scope, here.only, seen)
+            seen.add(real)
+
+    def _place_entry(self, here: Placed, entry: Entry) -> None:
+        if (INDEX in entry.name) != (entry.instances is not None):
+            if entry.instances is None:
+                self._say(here, codes.STRAY_INDEX, entry.span, name=entry.name, hint="add `instances:`")
+            else:
+                hint = f"call it '{entry.name}{INDEX}'"
+                self._say(here, codes.NO_INDEX, entry.instances_span, name=entry.name, hint=hint)
+            self.root.broken = True
+            here.is_whole = False  # what its instances are called is not known
+            return
+        every: list[Target] = []
+        for number in (None,) if entry.instances is None else range(entry.instances):
+            one = entry if number is None else instance_of(entry, number)
+            linked = LinkedInstance(here.scope + one.name, one, here.document, here.scope, number)
+            if self._name(here, one.name, linked, entry.span):
+                every.append(linked)
+                self.root.instances[linked.name] = linked
+                here.instances.append(linked)
+                if entry.kind != PROCESS:
+                    linked.host, linked.broken = self._host(here, one.host, one.name, one.span)
+                self._link(here, linked)
+        if entry.instances is not None:
+            self.root.names[here.scope][entry.name] = every
+
+    def _link(self, here: Placed, linked: LinkedInstance) -> None:
+        """The instance's component and configuration; what is not there has been told where it was looked for."""
+        entry, component = linked.entry, ""
+        if entry.kind == COMPONENT:
+            found = paths.components_at(here.document, entry.target.text)
+            if len(found) == 1:
+                component = found[0]
+                linked.component = self.program.components.get(os.path.realpath(component))
+            linked.broken |= linked.component is None
+        linked.folder = paths.place_of(here.document, entry, component)
+        config = self._config(here.document, linked)
+        if config and linked.component is not None and paths.is_values(config):
+            self._give_values(here, linked, linked.component, config)
+        elif config:
+            linked.flat = config
+
+    def _config(self, document: Deployment, linked: LinkedInstance) -> str:
+        if linked.entry.config is None:
+            usual = paths.joined(linked.folder, os.path.join("etc", "config.yaml"))
+            return usual if linked.component is not None and os.path.realpath(usual) in self.program.values else ""
+        places = paths.configs_at(document, linked.folder, linked.entry.config.text)
+        found = next((path for path in places if os.path.isfile(path)), "")
+        linked.broken |= not found
+        return found
+
+    def _give_values(self, here: Placed, linked: LinkedInstance, component: LinkedComponent, path: str) -> None:
+        values = self.program.values.get(os.path.realpath(path))
+        linked.values = values
+        if values is None:
+            linked.broken = True
+        elif values.parameters is None:  # a document that names no component is that of whoever takes it
+            values.parameters = component.parameters
+        elif values.parameters is component.parameters:
+            pass
+        elif values.parameters.document is not None and values.parameters.document is component.parameters.document:
+            linked.values = LinkedValues(
+                values.document, values.extends, component.parameters, values.is_extended, values.broken
+            )
+        else:
+            config, other = linked.entry.config, values.parameters.component
+            self._say(
+                here, codes.OTHER_VALUES, config.span if config else linked.entry.span,
+                other=other.component.name if other else "another component", component=component.component.name,
+            )
+            linked.values, linked.broken = None, True
+
+    def _place_group(self, here: Placed, linked: LinkedGroup) -> None:
+        group = linked.group
+        if not self._name(here, group.name, linked, group.span):
+            return
+        self.root.groups[linked.name] = linked
+        here.groups.append(linked)
+        host = here.only
+        if group.host is not None:
+            host, linked.broken = self._host(here, group.host, group.name, group.span)
+        if group.facade is not None:
+            found = paths.components_at(here.document, group.facade.text)
+            linked.facade = self.program.components.get(os.path.realpath(found[0])) if len(found) == 1 else None
+            linked.broken |= linked.facade is None
+        if group.include is not None:
+            whole = here.is_whole
+            linked.broken |= not self._place_include(here, group.include, f"{linked.name}.", host, set())
+            here.is_whole = whole
+
+    def _place_include(
+        self, here: Placed, include: Text, scope: str, host: Host | None, seen: set[str]
+    ) -> str:
+        """Puts an included deployment into a scope; its real path, or '' where it cannot be used."""
+        path = paths.include_at(here.document, include.text)
+        real = os.path.realpath(path) if path else ""
+        target = self.deployments.get(real)
+        chain = (*here.chain, os.path.realpath(here.document.path))
+        if target is not None and real in chain:
+            if real == chain[0]:
+                cycle = " → ".join(os.path.basename(one) for one in (*chain, real))
+                self.diagnostics.append(codes.INCLUDE_CYCLE.at(
+                    include.span, path=include.text, cycle=cycle, hint="leave one of these includes out"
+                ))
+            target = None
+        if target is None:
+            self.root.broken = True
+            here.is_whole = False
+            return ""
+        if real in seen:
+            self._say(here, codes.INCLUDED_TWICE, include.span, path=include.text)
+            return real
+        inner = Placed(target, scope, chain, include.span, here.hosts, host)
+        self._place(inner)
+        here.is_whole &= inner.is_whole
+        return real if inner.is_whole else ""
+
+    def _name(self, here: Placed, name: str, target: Target, span: Span) -> bool:
+        """Gives a name its meaning; whether it was free."""
+        known = self.root.names[here.scope].get(name)
+        if known is None:
+            self.root.names[here.scope][name] = [target]
+            return True
+        if here.is_own or any(other.document is not here.document for other in known):
+            related = [Related("it stands here first", span_of(other)) for other in known[:1]]
+            self.diagnostics.append(codes.DUPLICATE_NAME.at(span, name=name, related=related))
+        return False
+
+    def _merge_host(self, host: Host, here: Placed) -> None:
+        known = self.root.hosts.setdefault(host.name, host)
+        if (known.address.text, known.user) != (host.address.text, host.user) and here.span is not None:
+            self.diagnostics.append(codes.HOST_DIFFERS.at(
+                host.address.span, name=host.name, address=host.address.text, other=known.address.text,
+                document=os.path.basename(host.address.span.file), hint="one of the two needs another name",
+                related=[Related("the other one", known.address.span), Related("included here", here.span)],
+            ))
+
+    def _host(self, here: Placed, named: Text | None, name: str, span: Span) -> tuple[Host | None, bool]:
+        """The host of an entry or service, and whether that could not be told."""
+        if named is None:
+            if here.only is None and here.hosts and (here.is_own or not here.document.hosts):
+                self.diagnostics.append(codes.NO_HOST.at(
+                    here.span or span, name=here.scope + name, hint=f"add `host: {next(iter(here.hosts))}`, or another"
+                ))
+            return here.only, here.only is None and bool(here.hosts)
+        own = here.hosts if here.document.hosts else {}
+        if named.text not in own:
+            meant = suggest(named.text, own)
+            hint = f"did you mean '{meant}'?" if meant else (
+                f"there are {', '.join(own)}" if own else "`hosts:` names machines; without it all run on this one"
+            )
+            self._say(here, codes.UNKNOWN_HOST, named.span, name=named.text, hint=hint)
+        return own.get(named.text), named.text not in own
+
+    def _say(self, here: Placed, code: Code, span: Span, *, hint: str = "", **facts: object) -> None:
+        if here.is_own:
+            self.diagnostics.append(code.at(span, hint=hint, **facts))
+
+
+def span_of(target: Target) -> Span:
+    if isinstance(target, LinkedInstance):
+        return target.entry.span
+    return target.storm.span if isinstance(target, LinkedStorm) else target.group.span
