@@ -20,7 +20,7 @@ from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.emit import writer
 from robocomp_yaml.emit.plan import RootPlan
 from robocomp_yaml.emit.specific import threeway
-from robocomp_yaml.emit.specific.code import read
+from robocomp_yaml.emit.specific.reading import read
 from robocomp_yaml.emit.specific.review import review
 
 CHUNKS, PAIRS, EDITS = 20, 10, 5  # together 1,000

@@ -13,9 +13,10 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from robocomp_yaml.emit.specific import entries, threeway
-from robocomp_yaml.emit.specific.code import Code, Import, read
+from robocomp_yaml.emit.specific.code import Code, Import
 from robocomp_yaml.emit.specific.compare import compare
 from robocomp_yaml.emit.specific.insert import insert
+from robocomp_yaml.emit.specific.reading import read
 from robocomp_yaml.emit.specific.threeway import Conflict
 
 

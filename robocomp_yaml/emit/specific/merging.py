@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.codes import specific as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -12,9 +11,7 @@ from robocomp_yaml.emit.places import Root
 from robocomp_yaml.emit.plan import Merge
 from robocomp_yaml.emit.specific import sources
 from robocomp_yaml.emit.specific.merge import Result, Side, merge
-
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.specific.review import Own
+from robocomp_yaml.emit.specific.own import Own
 
 _HINT = "nothing was written; make room by hand, or compile without --merge and paste what it names"
 

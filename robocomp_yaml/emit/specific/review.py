@@ -8,27 +8,11 @@ from dataclasses import dataclass, field, replace
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.manifest import BASE
 from robocomp_yaml.emit.places import Root
-from robocomp_yaml.emit.plan import ONCE, FilePlan, Merge, Merges, RootPlan
+from robocomp_yaml.emit.plan import ONCE, Merge, Merges, RootPlan
 from robocomp_yaml.emit.specific import entries
+from robocomp_yaml.emit.specific.own import Own
 
 SOURCES = "src"
-
-
-@dataclass(frozen=True, slots=True)
-class Own:
-    """A file of the user that a plan has a skeleton for. Texts are None where they are no UTF-8; `base` also where
-    there is none, or none is needed. A link is not written through."""
-
-    plan: FilePlan
-    data: bytes
-    yours: str | None
-    base: str | None = None
-    is_link: bool = False
-
-    @property
-    def is_settled(self) -> bool:
-        """Whether it is what would be written today."""
-        return self.data == self.plan.text.encode()
 
 
 @dataclass(slots=True)

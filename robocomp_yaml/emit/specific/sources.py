@@ -6,7 +6,8 @@ import os
 from collections.abc import Collection, Iterator
 
 from robocomp_yaml.emit.places import Root
-from robocomp_yaml.emit.specific.code import CLASS, Code, is_code, read
+from robocomp_yaml.emit.specific.code import CLASS, Code
+from robocomp_yaml.emit.specific.reading import is_code, read
 
 _LARGEST = 1_000_000  # bytes; a larger file is data, not the user's code
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from robocomp_yaml.emit.specific.code import Code, read
+from robocomp_yaml.emit.specific.code import Code
+from robocomp_yaml.emit.specific.reading import read
 
 PYTHON = '''"""Mine."""
 from generated.interfaces import RoboCompArm, RoboCompLeg as Leg
