@@ -27,9 +27,9 @@ def _group(root: LinkedDeployment, group: LinkedGroup) -> Iterator[Diagnostic]:
         group.broken = True
     rules = {rule.name: rule for rule in group.group.exposed}
     facade = group.facade
-    for port in facade.implements if facade else ():
-        if port.name not in rules:
-            yield from _by_interface(group, port)
+    for wanted in facade.implements if facade else ():
+        if wanted.name not in rules:
+            yield from _by_interface(group, wanted)
     for rule in rules.values():
         port = next((p for p in facade.implements if p.name == rule.name), None) if facade else None
         if facade is not None and port is None and not facade.broken:

@@ -10,7 +10,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.expand_deployments import Placed
-from robocomp_yaml.model.deployment import INDEX, PROCESS, Text
+from robocomp_yaml.model.deployment import INDEX, PROCESS, Number, Pair, Text
 
 
 @dataclass(slots=True)
@@ -121,11 +121,12 @@ def _ports(instance: LinkedInstance) -> Iterator[Diagnostic]:
         return
     served = ["CommonBehavior", *(port.name for port in (*linked.implements, *linked.subscribes))]
     topics = [port.name for port in (*linked.publishes, *linked.subscribes)]
-    for what, names, keys in (
+    keyed: list[tuple[str, list[str], Iterable[Pair | Number]]] = [
         ("proxy", [port.name for port in linked.requires], entry.connect),
         ("topic", topics, entry.topics),
         ("interface", served, (*entry.ports, *entry.endpoints)),
-    ):
+    ]
+    for what, names, keys in keyed:
         for key in keys:
             if key.name not in names:
                 yield codes.UNKNOWN_PORT.at(

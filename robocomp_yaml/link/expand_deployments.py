@@ -236,9 +236,9 @@ class Expansion:
             self._say(here, codes.UNKNOWN_HOST, named.span, name=named.text, hint=hint)
         return own.get(named.text), named.text not in own
 
-    def _say(self, here: Placed, code: Code, span: Span, *, hint: str = "", **facts: object) -> None:
+    def _say(self, here: Placed, code: Code, span: Span, *, hint: str = "", **facts: str) -> None:
         if here.is_own:
-            self.diagnostics.append(code.at(span, hint=hint, **facts))
+            self.diagnostics.append(code.at(span, hint=hint, related=(), more="", **facts))
 
 
 def span_of(target: Target) -> Span:

@@ -73,7 +73,7 @@ DUPLICATE_PORT = Code(
     "error",
     "'{name}' stands twice under `{list}`",
     "Each entry of a list needs a name of its own: the name of its proxy, servant or topic in code and in the "
-    "configuration. A second entry of the same interface gets one by `{{Name: Interface}}`.",
+    "configuration. A second entry of the same interface gets one by `{Name: Interface}`.",
     _component("imports: [Mouth]\nrequires: [Mouth, Mouth]\n"),
     _component("imports: [Mouth]\nrequires: [Mouth, {Mouth1: Mouth}]\n"),
 )
@@ -125,17 +125,4 @@ SAME_FOLDER = Code(
     "folder cannot both be compiled there.",
     {**_RIGHT, "other.cdsl.yaml": "component: OtherComp\nlanguage: python\n"},
     {**_RIGHT, "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\n"},
-)
-NOT_COMPILED_YET = Code(
-    "RC2090",
-    "warning",
-    "`{key}` is checked and kept, but not compiled beside `compatibility: robocomp`",
-    "Code for RoboComp's own tool drives a state machine by names of its own. The document is right, and what is "
-    "compiled from the rest of it runs; what this key asks for is missing in it.",
-    _component(
-        "imports: [Speech]\nimplements: [Speech]\ncompatibility: robocomp\n"
-        "statemachine: {initial: rest, states: {rest: {}, act: {}}, transitions: {rest: act, act: rest}}\n"
-    ),
-    _RIGHT,
-    "compile .",
 )

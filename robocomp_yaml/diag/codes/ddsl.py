@@ -114,7 +114,7 @@ NO_INDEX = Code(
     "RC4008",
     "error",
     "'{name}' has instances, and no {{i}} in its name to tell them by",
-    "Each instance needs a name of its own: `{{i}}` in the name of the entry counts them, from 0.",
+    "Each instance needs a name of its own: `{i}` in the name of the entry counts them, from 0.",
     deployed("components:\n" + _SPEAKS + "  mouth: {component: mouth, instances: 1}\n"),
     deployed("components:\n  speech: {component: speech, connect: {Mouth: mouth0}}\n"
              "  mouth{i}: {component: mouth, instances: 1}\n"),
@@ -124,7 +124,7 @@ STRAY_INDEX = Code(
     "RC4009",
     "error",
     "'{name}' counts with {{i}}, but does not say how many instances there are",
-    "`{{i}}` stands for the number of an instance; the key `instances:` says how many there are.",
+    "`{i}` stands for the number of an instance; the key `instances:` says how many there are.",
     deployed("components:\n" + _SPEAKS + "  mouth{i}: {component: mouth}\n"),
     deployed("components:\n" + _SPEAKS + "  mouth{i}: {component: mouth, instances: 1}\n"),
     _CHECK,
@@ -234,7 +234,7 @@ INCLUDED_TWICE = Code(
     "error",
     "'{path}' is included twice in one name space",
     "What `include: […]` lists counts as if it stood in this document, so it can stand there once. The same deployment "
-    "twice needs two names: `include: {{left: arm.ddsl.yaml, right: arm.ddsl.yaml}}`.",
+    "twice needs two names: `include: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}`.",
     deployed(_BOTH + "include: [arm.ddsl.yaml, arm.ddsl.yaml]\n", arm="deployment: Arm\n"),
     deployed(_BOTH + "include: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}\n", arm="deployment: Arm\n"),
     _CHECK,

@@ -96,12 +96,12 @@ UNSET_VARIABLE = Code(
 )
 SUPERVISOR_KILLED = Code(
     "RC7007",
-    "error",
+    "warning",
     "the supervisor of this deployment was killed, and all that it ran with it",
     "Each deployment that runs on this machine has a supervisor, to which its processes are tied: when someone kills "
     "it, or the machine was switched off, nothing is left running unwatched. `rcyaml deploy up` starts the deployment "
     "again.",
-    {**_one('program: "true"'), ".rcyaml/deployments/Robot/state/supervisor": "1\n"},
+    {**_one('program: "true"'), ".rcyaml/deployments/Robot/state/supervisor": "1 0\n"},
     _FINE,
     "deploy status robot.ddsl.yaml",
 )
