@@ -42,6 +42,7 @@ def build(root: Mapping, path: str) -> Deployment:
             *(Group(key.lexeme, include=_as_text(node), span=key.span) for key, node in entries(root, "include")),
         ),
         includes=tuple(_texts(root, "include")),
+        extra=_extra(root.get("x-rcmanager")),
         doc=doc(root),
         span=span_of(root, "deployment"),
     )

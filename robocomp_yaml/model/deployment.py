@@ -177,7 +177,8 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Deployment:
-    """One DDSL document. `includes` are those without a name: what they hold counts as if it stood here."""
+    """One DDSL document. `includes` are those without a name: what they hold counts as if it stood here. `extra` is the
+    plain data of `x-rcmanager:`."""
 
     name: str
     path: str
@@ -186,5 +187,6 @@ class Deployment:
     entries: tuple[Entry, ...] = ()
     groups: tuple[Group, ...] = ()
     includes: tuple[Text, ...] = ()
+    extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
     span: Span = _span()

@@ -119,7 +119,7 @@ class Process:
     component: str = ""
     """The component's name in its CDSL, '' for other programs."""
     extra: tuple[tuple[str, object], ...] = ()
-    """What only an exporter needs: the entries of `x-rcmanager`."""
+    """What only an exporter needs: the entries of `x-rcmanager`; below `aliases`, those of its other names."""
     span: Span = field(default_factory=_nowhere, compare=False)
 
 
@@ -157,6 +157,8 @@ class Network:
     processes: dict[str, Process] = field(default_factory=dict)
     connections: list[Connection] = field(default_factory=list)
     order: list[tuple[str, ...]] = field(default_factory=list)
+    extra: tuple[tuple[str, object], ...] = ()
+    """What only an exporter needs of the document as such: the entries of its `x-rcmanager`."""
 
     def enabled(self) -> Iterator[Process]:
         return (process for process in self.processes.values() if process.enabled)

@@ -112,7 +112,6 @@ class _Converter:
             at = self.reader.span(element.place("alias"))
             self.reader.diagnostics.append(codes.DUPLICATE.at(at, name=alias))
         node = Node(alias, safe_name(alias, taken), self.reader.span(element.place("alias")), notes=element.notes)
-        node.is_identity = True
         if node.name != alias:
             what = self.reader.rules.repairs["name"].format(text=alias, name=node.name)
             self.reader.diagnostics.append(codes.REPAIRED.at(node.span, what=what))

@@ -19,7 +19,7 @@ _CONFIG = re.compile(r"(?:^|/)(?:etc/[^/]+|[^/]*config[^/]*|[^/]+\.(?:conf|cfg|t
 @dataclass(frozen=True, slots=True)
 class Command:
     """`words` are the program and its arguments, without its configuration, which `config` names. `config_as` is the
-    option that takes it, '' where it is the last argument."""
+    option that takes it, '' where it is the first argument."""
 
     host: str
     folder: str
@@ -66,7 +66,8 @@ def _with_config(host: str, folder: str, words: tuple[str, ...]) -> Command:
     plain = Command(host, folder, words)
     if option and len(words) > 1:
         return Command(host, folder, words[:-1], option["path"], option["option"])
-    if len(words) > 1 and last != plain.program and not last.startswith("-") and _CONFIG.search(last):
+    is_first = len(words) > 1 and words[-2] == plain.program and not last.startswith("-")
+    if is_first and _CONFIG.search(last):
         return Command(host, folder, words[:-1], last)
     return plain
 

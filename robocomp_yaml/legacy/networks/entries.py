@@ -38,28 +38,19 @@ def program_entry(node: Node, host: str, after: List, key: str, *, process: str 
             made.put("host", host)
         if command.folder:
             made.put("cwd", command.folder, node.by_key.get("cwd"))
-        config = command.config
-        flat = posixpath.isabs(config)
-        args = [*command.words[1:], *([] if flat or not config else [_config_argument(command)])]
+        args = [*command.words[1:]]
+        if command.config and args and not command.config_as:  # behind a script, of which it is the first argument
+            args.append(command.config)
         if args:
             made.put("args", List([Entry("", word) for word in args]))
-        if flat:
-            made.put("config", config)
+        if command.config not in ("", *args):
+            made.put("config", command.config)
             made.put("config-as", command.config_as or "argument")
     if node.endpoint is not None:
         endpoints = Map()
         endpoints.put(node.interface, node.endpoint.text)
         made.put("endpoints", endpoints, node.by_key.get("endpoints"))
-        identity = node.endpoint.identity
-        if node.is_identity and identity != identity.lower() and not process:  # a ping would ask for the lower case
-            ready = Map()
-            ready.put("port", Raw(str(node.endpoint.port)))
-            made.put("ready", ready)
     return _closed(made, node, after, key)
-
-
-def _config_argument(command: Command) -> str:
-    return f"{command.config_as}={command.config}" if command.config_as else command.config
 
 
 def component_entry(

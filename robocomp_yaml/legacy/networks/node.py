@@ -31,8 +31,6 @@ class Node:
     notes: Notes = field(default_factory=Notes)
     by_key: dict[str, Notes] = field(default_factory=dict)
     extra: Map = field(default_factory=Map)
-    is_identity: bool = False
-    """Whether the endpoint gives Ice's identity as it is, and not an interface's name."""
 
 
 @dataclass(slots=True, eq=False)
