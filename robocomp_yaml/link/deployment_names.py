@@ -88,19 +88,19 @@ class Names:
         source.broken = True
         hides = any(isinstance(target, LinkedGroup) and target.broken for target in found)
         if here.is_whole and not hides:
-            self._unknown(here, named, where, self._hint(here, named.text))
+            self._unknown(here, named, where, self._hint(here, named.text, source.name))
         return None
 
     def _unknown(self, here: Placed, named: Text, where: str, hint: str) -> None:
         if here.is_own:
             self.diagnostics.append(codes.UNKNOWN_NAME.at(named.span, where=where, name=named.text, hint=hint))
 
-    def _hint(self, here: Placed, text: str) -> str:
+    def _hint(self, here: Placed, text: str, own: str) -> str:
         if INDEX in text:
             return f"{INDEX} counts in an entry that has `instances:` itself"
         names = [
             scope.removeprefix(here.scope) + name for scope, names in self.root.names.items()
-            if scope.startswith(here.scope) for name in names
+            if scope.startswith(here.scope) for name in names if scope + name != own
         ]
         meant = suggest(text, names)
         return f"did you mean '{meant}'?" if meant else ""

@@ -10,7 +10,8 @@ COMPONENT_SUFFIXES = (".cdsl.yaml", os.sep + "cdsl.yaml")
 
 
 def joined(folder: str, text: str) -> str:
-    return os.path.normpath(os.path.join(folder, text))
+    """`~` is the caller's home, as launchers have it."""
+    return os.path.normpath(os.path.join(folder, os.path.expanduser(text)))
 
 
 def folder_of(deployment: Deployment) -> str:

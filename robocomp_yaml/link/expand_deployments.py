@@ -151,6 +151,7 @@ class Expansion:
             self._say(
                 here, codes.OTHER_VALUES, config.span if config else linked.entry.span,
                 other=other.component.name if other else "another component", component=component.component.name,
+                hint="each component has values of its own: see `component:` in this document",
             )
             linked.values, linked.broken = None, True
 
@@ -181,7 +182,7 @@ class Expansion:
         target = self.deployments.get(real)
         chain = (*here.chain, os.path.realpath(here.document.path))
         if target is not None and real in chain:
-            if real == chain[0]:
+            if real == chain[0] == min(chain):  # each cycle is told once
                 cycle = " → ".join(os.path.basename(one) for one in (*chain, real))
                 self.diagnostics.append(codes.INCLUDE_CYCLE.at(
                     include.span, path=include.text, cycle=cycle, hint="leave one of these includes out"

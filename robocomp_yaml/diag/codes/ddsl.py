@@ -15,9 +15,9 @@ _DOCUMENTS: Tree = {
     "speech/speech.cdsl.yaml": (
         "component: SpeechComp\nlanguage: python\nimports: [../Speech]\nimplements: [Speech]\nrequires: [Mouth]\n"
     ),
-    "speech/bin/SpeechComp": "",
+    "speech/bin/SpeechComp": "-> /bin/true",
     "mouth/mouth.cdsl.yaml": "component: MouthComp\nlanguage: python\nimports: [../Speech]\nimplements: [Mouth]\n",
-    "mouth/bin/MouthComp": "",
+    "mouth/bin/MouthComp": "-> /bin/true",
 }
 _HEAD = "deployment: Head\n"
 _SPEAKS = "  speech: {component: speech}\n"
@@ -70,11 +70,11 @@ HOST_DIFFERS = Code(
     "host '{name}' is {address} in {document}, and {other} elsewhere in this deployment",
     "A host's name means the same machine in a deployment and in all that it includes.",
     deployed(
-        "hosts: {head: 10.0.0.2}\n" + _BOTH + "include: [arm.ddsl.yaml]\n",
+        "hosts: {head: 10.0.0.2}\n" + "components:\n" + _MOVES + "include: [arm.ddsl.yaml]\n",
         arm="deployment: Arm\nhosts: {head: 10.0.0.9}\ncomponents:\n  elbow: {component: mouth}\n",
     ),
     deployed(
-        "hosts: {head: 10.0.0.2}\n" + _BOTH + "include: {arm: arm.ddsl.yaml}\n",
+        "hosts: {head: 10.0.0.2}\n" + "components:\n" + _MOVES + "include: {arm: arm.ddsl.yaml}\n",
         arm="deployment: Arm\nhosts: {head: 10.0.0.2}\ncomponents:\n  elbow: {component: mouth}\n",
     ),
     _CHECK,
