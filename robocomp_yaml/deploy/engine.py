@@ -107,8 +107,7 @@ class Engine(Protocol):
 
     async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncGenerator[Line, None]:
         """The last lines that these processes wrote (of each so many), and, with `follow`, those that come. The place
-        from which it follows is that at the time of this call: `lines` before `start` misses nothing. The caller
-        closes the iterator."""
+        from which it follows is that at the time of this call: `lines` before `start` misses nothing."""
 
     async def run(self, name: str, command: Sequence[str], within: float) -> int:
         """The exit code of a command run beside a process: on its host, in its folder, with its environment. A

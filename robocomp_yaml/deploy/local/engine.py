@@ -9,16 +9,16 @@ from collections.abc import AsyncGenerator, Collection, Iterable, Sequence
 from functools import partial
 from typing import Any
 
+from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
-from robocomp_yaml.deploy.local import folder as own_folder
-from robocomp_yaml.deploy.local import launch
+from robocomp_yaml.deploy.local import launch, record
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
 from robocomp_yaml.deploy.local.kernel import die_with
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
-from robocomp_yaml.deploy.local.obstacles import environment_of, obstacles
+from robocomp_yaml.deploy.local.obstacles import environment_of, not_here, obstacles
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Network
 
@@ -36,10 +36,15 @@ class LocalEngine:
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network = network
+        if found := not_here(network):
+            raise DeployFailed(found)
         try:
             connection = launch.reach(network.folder)
-            if connection is None and launch.was_killed(network.folder):
-                self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(network.path)))
+            was_killed = connection is None and record.was_killed(network.folder)
+            if was_killed or (connection is None and create):
+                left = record.clear_up(network.folder)
+                if was_killed or left:
+                    self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(network.path), more="\n".join(left)))
             if connection is None and create:
                 own_folder.make(network.folder)
                 connection = await launch.start(network.folder)
@@ -136,7 +141,8 @@ class LocalEngine:
             where = process.span if process and process.span.file else Span(self._network.path)
             raise DeployFailed(deploying.REFUSED.at(where, name=about, what=_DONE.get(do, do), reason=error)) from error
         except SupervisorGone as error:
-            raise DeployFailed(deploying.SUPERVISOR_KILLED.at(Span(self._network.path))) from error
+            killed = deploying.SUPERVISOR_KILLED.at(Span(self._network.path))
+            raise DeployFailed(killed.as_severity(ERROR)) from error
 
     def _folder_failed(self, path: str, reason: str) -> DeployFailed:
         return DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason.lower()))

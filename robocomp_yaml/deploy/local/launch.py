@@ -8,11 +8,10 @@ import socket
 import subprocess
 import sys
 
-from robocomp_yaml.deploy.local import channel, procfs
+from robocomp_yaml.deploy.local import channel, procfs, record
 from robocomp_yaml.deploy.local.service import PROTOCOL
-from robocomp_yaml.deploy.local.supervisor import RECORD
 
-__all__ = ["PROTOCOL", "reach", "start", "wait_gone", "was_killed"]
+__all__ = ["PROTOCOL", "reach", "start", "wait_gone"]
 
 _PATIENCE = 20.0  # seconds: far more than it needs, also where the machine is busy
 
@@ -22,15 +21,10 @@ def reach(folder: str) -> socket.socket | None:
     return channel.connect(f"{folder}/state") if os.path.isdir(f"{folder}/state") else None
 
 
-def was_killed(folder: str) -> bool:
-    """Whether the last supervisor ended without taking leave."""
-    return os.path.exists(f"{folder}/{RECORD}")
-
-
 async def start(folder: str) -> socket.socket:
     """A connection to a new supervisor. Raises OSError where it does not come to life, with what it said."""
     package = os.path.abspath(f"{__file__}/../../../..")
-    environment = {key: value for key, value in os.environ.items() if key != procfs.MARK}
+    environment = {**os.environ, procfs.MARK: f"{folder}:"}
     environment["PYTHONPATH"] = os.pathsep.join([package, *filter(None, [environment.get("PYTHONPATH")])])
     said = os.open(f"{folder}/state/supervisor.log", os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
     try:
@@ -57,6 +51,6 @@ async def start(folder: str) -> socket.socket:
 async def wait_gone(folder: str) -> None:
     """Until the supervisor has taken leave."""
     for _ in range(int(_PATIENCE / 0.02)):
-        if not was_killed(folder):
+        if not record.is_there(folder):
             return
         await asyncio.sleep(0.02)

@@ -6,6 +6,7 @@ import asyncio
 import heapq
 import os
 from collections.abc import AsyncGenerator, Iterator, Sequence
+from contextlib import suppress
 from typing import BinaryIO
 
 from robocomp_yaml.deploy.engine import Line
@@ -16,61 +17,46 @@ _STAMP = len("2026-11-21T10:02:03.123Z")
 
 
 class LogReader:
-    """One process's log, read from where it ends when this is made, across rotations."""
+    """One process's log, read from where it ends when this is made, across rotations. No file stays open between two
+    reads."""
 
     def __init__(self, folder: str, name: str) -> None:
         self.name, self.path = name, f"{folder}/logs/{name}.log"
         self._rest = b""
-        self._file = self._open()
-        if self._file:
-            self._file.seek(0, os.SEEK_END)
+        self._inode, self._offset = 0, 0
+        with suppress(OSError):
+            status = os.stat(self.path)
+            self._inode, self._offset = status.st_ino, status.st_size
 
     def last(self, count: int) -> list[Line]:
         """The last lines before the place from which it is read on."""
-        if count <= 0 or not self._file:
-            return []
-        lines = _last_lines(self._file, count)
-        if len(lines) < count:
-            try:
-                with open(f"{self.path}.1", "rb") as older:
-                    older.seek(0, os.SEEK_END)
-                    lines = _last_lines(older, count - len(lines)) + lines
-            except OSError:
-                pass
+        lines: list[bytes] = []
+        for path, end in ((self.path, self._offset), (f"{self.path}.1", -1)):
+            if len(lines) < count and self._inode:
+                with suppress(OSError), open(path, "rb") as file:
+                    lines = _last_lines(file, end, count - len(lines)) + lines
         return [self._line(line) for line in lines]
 
     def new(self) -> Iterator[Line]:
         """The lines that came since the last call."""
-        while True:
-            file, self._file = self._file, None
-            if file is None:
-                file = self._open()
-                if file is None:
-                    return
-            text = self._rest + file.read()
-            *lines, self._rest = text.split(b"\n")
+        with suppress(OSError), open(self.path, "rb") as file:
+            inode = os.fstat(file.fileno()).st_ino
+            if inode != self._inode:
+                self._rest += self._end_of_older()
+                self._inode, self._offset = inode, 0
+            file.seek(self._offset)
+            text = file.read()
+            self._offset += len(text)
+            *lines, self._rest = (self._rest + text).split(b"\n")
             yield from map(self._line, lines)
-            self._file = file
-            if not self._was_replaced(file):
-                return
-            file.close()
-            self._file = None
 
-    def close(self) -> None:
-        if self._file:
-            self._file.close()
-
-    def _was_replaced(self, file: BinaryIO) -> bool:
-        try:
-            return not os.path.samestat(os.fstat(file.fileno()), os.stat(self.path))
-        except FileNotFoundError:
-            return False
-
-    def _open(self) -> BinaryIO | None:
-        try:
-            return open(self.path, "rb")  # noqa: SIM115 (closed by `close`, or when it was replaced)
-        except OSError:
-            return None
+    def _end_of_older(self) -> bytes:
+        """What was written to the log that was read until now, before it was put aside."""
+        with suppress(OSError), open(f"{self.path}.1", "rb") as file:
+            if os.fstat(file.fileno()).st_ino == self._inode:
+                file.seek(self._offset)
+                return file.read()
+        return b""
 
     def _line(self, line: bytes) -> Line:
         text = line.decode("utf-8", "replace")
@@ -79,29 +65,25 @@ class LogReader:
 
 async def merged(readers: Sequence[LogReader], last: int, follow: bool) -> AsyncGenerator[Line, None]:
     """The lines of all, by time; those of one process always in their own order, whatever the clock did."""
-    try:
-        for line in _by_time([reader.last(last) for reader in readers]):
+    for line in _by_time([reader.last(last) for reader in readers]):
+        yield line
+    while follow:
+        for line in _by_time([list(reader.new()) for reader in readers]):
             yield line
-        while follow:
-            for line in _by_time([list(reader.new()) for reader in readers]):
-                yield line
-            await asyncio.sleep(_PERIOD)
-    finally:
-        for reader in readers:
-            reader.close()
+        await asyncio.sleep(_PERIOD)
 
 
 def _by_time(parts: Sequence[Sequence[Line]]) -> Iterator[Line]:
     return heapq.merge(*parts, key=lambda line: line.time)
 
 
-def _last_lines(file: BinaryIO, count: int) -> list[bytes]:
-    """The last whole lines before the file's position, which stays."""
-    end = position = file.tell()
-    text = b""
+def _last_lines(file: BinaryIO, end: int, count: int) -> list[bytes]:
+    """The last whole lines before `end`, which is -1 for that of the file."""
+    if end < 0:
+        end = file.seek(0, os.SEEK_END)
+    position, text = end, b""
     while position and text.count(b"\n") <= count:
         position = max(0, position - _BLOCK)
         file.seek(position)
         text = file.read(end - position)
-    file.seek(end)
-    return text.split(b"\n")[:-1][-count:]
+    return text.split(b"\n")[:-1][-count:] if count else []

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import shutil
+import socket
 from collections.abc import Collection, Iterator, Sequence
 
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.network.network import Process
+from robocomp_yaml.network.network import LOOPBACK, Network, Process
 
 
 def environment_of(process: Process) -> dict[str, str]:
@@ -31,6 +32,29 @@ def obstacles(specs: Sequence[Spec], own: Collection[int]) -> list[Diagnostic]:
         if not pids or not set(pids) <= set(own)
     }
     return [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
+
+
+def not_here(network: Network) -> Diagnostic | None:
+    """The first process that belongs on another machine."""
+    for process in network.enabled():
+        host = network.hosts[process.host]
+        if not _is_here(host.address):
+            where = host.span if host.span.file else process.span
+            return deploying.NOT_HERE.at(where, name=process.name, host=host.name, address=host.address)
+    return None
+
+
+def _is_here(address: str) -> bool:
+    """Whether an address is one of this machine's: only those can be bound. One that cannot be resolved is not."""
+    if address == LOOPBACK:
+        return True
+    try:
+        family, kind, protocol, _, place = socket.getaddrinfo(address, 0, type=socket.SOCK_STREAM)[0]
+        with socket.socket(family, kind, protocol) as probe:
+            probe.bind(place)
+    except OSError:
+        return False
+    return True
 
 
 def _of_ports(spec: Spec, taken: dict[int, list[int]]) -> Iterator[Diagnostic]:

@@ -10,15 +10,13 @@ import asyncio
 import json
 import os
 import signal
-import sys
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-from robocomp_yaml.deploy.local import channel, procfs
+from robocomp_yaml.deploy.local import channel, procfs, record
 from robocomp_yaml.deploy.local.child import Child
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
-from robocomp_yaml.deploy.local.supervisor import RECORD
 
 PROTOCOL = 1
 """Raised with each change of what is said on the socket: clients of another version are told."""
@@ -48,27 +46,16 @@ class _Service:
         loop.add_signal_handler(signal.SIGCHLD, self._reap)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             loop.add_signal_handler(number, self._over.set)
-        self._end_leftovers()
-        with open(f"{self.folder}/{RECORD}", "w", encoding="utf-8", opener=lambda path, flags: os.open(path, flags, 0o600)) as file:
-            file.write(f"{os.getpid()}\n")
         server = await asyncio.start_unix_server(
             self._talk, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
         )
+        record.write(self.folder, os.getppid())
         await self._over.wait()
         server.close()
         stops = (self._stop(child, END_WITHIN) for child in self.children.values())
         await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
         for child in self.children.values():
             child.log.close()
-
-    def _end_leftovers(self) -> None:
-        """Kills what an earlier supervisor of this folder left, which was killed together with its keeper."""
-        for pid in procfs.marked(self.folder):
-            print(f"killed pid {pid}, which was left of an earlier run: {procfs.command_line(pid)}", file=sys.stderr)
-            try:
-                os.kill(pid, signal.SIGKILL)
-            except ProcessLookupError:
-                continue
 
     def _reap(self) -> None:
         """Takes the exit codes of all that ended: children, and what they left to us."""

@@ -12,10 +12,7 @@ import os
 import signal
 import sys
 
-from robocomp_yaml.deploy.local import kernel, procfs
-
-RECORD = "state/supervisor"
-"""A file that is there from the supervisor's start to its orderly end."""
+from robocomp_yaml.deploy.local import kernel, procfs, record
 
 
 def main() -> None:
@@ -33,7 +30,7 @@ def main() -> None:
     status = _wait_for(supervisor)
     _end_all()
     if status == 0:
-        os.unlink(f"{folder}/{RECORD}")
+        record.remove(folder)
 
 
 def _pass_on(supervisor: int, number: int) -> None:

@@ -115,3 +115,14 @@ NOT_HERE = Code(
     _FINE,
     "deploy up robot.ddsl.yaml --engine local --attach",
 )
+GIVEN_UP = Code(
+    "RC7009",
+    "error",
+    "'{name}' was given up: {how}",
+    "A process that ended by itself is started again after a delay that doubles each time, by what `restart:` says, "
+    "but never for ever: when it ends more often than `tries` within `within`, it is given up, and `rcyaml deploy up` "
+    "tries again. Its log (`rcyaml deploy logs`) says why it ended.",
+    _one('program: sh\nargs: [-c, "sleep 0.3; exit 3"]\nrestart: {policy: on-failure, tries: 1, delay: 0.01 s}'),
+    _FINE,
+    _UP,
+)

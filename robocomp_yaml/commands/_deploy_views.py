@@ -1,0 +1,175 @@
+"""How plans, results, states and logs of deployments are shown, as text and as JSON."""
+
+from __future__ import annotations
+
+import json
+import re
+import zlib
+from collections.abc import Collection, Sequence
+from typing import Any
+
+from robocomp_yaml.deploy.engine import OWN, Line
+from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step
+from robocomp_yaml.network.network import Network
+
+_SIGNS = {START: "+", STOP: "-", RESTART: "~", CHANGE: "*", KEEP: "="}
+_TINTS = {START: "32", STOP: "31", RESTART: "33", CHANGE: "36", KEEP: "2"}
+_LOG_TINTS = ("36", "33", "32", "35", "34", "96", "93", "92", "95", "94")
+_CODES = re.compile(r"\x1b\[[0-9;]*m")
+_CONTROLS = re.compile(r"\x1b\[[0-?]*[ -/]*[@-~]|\x1b[@-_]|[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+
+
+def plan_text(plan: Plan, color: bool, *, everything: bool) -> str:
+    """A line for each process that something happens to, its changes below, and a last line that counts."""
+    width = max(map(len, plan.steps), default=0)
+    lines = []
+    for step in plan.steps.values():
+        if step.action != KEEP or everything:
+            head = f"{_SIGNS[step.action]} {step.name:<{width}}  {step.action}"
+            lines.append(f"{_paint(head, _TINTS[step.action], color)}: {step.reason}")
+            if len(step.changes) > 1:
+                lines += [f"    {change}" for change in step.changes]
+    counts = [(len(plan.of(action)), action) for action in (START, STOP, RESTART, CHANGE, KEEP)]
+    told = ", ".join(f"{count} to {action}" for count, action in counts if count)
+    return "\n".join([*lines, "nothing to do" if plan.is_empty else told])
+
+
+def plan_data(plan: Plan) -> list[dict[str, Any]]:
+    return [_step_data(step) for step in plan.steps.values()]
+
+
+def _step_data(step: Step) -> dict[str, Any]:
+    changes = [
+        {"field": change.field, "old": change.old, "new": change.new, "needs_restart": not change.is_live}
+        for change in step.changes
+    ]
+    host = step.spec.process.host if step.spec else step.running.host if step.running else ""
+    return {"name": step.name, "host": host, "action": step.action, "reason": step.reason, "changes": changes}
+
+
+def result_text(network: Network, result: Result) -> str:
+    if result.plan.is_empty:
+        return f"{network.name}: nothing to do, {_count(len(result.plan.steps))} as wanted"
+    if not result.diagnostics:
+        return f"{network.name}: {_count(len(result.plan.of(START, RESTART, CHANGE, KEEP)))} as wanted"
+    if not result.outcome.failed:
+        return f"{network.name}: nothing was touched"
+    after = {ROLL_BACK: "back to what ran before", KEEP_GOING: "what was started was kept"}
+    return f"{network.name}: failed; {after.get(result.undone, 'what was started was stopped')}"
+
+
+def result_data(result: Result) -> dict[str, object]:
+    outcome = result.outcome
+    ready = [name for name in outcome.began if name not in outcome.failed]
+    return {
+        "plan": plan_data(result.plan),
+        "result": {"ready": ready, "failed": list(outcome.failed), "skipped": outcome.skipped, "undone": result.undone},
+    }
+
+
+def status_text(network: Network, found: Sequence[Status], color: bool) -> str:
+    rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "SERVES")]
+    for one in found:
+        running = one.running
+        alive = running if running and running.pid else None
+        rows.append(
+            (
+                one.name,
+                _state(one),
+                str(alive.pid) if alive else "-",
+                one.host,
+                _duration(alive.uptime) if alive else "-",
+                str(running.restarts) if running else "-",
+                f"{alive.memory / (1 << 20):.0f} MiB" if alive else "-",
+                _endpoints(network, one.name),
+            )
+        )
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    lines = []
+    for row, one in zip(rows, [None, *found], strict=True):
+        cells = [f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)]
+        if one:
+            tint = "31" if one.is_down else "32" if one.is_ready else "33" if one.running else "2"
+            cells[1] = _paint(cells[1], tint, color)
+        lines.append("  ".join(cells).rstrip())
+    return "\n".join(lines)
+
+
+def _state(one: Status) -> str:
+    if one.running is None:
+        return "not started"
+    if one.state == "running":
+        return "ready" if one.is_ready else "running, not ready"
+    return f"{one.state}: {one.running.last_exit}" if one.running.last_exit else one.state
+
+
+def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any]]:
+    return [
+        {
+            "name": one.name,
+            "host": one.host,
+            "state": one.state if one.running else "not started",
+            "ready": one.is_ready,
+            "pid": one.running.pid if one.running else 0,
+            "uptime": round(one.running.uptime, 3) if one.running else 0,
+            "restarts": one.running.restarts if one.running else 0,
+            "last_exit": one.running.last_exit if one.running else "",
+            "memory": one.running.memory if one.running else 0,
+            "cpu": one.running.cpu if one.running else 0,
+            "endpoints": [
+                {"interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text}
+                for endpoint in (network.processes[one.name].endpoints if one.name in network.processes else ())
+            ],
+        }
+        for one in found
+    ]
+
+
+class LogView:
+    """Lines of logs, each behind the name of its process. What a process prints cannot command the terminal: of its
+    control characters, colours alone are left, and these only where colours are wanted."""
+
+    def __init__(self, names: Collection[str], color: bool, times: bool) -> None:
+        self._width, self._color, self._times = max(map(len, names), default=0), color, times
+
+    def text(self, line: Line) -> str:
+        tint = _LOG_TINTS[zlib.crc32(line.name.encode()) % len(_LOG_TINTS)]
+        text = _CONTROLS.sub(self._allowed, line.text)
+        if text.startswith(OWN):
+            text = _paint(text, "2", self._color)
+        elif self._color and "\x1b" in text:
+            text += "\x1b[0m"
+        time = f"{line.time} " if self._times else ""
+        return f"{time}{_paint(f'{line.name:<{self._width}} |', tint, self._color)} {text}"
+
+    def _allowed(self, found: re.Match[str]) -> str:
+        return found[0] if self._color and _CODES.fullmatch(found[0]) else ""
+
+
+def line_data(line: Line) -> str:
+    return json.dumps({"name": line.name, "time": line.time, "text": line.text}, ensure_ascii=False)
+
+
+def _endpoints(network: Network, name: str) -> str:
+    process = network.processes.get(name)
+    return ", ".join(f"{one.interface}:{one.port}" for one in process.endpoints) if process else ""
+
+
+def _duration(seconds: float) -> str:
+    """'45 s', '12 min', '3 h 20 min', '5 d 2 h'."""
+    if seconds < 120:
+        return f"{seconds:.0f} s"
+    minutes = int(seconds // 60)
+    if minutes < 120:
+        return f"{minutes} min"
+    hours = minutes // 60
+    return f"{hours} h {minutes % 60} min" if hours < 48 else f"{hours // 24} d {hours % 24} h"
+
+
+def _count(number: int) -> str:
+    return f"{number} process{'' if number == 1 else 'es'}"
+
+
+def _paint(text: str, tint: str, color: bool) -> str:
+    return f"\x1b[{tint}m{text}\x1b[0m" if color else text

@@ -1,0 +1,245 @@
+"""What the commands of `rcyaml deploy` share, and how each is carried out and told."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import sys
+from collections.abc import Callable, Collection, Coroutine, Iterable
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+import click
+
+from robocomp_yaml.commands import _deploy_views as views
+from robocomp_yaml.commands import _options
+from robocomp_yaml.commands._attaching import attached
+from robocomp_yaml.commands._progress import Progress
+from robocomp_yaml.deploy import folder, operations
+from robocomp_yaml.deploy.engine import DeployFailed, Engine
+from robocomp_yaml.deploy.engines import make_engine
+from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.render import render
+from robocomp_yaml.diag.render.json import as_data, dumps
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.network.network import Network
+
+T = TypeVar("T")
+
+
+@dataclass(slots=True)
+class Opened:
+    """A deployment as a command works on it. `told` are the diagnostics so far; `documents` were read."""
+
+    network: Network
+    engine: Engine
+    format_: str
+    told: list[Diagnostic] = field(default_factory=list)
+    documents: int = 0
+
+    @property
+    def enabled(self) -> set[str]:
+        return {process.name for process in self.network.enabled()}
+
+
+def open_(
+    ctx: click.Context, ddsl: str, include: tuple[str, ...], format_: str, engine: str | None, *, lenient: bool = False
+) -> Opened:  # fmt: skip
+    """Reads the document and all that belongs to it. Ends the command where it has errors; `lenient` lets those pass
+    that leave the network readable: one that runs can be taken down whatever became of its documents."""
+    from robocomp_yaml.pipeline import analyse
+
+    path = _document(ddsl)
+    analysis = analyse([path], include)
+    network = analysis.networks.get(os.path.realpath(path))
+    if network is None or (has_errors(analysis.diagnostics) and not lenient):
+        _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)
+    assert network
+    told = [] if lenient else analysis.diagnostics
+    return Opened(network, make_engine(engine, network), format_, list(told), analysis.program.documents)
+
+
+def _document(path: str) -> str:
+    if not os.path.isdir(path):
+        return path
+    found = sorted(name for name in os.listdir(path) if name.endswith(".ddsl.yaml"))
+    if len(found) != 1:
+        what = ", ".join(found) or "none: `rcyaml new deployment NAME` writes one"
+        raise click.UsageError(f"'{path}' is to have one deployment document; it has {what}")
+    return os.path.join(path, found[0])
+
+
+def chosen(network: Network, names: Iterable[str]) -> set[str]:
+    """The processes that are meant: by their names, aliases or groups. Ends the command where one is unknown."""
+    found: set[str] = set()
+    for name in names:
+        members = {process.name for process in network.processes.values() if name in process.groups}
+        process = network.find(name)
+        if not members and process is None:
+            known = [*network.processes, *(group for one in network.processes.values() for group in one.groups)]
+            meant = suggest(name, known)
+            raise click.UsageError(
+                f"{network.name} has no process or group '{name}'" + (f"; did you mean '{meant}'?" if meant else "")
+            )
+        found |= members or {process.name for process in [process] if process}
+    return found
+
+
+def plan(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
+    from robocomp_yaml.deploy.plan import RESTART, START, STOP
+    from robocomp_yaml.deploy.plan import plan as make_plan
+
+    wanted = chosen(opened.network, names)
+
+    async def work() -> None:
+        reached = await opened.engine.open(opened.network, create=False)
+        found = make_plan(opened.network, await opened.engine.observe() if reached else {}, wanted)
+        specs = [step.spec for step in found.of(START, RESTART) if step.spec]
+        opened.told += await opened.engine.obstacles(specs, {step.name for step in found.of(STOP, RESTART)})
+        await opened.engine.close()
+        if opened.format_ == "json":
+            _end(ctx, opened, {"plan": views.plan_data(found)})
+        click.echo(views.plan_text(found, _options.colored(ctx), everything=ctx.obj.verbosity > 0), color=ctx.color)
+
+    _run(ctx, opened, work())
+    _end(ctx, opened)
+
+
+def up(
+    ctx: click.Context, opened: Opened, names: tuple[str, ...], forced: Collection[str], on_failure: str,
+    *, attach: bool = False,
+) -> None:  # fmt: skip
+    wanted = chosen(opened.network, names)
+    is_asked = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and opened.format_ == "text"
+    progress = Progress(opened.format_ == "text" and ctx.obj.verbosity >= 0, _options.colored(ctx), opened.enabled)
+
+    async def choose(outcome: operations.Outcome) -> str:
+        if not is_asked:
+            return operations.STOP_THEM if on_failure == "ask" else on_failure
+        progress.pause()
+        click.echo(f"not ready: {', '.join(outcome.failed)}")
+        answer: str = await asyncio.to_thread(
+            click.prompt, "stop what was started, roll back to what ran before, or keep it as it is?",
+            type=click.Choice(["stop", "rollback", "keep"]), default="stop",
+        )  # fmt: skip
+        return answer
+
+    async def work() -> operations.Result:
+        await opened.engine.open(opened.network, create=True)
+        async with attached(ctx, opened, attach) as follow, progress:
+            result = await operations.up(
+                opened.engine, opened.network, wanted, forced, choose, progress.report, keep_going=on_failure == "keep"
+            )
+            opened.told += result.diagnostics
+            progress.pause()
+            if attach and not result.diagnostics:
+                opened.told += await follow()
+        if result.diagnostics or attach:
+            await operations.end_if_idle(opened.engine)
+        else:
+            await opened.engine.close()
+        return result
+
+    result = _run(ctx, opened, work(), change=True)
+    if opened.format_ == "json":
+        _end(ctx, opened, views.result_data(result))
+    if not attach:
+        click.echo(views.result_text(opened.network, result), color=ctx.color)
+    _end(ctx, opened)
+
+
+def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
+    wanted = chosen(opened.network, names)
+
+    async def work() -> list[operations.Status]:
+        reached = await opened.engine.open(opened.network, create=False)
+        found = await operations.status(opened.engine, opened.network, wanted, reached)
+        await opened.engine.close()
+        return found
+
+    found = _run(ctx, opened, work())
+    opened.told = [one for one in opened.told if one.code.startswith("RC7")]
+    code = 1 if any(one.is_down for one in found) else 0
+    if opened.format_ == "json":
+        _end(ctx, opened, {"processes": views.status_data(opened.network, found)}, code)
+    click.echo(views.status_text(opened.network, found, _options.colored(ctx)), color=ctx.color)
+    _end(ctx, opened, code=code)
+
+
+def logs(ctx: click.Context, opened: Opened, names: tuple[str, ...], last: int, *, follow: bool, times: bool) -> None:
+    wanted = chosen(opened.network, names) or opened.enabled
+    shown = views.LogView(wanted, _options.colored(ctx), times)
+
+    async def work() -> None:
+        await opened.engine.open(opened.network, create=False)
+        lines = await opened.engine.lines([name for name in opened.network.processes if name in wanted], last, follow)
+        async for line in lines:
+            text = views.line_data(line) if opened.format_ == "json" else shown.text(line)
+            click.echo(text, color=ctx.color)
+        await opened.engine.close()
+
+    opened.told = []
+    _run(ctx, opened, work(), on_interrupt="")
+
+
+def down(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
+    wanted = chosen(opened.network, names)
+    progress = Progress(opened.format_ == "text" and ctx.obj.verbosity >= 0, _options.colored(ctx), opened.enabled)
+
+    async def work() -> list[str]:
+        if not await opened.engine.open(opened.network, create=False):
+            return []
+        async with progress:
+            return await operations.down(opened.engine, wanted, progress.report)
+
+    stopped = _run(ctx, opened, work(), change=True)
+    if opened.format_ == "json":
+        _end(ctx, opened, {"stopped": stopped})
+    if not stopped:
+        click.echo(f"{opened.network.name}: nothing ran")
+    _end(ctx, opened)
+
+
+def _run(
+    ctx: click.Context, opened: Opened, work: Coroutine[Any, Any, T], *, change: bool = False,
+    on_interrupt: str = "interrupted: what runs goes on; `rcyaml deploy down` stops it",
+) -> T:  # fmt: skip
+    """Carries out what a command does; `change` where only one may at a time. What fails it ends the command."""
+    try:
+        if not change:
+            return asyncio.run(work)
+        with folder.locked(opened.network.folder) as is_ours:
+            if is_ours:
+                return asyncio.run(work)
+        reason = "another rcyaml is changing this deployment"
+    except DeployFailed as error:
+        opened.told += [*opened.engine.notes, error.diagnostic]
+        opened.engine.notes = []
+        _end(ctx, opened)
+        raise
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+    except KeyboardInterrupt:
+        if on_interrupt:
+            click.echo(on_interrupt, err=True)
+        ctx.exit(130)
+    finally:
+        work.close()
+    opened.told.append(deploying.FOLDER.at(Span(opened.network.path), path=opened.network.folder, reason=reason))
+    _end(ctx, opened)
+    raise AssertionError("a command that failed has ended")
+
+
+def _end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = None, code: int = 0) -> None:
+    """Tells what is wrong and ends the command: with 1 where one of it is an error."""
+    told = [*opened.told, *opened.engine.notes]
+    if opened.format_ == "json":
+        head: dict[str, object] = {"deployment": opened.network.name, "engine": opened.engine.name, **(data or {})}
+        click.echo(dumps({**head, "diagnostics": [as_data(one) for one in told]}), nl=False)
+    elif told:
+        text = render("text", told, opened.documents, _options.colored(ctx, sys.stderr))
+        # Its last line counts the documents, which is not what this is about.
+        click.echo(text.rstrip("\n").rpartition("\n")[0], color=ctx.color, err=True)
+    ctx.exit(1 if has_errors(told) else code)

@@ -1,0 +1,17 @@
+"""Which engine runs a network."""
+
+from __future__ import annotations
+
+from robocomp_yaml.deploy.engine import Engine
+from robocomp_yaml.network.network import Network
+
+
+def make_engine(name: str | None, network: Network) -> Engine:
+    """The engine of that name; without one, `icegrid` where the network has several hosts, else `local`."""
+    if name == "icegrid" or (name is None and network.is_distributed):
+        from robocomp_yaml.deploy.icegrid.engine import IceGridEngine
+
+        return IceGridEngine()
+    from robocomp_yaml.deploy.local.engine import LocalEngine
+
+    return LocalEngine()

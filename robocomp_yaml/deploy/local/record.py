@@ -1,0 +1,64 @@
+"""What tells a supervisor that took leave from one that was killed: a file that is there while it lives.
+
+It holds the keeper's pid and start, so that a process that has got the same number later is not taken for it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import time
+
+from robocomp_yaml.deploy.local import procfs
+
+_FILE = "state/supervisor"
+_PATIENCE = 5.0  # seconds for what was killed to be gone
+
+
+def write(folder: str, keeper: int) -> None:
+    found = procfs.entry(keeper)
+    with open(f"{folder}/{_FILE}", "w", encoding="ascii", opener=_for_the_owner) as file:
+        file.write(f"{keeper} {found.start if found else 0}\n")
+
+
+def remove(folder: str) -> None:
+    with contextlib.suppress(FileNotFoundError):
+        os.unlink(f"{folder}/{_FILE}")
+
+
+def was_killed(folder: str) -> bool:
+    """Whether the last supervisor and its keeper ended without taking leave."""
+    try:
+        with open(f"{folder}/{_FILE}", encoding="ascii", errors="replace") as file:
+            words = file.read().split()
+    except OSError:
+        return False
+    keeper = procfs.entry(int(words[0])) if words and words[0].isdigit() else None
+    return keeper is None or keeper.is_dead or words[1:] != [str(keeper.start)]
+
+
+def is_there(folder: str) -> bool:
+    return os.path.exists(f"{folder}/{_FILE}")
+
+
+def clear_up(folder: str) -> list[str]:
+    """Kills what a killed supervisor left, if its keeper was killed too; the commands that were left."""
+    left = {pid: procfs.command_line(pid) for pid in procfs.marked(folder) if pid != os.getpid()}
+    until = time.monotonic() + _PATIENCE
+    while (rest := [pid for pid in left if _lives(pid)]) and time.monotonic() < until:
+        for pid in rest:
+            with contextlib.suppress(OSError):
+                os.kill(pid, signal.SIGKILL)
+        time.sleep(0.01)
+    remove(folder)
+    return list(left.values())
+
+
+def _lives(pid: int) -> bool:
+    found = procfs.entry(pid)
+    return found is not None and not found.is_dead
+
+
+def _for_the_owner(path: str, flags: int) -> int:
+    return os.open(path, flags, 0o600)

@@ -1,0 +1,127 @@
+"""What can be done with a deployment as a whole: bring it up, see how it is, take it down. Commands and managers call
+these, whatever the engine."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping
+from contextlib import aclosing
+from dataclasses import dataclass, field, replace
+
+from robocomp_yaml.deploy.carry_out import Event, Outcome, Report, carry_out, stop_all, undo
+from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
+from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, plan, with_dependents
+from robocomp_yaml.deploy.readiness import holds
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.network.network import Network
+
+STOP_THEM, ROLL_BACK, KEEP_GOING = "stop", "rollback", "keep"
+
+SHOWN_LINES = 10
+"""Lines of a log that are shown with what failed."""
+
+Choose = Callable[[Outcome], Awaitable[str]]
+
+
+@dataclass(slots=True)
+class Result:
+    """What came of an `up`. `undone` is what was done on failure, '' where nothing failed."""
+
+    plan: Plan
+    outcome: Outcome = field(default_factory=Outcome)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    undone: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """A process of the network, or one that runs and is no longer part of it. `running` is None where it was never
+    started."""
+
+    name: str
+    host: str
+    is_ready: bool
+    running: Running | None = None
+
+    @property
+    def state(self) -> str:
+        return self.running.state if self.running else STOPPED
+
+    @property
+    def is_down(self) -> bool:
+        """Whether it should run, but does not."""
+        return self.state in (WAITING, GIVEN_UP, LOST)
+
+
+async def up(
+    engine: Engine, network: Network, names: Iterable[str], forced: Collection[str], choose: Choose, report: Report,
+    *, keep_going: bool = False, on_plan: Callable[[Plan], None] = lambda plan: None,
+) -> Result:  # fmt: skip
+    """Brings about what the network says. Nothing is touched where something stands in the way that can be seen
+    before. When a process fails, `choose` says what becomes of those that were started."""
+    before = await engine.observe()
+    result = Result(plan(network, before, names, forced))
+    on_plan(result.plan)
+    if result.plan.is_empty:
+        return result
+    starting = [step.spec for step in result.plan.of(START, RESTART) if step.spec]
+    leaving = {step.name for step in result.plan.of(STOP, RESTART)}
+    result.diagnostics = await engine.obstacles(starting, leaving)
+    if result.diagnostics:
+        return result
+    result.outcome = await carry_out(engine, result.plan, report, keep_going=keep_going)
+    if failed := result.outcome.failed:
+        result.diagnostics = [await _with_log(engine, name, found) for name, found in failed.items()]
+        result.undone = KEEP_GOING if keep_going else await choose(replace(result.outcome))
+        await _undo(engine, result, before, report)
+    return result
+
+
+async def _undo(engine: Engine, result: Result, before: Mapping[str, Running], report: Report) -> None:
+    now = await engine.observe()
+    if result.undone == STOP_THEM:
+        await stop_all(engine, [now[name] for name in result.outcome.began if name in now], report)
+    elif result.undone == ROLL_BACK:
+        again = await carry_out(engine, undo(result.plan, before, now), report, keep_going=True)
+        result.diagnostics += again.failed.values()
+
+
+async def _with_log(engine: Engine, name: str, found: Diagnostic) -> Diagnostic:
+    """What failed, with the last lines of its log."""
+    async with aclosing(await engine.lines([name], SHOWN_LINES, False)) as lines:
+        texts = [f"{name} | {line.text}" async for line in lines]
+    return replace(found, more="\n".join(texts))
+
+
+async def status(engine: Engine, network: Network, names: Collection[str], reached: bool) -> list[Status]:
+    """How the processes are, the network's in its order first; `reached` is what `open` said."""
+    running = await engine.observe() if reached else {}
+
+    async def look(name: str) -> Status:
+        one, process = running.get(name), network.processes.get(name)
+        host = one.host if one else process.host if process else ""
+        is_ready = bool(one and one.spec) and await holds(engine, one.spec, one)  # type: ignore[union-attr, arg-type]
+        return Status(name, host, is_ready, one)
+
+    known = [process.name for process in network.enabled()]
+    wanted = [name for name in [*known, *(name for name in running if name not in known)] if not names or name in names]
+    return list(await asyncio.gather(*(look(name) for name in wanted)))
+
+
+async def down(engine: Engine, names: Collection[str], report: Report) -> list[str]:
+    """Takes down what runs, or these processes with all that are after them; those that were. The engine ends with the
+    last of them."""
+    running = await engine.observe()
+    after = {name: one.spec.process.after if one.spec else () for name, one in running.items()}
+    leaving = with_dependents(after, names) & set(running) if names else set(running)
+    alive = [one.name for one in running.values() if one.name in leaving and one.state != STOPPED]
+    await stop_all(engine, [running[name] for name in leaving], report)
+    await engine.forget(leaving)
+    await engine.close(end=len(leaving) == len(running))
+    return alive
+
+
+async def end_if_idle(engine: Engine) -> None:
+    """Lets go of an engine; one that has nothing left to run ends."""
+    running = await engine.observe()
+    await engine.close(end=not any(one.state in (RUNNING, WAITING, LOST) for one in running.values()))

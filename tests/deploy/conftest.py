@@ -1,0 +1,37 @@
+"""A place for deployments, and the certainty that nothing of them is left behind."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from processes import Ports
+from robocomp_yaml.deploy.local import procfs
+from small_networks import Place
+
+
+@pytest.fixture
+def free_port() -> Ports:
+    return Ports()
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Iterator[Place]:
+    """A folder for one deployment; whatever runs there at the end of the test is killed."""
+    place = Place(tmp_path)
+    try:
+        yield place
+    finally:
+        for _ in range(50):
+            left = procfs.marked(place.folder)
+            for pid in left:
+                try:
+                    os.kill(pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    continue
+            if not left:
+                break
