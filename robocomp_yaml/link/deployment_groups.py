@@ -88,9 +88,10 @@ def _by_rule(root: LinkedDeployment, group: LinkedGroup, rule: Exposed, port: Po
     fitting = [served for served in fitting if port is None or _fits(served, port)]
     if len(fitting) == 1:
         served = fitting[0]
-        limit = rule if rule.has_rule else None
+        faults = list(_methods(rule, served))
+        limit = rule if rule.has_rule and not faults else None
         group.serves.append(Served(rule.name, served.instance, served.adapter, served.port, limit))
-        yield from _methods(rule, served)
+        yield from faults
     elif not group.broken:
         there = ", ".join(served.adapter for served in every)
         yield codes.NOT_SERVED.at(
