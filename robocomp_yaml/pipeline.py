@@ -1,7 +1,7 @@
 """The pipeline: paths to a linked program and everything that is wrong with it.
 
-discover → (read → tree → shape → model, each document once) → link → checks. `check` is this and no more; `compile`
-goes on from the program that it gives.
+discover → (read → tree → shape → model, each document once) → link → checks (with networks, where there are
+deployments). `check` is this and no more; `compile` goes on from the program that it gives.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.check import checks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
@@ -18,11 +19,14 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
 from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
 
+if TYPE_CHECKING:
+    from robocomp_yaml.network.network import Network
+
 
 @dataclass(slots=True)
 class Analysis:
     """A program with its diagnostics, sorted, and what they were read from: the bytes of each document, and the paths
-    at which an import was looked for in vain."""
+    at which an import was looked for in vain. `networks` are what the deployments come to, by real path."""
 
     program: Program
     linker: Linker
@@ -30,6 +34,7 @@ class Analysis:
     diagnostics: list[Diagnostic]
     contents: dict[str, bytes] = field(default_factory=dict)
     absent: set[str] = field(default_factory=set)
+    networks: dict[str, Network] = field(default_factory=dict)
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
@@ -57,9 +62,33 @@ def analyse(
     for run in checks(program):
         said += run(program)
     contents = documents.contents
+    networks: dict[str, Network] = {}
+    if program.deployments:
+        from robocomp_yaml.check.networks import networks_of  # most programs have none
+
+        networks, more = networks_of(program, _reader(documents, linker.search.absent))
+        said += more
     for workspace in linker.workspaces.values():
         contents[os.path.normpath(os.path.join(workspace.root, WORKSPACE_FILE))] = workspace.content
-    return Analysis(program, linker, found, in_order(_with_lint(said, linker)), contents, linker.search.absent)
+    told = in_order(_with_lint(said, linker))
+    return Analysis(program, linker, found, told, contents, linker.search.absent, networks)
+
+
+def _reader(documents: Documents, absent: set[str]) -> Callable[[str], bytes | None]:
+    """Reads a file that is no document of ours, but of which the outcome depends all the same."""
+
+    def read(path: str) -> bytes | None:
+        from robocomp_yaml.network.base import from_disk
+
+        raw = documents.overlay.get(os.path.realpath(path))
+        raw = from_disk(path) if raw is None else raw
+        if raw is None:
+            absent.add(path)
+        else:
+            documents.contents[path] = raw
+        return raw
+
+    return read
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

@@ -1,5 +1,6 @@
 """What a schema cannot say: a folder for each kind of document, every module of which may have a
-`check(program) -> Iterator[Diagnostic]`. The checks of a kind are imported only where there are documents of it."""
+`check(program) -> Iterator[Diagnostic]` (`ddsl`: `check(network)`, see `networks`). The checks of a kind are imported
+only where there are documents of it."""
 
 from __future__ import annotations
 
@@ -7,6 +8,7 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import ModuleType
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
@@ -14,11 +16,15 @@ from robocomp_yaml.link.program import Program
 Check = Callable[[Program], Iterator[Diagnostic]]
 
 
-def checks_of(kind: str) -> list[Check]:
-    """Every check of a kind of document, in the order of their modules' names."""
+def modules_of(kind: str) -> list[ModuleType]:
+    """Every module that checks a kind of document, in the order of their names."""
     modules = sorted(module.name for module in pkgutil.iter_modules([str(Path(__file__).parent / kind)]))
     found = (importlib.import_module(f"{__name__}.{kind}.{name}") for name in modules)
-    return [module.check for module in found if hasattr(module, "check")]
+    return [module for module in found if hasattr(module, "check")]
+
+
+def checks_of(kind: str) -> list[Check]:
+    return [module.check for module in modules_of(kind)]
 
 
 def checks(program: Program) -> list[Check]:

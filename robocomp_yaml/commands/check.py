@@ -32,12 +32,20 @@ def command(
     paths = paths or (".",)
     with _options.progress("reading", paths) as on_read:
         analysis = analyse(paths, include, on_read)
-    told, components = analysis.diagnostics, analysis.program.components.values()
-    if components:
+    told = analysis.with_more([*_on_disk(analysis, environment), *(_missing(analysis) if environment else ())])
+    _options.report(ctx, format_, told, analysis.program.documents)
+
+
+def _on_disk(analysis: Analysis, environment: bool) -> Iterator[Diagnostic]:
+    """What files say that are no documents: each component's `etc/config`, and the executables of deployments."""
+    if analysis.program.components:
         from robocomp_yaml.emit import ports
 
-        told = analysis.with_more([*ports.clashes(components), *(_missing(analysis) if environment else ())])
-    _options.report(ctx, format_, told, analysis.program.documents)
+        yield from ports.clashes(analysis.program.components.values())
+    if analysis.networks:
+        from robocomp_yaml.check.networks import of_environment
+
+        yield from of_environment(analysis.networks, analysis.program, environment=environment)
 
 
 def _missing(analysis: Analysis) -> Iterator[Diagnostic]:

@@ -129,7 +129,9 @@ class _Pair:
 
     def definitions(self, name: str, first: Definition, second: Definition) -> Iterator[Difference]:
         match first, second:
-            case (Struct(), Struct()) | (ExceptionType(), ExceptionType()):
+            case Struct(), Struct():
+                yield from self.members(name, first.members, second.members, first.span, second.span)
+            case ExceptionType(), ExceptionType():
                 yield from self.members(name, first.members, second.members, first.span, second.span)
             case Enum(), Enum():
                 if _values(first) != _values(second):

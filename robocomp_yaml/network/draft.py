@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedInstance, LinkedStorm
 from robocomp_yaml.link.program import Port
-from robocomp_yaml.network.ice_endpoint import IceEndpoint, parse_endpoint
+from robocomp_yaml.network.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
 from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
 
@@ -21,7 +21,7 @@ def is_loopback(address: str) -> bool:
 
 def listening(host: Host, number: int) -> str:
     """Where an adapter listens: on a machine that others reach, on all its interfaces."""
-    return f"tcp -h {host.address} -p {number}" if is_loopback(host.address) else f"tcp -p {number}"
+    return f"tcp -h {spelled_host(host.address)} -p {number}" if is_loopback(host.address) else f"tcp -p {number}"
 
 
 @dataclass(eq=False, slots=True)
@@ -44,13 +44,8 @@ class Offer:
         return f"{self.owner.name}.{self.adapter}"
 
     @property
-    def is_ice(self) -> bool:
-        return not self.given.isdigit()
-
-    @property
     def endpoint(self) -> IceEndpoint | None:
-        if self.given.isdigit():
-            return IceEndpoint(int(self.given))
+        """None where the document's spelling is none."""
         return parse_endpoint(self.given) if self.given else IceEndpoint(self.number)
 
     @property
@@ -66,11 +61,10 @@ class Offer:
 
     def resolved(self) -> Endpoint:
         found = self.endpoint or IceEndpoint(0)
-        identity = self.interface.lower() if self.is_ice else ""
         module = self.port.scope.module.name if self.port else ""
         if self.port is None and self.interface == COMMON_BEHAVIOR:
             module = f"RoboComp{COMMON_BEHAVIOR}"
-        return Endpoint(self.adapter, identity, found.port, self.text, found.protocol, module, self.span)
+        return Endpoint(self.adapter, self.interface.lower(), found.port, self.text, found.protocol, module, self.span)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,13 +97,6 @@ class Draft:
     def span(self) -> Span:
         return self.instance.entry.span
 
-    @property
-    def speaks_ice(self) -> bool:
-        """Whether its configuration is for Ice."""
-        entry = self.instance.entry
-        is_told = bool(entry.config_as or entry.connect or entry.topics)
-        return self.instance.component is not None or is_told or any(offer.is_ice for offer in self.offers)
-
 
 @dataclass(eq=False, slots=True)
 class StormDraft:
@@ -130,7 +117,7 @@ class StormDraft:
 
     @property
     def proxy(self) -> str:
-        return f"{STORM_INSTANCE}/{MANAGER}:tcp -h {self.host.address} -p {self.manager}"
+        return f"{STORM_INSTANCE}/{MANAGER}:tcp -h {spelled_host(self.host.address)} -p {self.manager}"
 
     def endpoints(self) -> tuple[Endpoint, ...]:
         storm = self.linked.storm

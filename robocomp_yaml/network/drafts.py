@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from robocomp_yaml.link import deployments
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedInstance
+from robocomp_yaml.link.program import Port
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.network.draft import Draft, Offer, StormDraft
 from robocomp_yaml.network.network import LOOPBACK, Host
@@ -31,7 +32,7 @@ class Drafts:
 
 def drafts_of(linked: LinkedDeployment) -> Drafts:
     result = Drafts(linked, {name: _host(host) for name, host in linked.hosts.items()})
-    result.complete = not linked.broken
+    result.complete = not (linked.broken or any(group.broken for group in linked.groups.values()))
     for storm in linked.storms.values():
         result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host))
         result.complete &= not storm.broken
@@ -51,7 +52,7 @@ def drafts_of(linked: LinkedDeployment) -> Drafts:
 
 
 def _host(host: model.Host) -> Host:
-    return Host(host.name, host.address.text, host.user, host.span)
+    return Host(host.name, host.address.text, host.user, host.address.span)
 
 
 def _placed(hosts: dict[str, Host], host: model.Host | None) -> Host:
@@ -62,12 +63,16 @@ def _placed(hosts: dict[str, Host], host: model.Host | None) -> Host:
 
 def _offers(draft: Draft) -> Iterator[Offer]:
     component = draft.instance.component
-    if component is not None:
-        for port in component.implements:
-            yield Offer(draft, port.name, port.interface.name, draft.span, port)
-        if all(port.name != COMMON_BEHAVIOR for port in component.implements):
-            yield Offer(draft, COMMON_BEHAVIOR, COMMON_BEHAVIOR, draft.span)
-    yield from _endpoints(draft, draft.instance)
+    if component is None:
+        yield from _endpoints(draft, draft.instance)
+        return
+    given = {pair.name: pair for pair in draft.instance.entry.endpoints}
+    served: list[tuple[str, str, Port | None]] = [(p.name, p.interface.name, p) for p in component.implements]
+    if all(port.name != COMMON_BEHAVIOR for port in component.implements):
+        served.append((COMMON_BEHAVIOR, COMMON_BEHAVIOR, None))
+    for name, interface, port in served:
+        pair = given.get(name)
+        yield Offer(draft, name, interface, pair.span if pair else draft.span, port, given=pair.text if pair else "")
 
 
 def _endpoints(owner: Draft, instance: LinkedInstance) -> Iterator[Offer]:

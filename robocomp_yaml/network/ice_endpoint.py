@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from robocomp_yaml.source import properties
 
-_ENDPOINT = re.compile(r"\s*(tcp|udp|ssl|ws|wss|default)\b([^:]*)")
-_OPTION = re.compile(r"-(\w)\s+(\S+)")
+_ENDPOINT = re.compile(r"\s*(tcp|udp|ssl|ws|wss|default)\b((?:\"[^\"]*\"|[^:\"])*)")
+_OPTION = re.compile(r"-(\w)\s+(\"[^\"]*\"|\S+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +21,12 @@ class IceEndpoint:
 
     def reached_at(self, address: str) -> str:
         """The same for a proxy, whose component runs at `address`."""
-        return f"{self.protocol} -h {self.host or address} -p {self.port}"
+        return f"{self.protocol} -h {spelled_host(self.host or address)} -p {self.port}"
+
+
+def spelled_host(address: str) -> str:
+    """A colon ends an endpoint, so an IPv6 address stands in quotes."""
+    return f'"{address}"' if ":" in address else address
 
 
 def parse_endpoint(value: str) -> IceEndpoint | None:

@@ -54,11 +54,11 @@ def properties(
         Section("Where the components are that it requires", list(_proxies(values, form, quote))),
         Section("Topics", list(_topics(values, form, quote))),
         Section("Parameters", writer.write(effective.data, effective.place)),
-        Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in _given(values, "ice")]),
-        Section("Others", [_property(key, node, False) for key, node in _given(values, "properties")]),
+        Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in given(values, "ice")]),
+        Section("Others", [_property(key, node, False) for key, node in given(values, "properties")]),
     ]
     faults = list(writer.faults)
-    exact = {key: node.lexeme for key, node in _given(values, "legacy", "exact") if isinstance(node, Scalar)}
+    exact = {key: node.lexeme for key, node in given(values, "legacy", "exact") if isinstance(node, Scalar)}
     seen: dict[str, Property] = {}
     for section in sections:
         section.properties = [_exact(made, exact.get(made.key)) for made in section.properties]
@@ -91,7 +91,7 @@ def _exact(made: Property, original: str | None) -> Property:
     return replace(made, value=original) if same else made
 
 
-def _given(values: LinkedValues, *keys: str) -> Iterator[tuple[str, Node]]:
+def given(values: LinkedValues, *keys: str) -> Iterator[tuple[str, Node]]:
     """The entries of a section over all layers: later ones replace, null removes."""
     merged: dict[str, Node] = {}
     for layer in values.layers():
@@ -114,12 +114,12 @@ def _property(key: str, node: Node, quote: bool) -> Property:
 
 
 def _endpoints(values: LinkedValues, form: str, quote: bool) -> Iterator[Property]:
-    for name, node in _given(values, "endpoints"):
+    for name, node in given(values, "endpoints"):
         yield _property(f"{name}.Endpoints" if form == CLASSIC else f"Endpoints.{name}", node, quote)
 
 
 def _proxies(values: LinkedValues, form: str, quote: bool) -> Iterator[Property]:
-    for name, node in _given(values, "proxies"):
+    for name, node in given(values, "proxies"):
         key = f"{name}Proxy" if form == CLASSIC else f"Proxies.{name}"
         if isinstance(node, Mapping):
             key = text(node, "key", key)
@@ -138,9 +138,9 @@ def _topics(values: LinkedValues, form: str, quote: bool) -> Iterator[Property]:
             manager = None if entry[1].data is None else entry[1]
     if manager is not None:
         yield _property("TopicManager.Proxy" if form == CLASSIC else "Proxies.TopicManager", manager, quote)
-    for name, node in _given(values, "topics", "prefix"):
+    for name, node in given(values, "topics", "prefix"):
         made = _property(f"Proxies.{name}Prefix", node, quote)
         if made.value:  # none at all is what an empty one means
             yield made
-    for name, node in _given(values, "topics", "name"):
+    for name, node in given(values, "topics", "name"):
         yield _property(name, node, quote)

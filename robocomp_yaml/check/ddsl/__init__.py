@@ -1,0 +1,1 @@
+"""Checks of deployments, by the networks that they come to."""

@@ -1,0 +1,93 @@
+"""Whether what a network starts is there: executables, programs and folders, as far as they are this machine's.
+
+This depends on more than documents: `check` says it as a warning, since a fresh checkout has no builds, and `deploy`
+cannot do without.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import networks as codes
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.link.deployments import LinkedDeployment
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.network.draft import is_loopback
+from robocomp_yaml.network.network import ICESTORM, Network, Process
+
+
+def missing(network: Network, linked: LinkedDeployment, *, environment: bool = False) -> Iterator[Diagnostic]:
+    """A warning for each process that could not be started. `environment`: what PATH should find is looked for, too."""
+    here = {name for name, host in network.hosts.items() if is_this_machine(host.address)}
+    for process in network.enabled():
+        if process.host not in here:
+            continue
+        instance = linked.instances.get(process.name)
+        program, component = process.command[0], instance.component if instance else None
+        if component is not None and not os.path.lexists(program):
+            yield codes.NOT_BUILT.at(process.span, name=process.name, path=_shown(program), hint=_build(component))
+        elif problem := _problem(process, program, environment):
+            yield codes.NO_PROGRAM.at(process.span, name=process.name, problem=problem, hint=_mend(process))
+
+
+def in_the_way(network: Network, linked: LinkedDeployment) -> list[Diagnostic]:
+    """The same as errors: what keeps a network from being started."""
+    return [found.as_severity(ERROR) for found in missing(network, linked, environment=True)]
+
+
+def is_this_machine(address: str) -> bool:
+    """Whether an address is one of this machine's own; names are compared, not resolved."""
+    if is_loopback(address) or address == socket.gethostname():
+        return True
+    family = socket.AF_INET6 if ":" in address else socket.AF_INET
+    try:
+        packed = socket.inet_pton(family, address)
+        with socket.socket(family, socket.SOCK_DGRAM) as probe:
+            probe.bind((socket.inet_ntop(family, packed), 0))
+    except OSError:
+        return False
+    return True
+
+
+def _problem(process: Process, program: str, environment: bool) -> str:
+    if "/" not in program:
+        path = next((variable.value for variable in process.env if variable.name == "PATH"), None)
+        is_lost = environment and shutil.which(program, path=path) is None
+        return f"PATH finds no '{program}'" if is_lost else ""
+    if os.path.isdir(program):
+        return f"{_shown(program)} is a folder"
+    if not os.path.exists(program):
+        return f"there is no {_shown(program)}"
+    if not os.access(program, os.X_OK):
+        return f"{_shown(program)} is not executable"
+    # the folder of an IceStorm is the deployment's own, which is made when it is started
+    if process.kind != ICESTORM and not os.path.isdir(process.cwd):
+        return f"there is no folder {_shown(process.cwd)} to run in"
+    return ""
+
+
+def _build(component: LinkedComponent) -> str:
+    path = component.component.path
+    compile_ = f"`rcyaml compile {path}`"
+    if component.component.language.name != "cpp":
+        return f"{compile_} writes it"
+    folder = os.path.dirname(path) or "."
+    return f"{compile_}, then `cmake -S {folder} -B {folder}/build && cmake --build {folder}/build`"
+
+
+def _mend(process: Process) -> str:
+    if process.kind == ICESTORM:
+        return "install Debian's zeroc-icebox and libzeroc-icestorm3.7"
+    program = process.command[0]
+    if os.path.isfile(program) and not os.access(program, os.X_OK):
+        return f"`chmod +x {_shown(program)}`"
+    return ""
+
+
+def _shown(path: str) -> str:
+    """As its user would open it from here."""
+    relative = os.path.relpath(path)
+    return path if relative.startswith("..") else relative

@@ -1,0 +1,44 @@
+"""Of two processes on one machine, only one can listen on a port."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import networks as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.network.draft import is_loopback
+from robocomp_yaml.network.ice_endpoint import parse_endpoint
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, Network, Process
+
+
+def check(network: Network) -> Iterator[Diagnostic]:
+    seen: dict[tuple[str, bool, int], list[tuple[str, Process, Endpoint]]] = {}
+    for process in network.enabled():
+        machine = _machine(network.address(process))
+        for endpoint in process.endpoints:
+            if not endpoint.port:
+                continue
+            parsed = parse_endpoint(endpoint.text)
+            bound = _machine(parsed.host, keep=True) if parsed and parsed.host else ""
+            others = seen.setdefault((machine, endpoint.protocol == "udp", endpoint.port), [])
+            for host, other, served in others:
+                if not host or not bound or host == bound:
+                    yield codes.PORT_CONFLICT.at(
+                        endpoint.span, port=endpoint.port, name=_name(process, endpoint), other=_name(other, served),
+                        host=f"host '{process.host}'" if network.hosts[process.host].span.file else "this machine",
+                        hint="give one of them another port",
+                        related=[Related(f"{_name(other, served)} has it, too", served.span)],
+                    )
+                    break
+            others.append((bound, process, endpoint))
+
+
+def _machine(address: str, *, keep: bool = False) -> str:
+    """All loopback addresses lead to one machine; with `keep`, they are told apart."""
+    if address in (LOOPBACK, "127.0.0.1", "::1") or (is_loopback(address) and not keep):
+        return LOOPBACK
+    return address
+
+
+def _name(process: Process, endpoint: Endpoint) -> str:
+    return f"'{process.name}' ({endpoint.interface})"

@@ -1,0 +1,86 @@
+"""What an instance's configuration is built on: the values document or the flat file that `config:` names."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from robocomp_yaml.link.deployments import LinkedInstance
+from robocomp_yaml.link.program import LinkedValues
+from robocomp_yaml.source import properties
+from robocomp_yaml.source.tree import Mapping, Node, Scalar
+from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, dialect, given
+
+Read = Callable[[str], "bytes | None"]
+_DIALECT_B = ("Endpoints.", "Proxies.", "Period.", "Agent.")
+
+
+@dataclass(slots=True)
+class Base:
+    """`values` are None for a flat file, of which `flat` is the text and `properties` what Ice makes of it; without
+    either there is nothing to build on."""
+
+    values: LinkedValues | None = None
+    flat: str | None = None
+    properties: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def dialect(self) -> str:
+        if self.values is not None:
+            return dialect(self.values)
+        return FLAT_TOML if any(key.startswith(_DIALECT_B) for key in self.properties) else CLASSIC
+
+    @property
+    def manager(self) -> str:
+        """The topic manager's proxy that it names, or ''."""
+        if self.values is None:
+            return self.first("TopicManager.Proxy", "Proxies.TopicManager")
+        for layer in reversed(self.values.layers()):
+            topics = layer.document.section("topics")
+            if topics is not None and "manager" in topics.entries:
+                return str(topics.entries["manager"][1].data or "")
+        return ""
+
+    def topic(self, port: str, interface: str, *, is_out: bool) -> str:
+        """The name of a topic, as generated components make it: a prefix, and a name of its own."""
+        prefixes = f"{port}Pub" if is_out else port
+        if self.values is None:
+            prefix, name = self.first(f"Proxies.{prefixes}Prefix"), self.first(port)
+        else:
+            prefix = _text(dict(given(self.values, "topics", "prefix")).get(prefixes))
+            name = _text(dict(given(self.values, "topics", "name")).get(port))
+        name = name or interface
+        return f"{prefix}/{name}" if prefix else name
+
+    def first(self, *keys: str) -> str:
+        return next((properties.unquoted(text) for key in keys if (text := self.properties.get(key))), "")
+
+    def proxy_key(self, name: str) -> Scalar | None:
+        """The property that a proxy has instead of its usual one."""
+        node = dict(given(self.values, "proxies")).get(name) if self.values is not None else None
+        key = node.get("key") if isinstance(node, Mapping) else None
+        return key if isinstance(key, Scalar) else None
+
+
+def base_of(instance: LinkedInstance, read: Read) -> Base:
+    if instance.values is not None:
+        return Base(instance.values)
+    raw = read(instance.flat) if instance.flat else None
+    if raw is None:
+        return Base()
+    text = raw.decode("utf-8", "replace")
+    return Base(None, text, properties.read(text).values)
+
+
+def from_disk(path: str) -> bytes | None:
+    """The bytes of a file; special files are never opened, for they may block."""
+    try:
+        return Path(path).read_bytes() if os.path.isfile(path) else None
+    except OSError:
+        return None
+
+
+def _text(node: Node | None) -> str:
+    return properties.unquoted(node.lexeme) if isinstance(node, Scalar) else ""

@@ -1,0 +1,191 @@
+"""The configuration of each process, as text: what it is built on, what `set:` says, and all that was derived.
+
+For a values document, what is derived is one more layer, so that it is judged and written as `compile` does it. A flat
+file stays as it is, and what is derived follows it: of two lines for one property, Ice takes the last.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import networks as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.link.program import LinkedParameters, LinkedValues
+from robocomp_yaml.model.pdsl import ValuesDocument
+from robocomp_yaml.network.base import Base
+from robocomp_yaml.network.draft import Draft, Given, listening
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
+from robocomp_yaml.values.effective import document_faults, effective
+from robocomp_yaml.values.layers import data_of, merged
+from robocomp_yaml.values.overlay import overlay
+from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, Section, properties
+from robocomp_yaml.values.property_text import section_text
+from robocomp_yaml.values.write import Property, Writer
+
+_PARAMETERS = "What the deployment sets"
+_TITLE = "Where this component and the others are"
+
+
+@dataclass(slots=True)
+class Configuration:
+    """The text for one draft, None where something is wrong with it."""
+
+    draft: Draft
+    base: Base
+    text: str | None = None
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def make(self) -> None:
+        values = self.base.values
+        linked = values.parameters if values is not None else self._own_parameters()
+        if values is not None and linked is None:
+            return  # that nobody knows its parameters has been said
+        if self.base.flat is not None:
+            sections = self._on_flat(linked)
+        elif linked is not None:
+            sections = self._on_values(linked)
+        else:
+            sections = [Section(_TITLE, self._connections(CLASSIC))]
+        if sections is None or any(fault.severity == "error" for fault in self.diagnostics):
+            return
+        document = os.path.basename(self.draft.instance.document.path)
+        head = f"# Configuration of {self.draft.name}, derived by rcyaml from {document}: change it there.\n"
+        if self.base.flat is None:
+            self.text = head + section_text(sections)
+        else:
+            flat = self.base.flat if self.base.flat.endswith("\n") else f"{self.base.flat}\n"
+            self.text = f"{flat}\n{head}{section_text(sections)}"
+
+    def _own_parameters(self) -> LinkedParameters | None:
+        component = self.draft.instance.component
+        return component.parameters if component is not None else None
+
+    def _on_values(self, linked: LinkedParameters) -> list[Section] | None:
+        base = self.base.values
+        layer = LinkedValues(ValuesDocument(self._file, mapping_at(self.draft.span, {})), parameters=linked)
+        layer.extends, layer.broken = ([base], base.broken) if base is not None else ([], False)
+        if linked.broken or layer.broken:
+            return None
+        layer.document = ValuesDocument(self._file, self._layer(linked, layer))
+        values, found = effective(layer)
+        self.diagnostics += found
+        if values is None:
+            return None
+        sections, faults = properties(layer, values)
+        self.diagnostics += faults
+        written = {made.key for section in sections for made in section.properties}
+        more = [made for made in self._connections(CLASSIC) if made.key not in written]
+        return [*sections, Section(_TITLE, more)] if more else sections
+
+    def _on_flat(self, linked: LinkedParameters | None) -> list[Section] | None:
+        dialect = self.base.dialect
+        made = [Section(_TITLE, self._connections(dialect))]
+        settings = self.draft.instance.entry.settings
+        if settings is None or linked is None:
+            return made
+        if linked.broken:
+            return None
+        layer = LinkedValues(ValuesDocument(self._file, self._parameters(linked, settings, None)), parameters=linked)
+        self.diagnostics += document_faults(layer)
+        if not self.diagnostics:
+            root, place = linked.parameters.root, merged(layer)
+            writer = Writer(linked.parameters, settings.span, True, dialect == FLAT_TOML)
+            made.append(Section(_PARAMETERS, writer.write(data_of(place, root), place)))
+            self.diagnostics += writer.faults
+        return made
+
+    @property
+    def _file(self) -> str:
+        return self.draft.instance.document.path
+
+    def _layer(self, linked: LinkedParameters, base: LinkedValues) -> Mapping:
+        """What is derived, as the values document that it could have been."""
+        span, entries = self.draft.span, dict[str, tuple[Scalar, Node]]()
+        settings = self.draft.instance.entry.settings
+        if settings is not None:
+            below = merged(base) if base.extends else None
+            entries |= self._parameters(linked, settings, below).entries
+        else:
+            entries["component"] = (text_at(span, "component"), text_at(span, ""))
+        given = self.base.values.document.root.entries.get("legacy") if self.base.values else None
+        if given is not None:
+            entries["legacy"] = given
+        sections: dict[str, dict[str, tuple[Scalar, Node]]] = {
+            "endpoints": {name: _entry(name, given) for name, given in self._endpoints()},
+            "proxies": {name: self._proxy(name, given) for name, given in self.draft.proxies.items()},
+            "topics": self._topics(),
+        }
+        for name, section in sections.items():
+            if section:
+                entries[name] = (text_at(span, name), mapping_at(span, section))
+        return mapping_at(span, entries)
+
+    def _parameters(self, linked: LinkedParameters, settings: Mapping, below: object) -> Mapping:
+        laid = overlay(settings, linked.parameters.root, below)  # type: ignore[arg-type]
+        self.diagnostics += [
+            codes.NO_ENTRY.at(fault.key.span, path=fault.key.lexeme, problem=fault.problem) for fault in laid.faults
+        ]
+        key = text_at(settings.span, "parameters")
+        return mapping_at(settings.span, {"parameters": (key, laid.root)})
+
+    def _endpoints(self) -> Iterator[tuple[str, Given]]:
+        draft, entry = self.draft, self.draft.instance.entry
+        for offer in draft.offers:
+            yield offer.adapter.rpartition(".")[2], Given(offer.text, offer.span)
+        component = draft.instance.component
+        said = {pair.name: Given(pair.text, pair.span) for pair in entry.endpoints}
+        said |= {port.name: Given(listening(draft.host, port.number), port.span) for port in entry.ports}
+        for port in component.subscribes if component else ():
+            yield f"{port.name}Topic", said.get(port.name, Given(listening(draft.host, 0), draft.span))
+
+    def _proxy(self, name: str, given: Given) -> tuple[Scalar, Node]:
+        """Under the property that the configuration has for it."""
+        key, node = _entry(name, given)
+        own = self.base.proxy_key(name)
+        if own is None:
+            return key, node
+        words = {"proxy": (text_at(given.span, "proxy"), node), "key": (text_at(given.span, "key"), own)}
+        return key, mapping_at(given.span, words)
+
+    def _topics(self) -> dict[str, tuple[Scalar, Node]]:
+        """A topic that has a name here has no prefix any more."""
+        made: dict[str, tuple[Scalar, Node]] = {}
+        if self.draft.manager is not None:
+            made["manager"] = _entry("manager", self.draft.manager)
+        names = self.draft.topics
+        if names:
+            span = next(iter(names.values())).span
+            made["name"] = _entry("name", mapping_at(span, {name: _entry(name, to) for name, to in names.items()}))
+            none = {f"{name}{end}": _entry(f"{name}{end}", Given("", to.span)) for name, to in names.items()
+                    for end in ("", "Pub")}
+            made["prefix"] = _entry("prefix", mapping_at(span, none))
+        return made
+
+    def _connections(self, dialect: str) -> list[Property]:
+        """All that is derived as properties, in Ice's own spelling, which comes first for every generated component;
+        and behind it in the file's, if that is another."""
+        draft, made = self.draft, list[tuple[str, str, Given]]()
+        made += [(f"{name}.Endpoints", f"Endpoints.{name}", given) for name, given in self._endpoints()]
+        for name, given in draft.proxies.items():
+            made.append((f"{name}Proxy", f"Proxies.{name}", given))
+        if draft.manager is not None:
+            made.append(("TopicManager.Proxy", "Proxies.TopicManager", draft.manager))
+        made += [(name, name, given) for name, given in draft.topics.items()]
+        lines = {classic: Property(classic, given.text, given.span) for classic, _, given in made}
+        if dialect != CLASSIC:
+            lines |= {other: Property(other, _quoted(given.text), given.span) for _, other, given in made}
+        prefixes = [f"Proxies.{name}{end}Prefix" for name in draft.topics for end in ("", "Pub")]
+        # an empty value takes back what the file says
+        lines |= {key: Property(key, '""') for key in prefixes if key in self.base.properties}
+        return list(lines.values())
+
+
+def _quoted(text: str) -> str:
+    return text if '"' in text else f'"{text}"'
+
+
+def _entry(name: str, given: Given | Mapping) -> tuple[Scalar, Node]:
+    node = given if isinstance(given, Mapping) else text_at(given.span, given.text)
+    return text_at(node.span, name), node

@@ -1,0 +1,248 @@
+"""Who serves what each component requires: as `connect:` says, else the one that serves an equal interface."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import networks as codes
+from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance
+from robocomp_yaml.link.program import Port
+from robocomp_yaml.model.component import IGNORE
+from robocomp_yaml.model.deployment import Pair
+from robocomp_yaml.network.contents import Contents, name_of
+from robocomp_yaml.network.draft import Draft, Given, Offer
+from robocomp_yaml.network.drafts import Drafts
+from robocomp_yaml.network.network import Connection
+from robocomp_yaml.network.order import Need
+
+_MANY = 6
+
+
+@dataclass(slots=True)
+class Connections:
+    """`found` are the lines of the graph, `needs` says who waits for whom."""
+
+    drafts: Drafts
+    contents: Contents
+    found: list[Connection] = field(default_factory=list)
+    needs: list[Need] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    _by_name: dict[str, list[Offer]] = field(default_factory=dict)
+
+    def resolve(self) -> None:
+        for draft in self.drafts.drafts.values():
+            for offer in draft.offers:
+                self._by_name.setdefault(offer.interface, []).append(offer)
+        for draft in self.drafts.drafts.values():
+            component, given = draft.instance.component, {pair.name: pair for pair in draft.instance.entry.connect}
+            for port in component.requires if component else ():
+                pair = given.get(port.name)
+                if pair is not None:
+                    self._given(draft, pair, port)
+                else:
+                    self._look_for(draft, port)
+            for pair in given.values() if component is None else ():
+                self._given(draft, pair, None)
+
+    def _given(self, draft: Draft, pair: Pair, port: Port | None) -> None:
+        """`port` is None for a program, of which nothing but the proxy's name is known."""
+        interface = port.interface.name if port else pair.name
+        if is_proxy(pair.text):
+            draft.proxies[pair.name] = Given(pair.text, pair.span)
+            self.found.append(Connection(draft.name, pair.name, interface, "", proxy=pair.text, span=pair.span))
+            return
+        offers, behind = self._named(draft, pair)
+        if offers is None:
+            return
+        if behind:
+            offers = [offer for offer in offers if behind in (offer.adapter, offer.interface)] or offers
+        fitting = [offer for offer in offers if offer.interface == interface]
+        if port is None and behind:
+            fitting = [offer for offer in offers if behind in (offer.adapter, offer.interface)]
+        equal = [offer for offer in fitting if port is None or self._is_equal(port, offer)]
+        exact = [offer for offer in equal if offer.adapter in (behind, pair.name)]
+        if len(equal) > 1 and len(exact) == 1:
+            equal = exact
+        if len(equal) == 1:
+            self._connect(draft, pair.name, interface, equal[0], pair.span, port)
+        elif equal:
+            self._ambiguous(draft, pair.name, interface, equal, pair.span)
+        elif fitting and port is not None:
+            self._mismatch(draft, port, fitting[0], pair.span)
+        else:
+            served = ", ".join(dict.fromkeys(offer.adapter for offer in offers))
+            self.diagnostics.append(codes.NOT_SERVED.at(
+                pair.span, target=pair.text, interface=interface,
+                hint=f"it serves {served}" if served else "it serves nothing",
+            ))
+
+    def _named(self, draft: Draft, pair: Pair) -> tuple[list[Offer] | None, str]:
+        """What the entry, group or member that `connect` names serves, and the interface that it names behind it."""
+        linked, instance = self.drafts.linked, draft.instance
+        targets, behind = linked.find(pair.text, instance.scope)
+        offers: list[Offer] = []
+        for target in targets:
+            if isinstance(target, LinkedGroup):
+                offers += self._of_group(target, draft)
+            elif isinstance(target, LinkedInstance):
+                owner = self.drafts.of(target)
+                if owner is None or target.broken:
+                    return None, behind
+                own = {pair.name for pair in target.entry.endpoints}
+                offers += [o for o in owner.offers if target.process is None or o.adapter in own] or owner.offers
+            else:
+                self.diagnostics.append(codes.NOT_SERVED.at(
+                    pair.span, target=pair.text, interface=pair.name, hint="it is an IceStorm, which carries topics"
+                ))
+                return None, behind
+            around = linked.closed_around(target, instance)
+            if around:
+                self.diagnostics.append(codes.CLOSED_GROUP.at(
+                    pair.span, target=pair.text, group=around[0].name, hint=f"connect to '{around[0].name}', which "
+                    "serves what it exposes",
+                ))
+                return None, behind
+        if not targets and not instance.broken:
+            names = linked.names.get(instance.scope, {})
+            meant = suggest(pair.text, names)
+            self.diagnostics.append(codes.NO_TARGET.at(
+                pair.span, name=pair.text,
+                hint=f"did you mean '{meant}'?" if meant else "what is outside is named by its proxy, in quotes: "
+                f'"{pair.name.lower()}:tcp -h HOST -p PORT"',
+            ))
+        return (offers if targets else None), behind
+
+    def _of_group(self, group: LinkedGroup, draft: Draft) -> list[Offer]:
+        """What a group serves to those outside of it; to its own members, everything."""
+        if group.is_closed and draft.instance not in group.members:
+            exposed = {(served.instance, served.adapter) for served in group.serves}
+            return [o for o in self._of_members(group) if (o.owner.instance, o.adapter) in exposed]
+        return [offer for offer in self._of_members(group) if offer.port or offer.given]
+
+    def _of_members(self, group: LinkedGroup) -> list[Offer]:
+        owners = dict.fromkeys(owner for member in group.members if (owner := self.drafts.of(member)))
+        return [offer for owner in owners for offer in owner.offers]
+
+    def _look_for(self, draft: Draft, port: Port) -> None:
+        """Connects a port that nothing is said of: the nearest that serve an equal interface decide."""
+        named = [
+            offer for offer in self._by_name.get(port.interface.name, ())
+            if offer.owner is not draft and (offer.port or offer.given) and _reaches(draft, offer)
+        ]
+        equal = [offer for offer in named if self._is_equal(port, offer)]
+        equal = [offer for offer in equal if offer.owner.instance.entry.enabled] or equal
+        if len(equal) > 1:
+            near = [_nearness(draft, offer) for offer in equal]
+            equal = [offer for offer, rank in zip(equal, near, strict=True) if rank == max(near)]
+        if len(equal) == 1:
+            self._connect(draft, port.name, port.interface.name, equal[0], draft.span, port)
+        elif equal:
+            self._ambiguous(draft, port.name, port.interface.name, equal, draft.span, port)
+        elif named:
+            self._mismatch(draft, port, named[0], draft.span)
+        else:
+            self._unresolved(draft, port)
+
+    def _is_equal(self, port: Port, offer: Offer) -> bool:
+        if offer.port is None:
+            module = offer.adapter.rpartition(".")[0]
+            return module in ("", *name_of(port)[:1], port.scope.module.stem)
+        return name_of(offer.port) == name_of(port) and self.contents.difference(port, offer.port) is None
+
+    def _connect(
+        self, draft: Draft, name: str, interface: str, offer: Offer, span: Span, port: Port | None
+    ) -> None:
+        target = offer.owner
+        if offer.endpoint is None:  # the document's endpoint is none, which has been said
+            return
+        draft.proxies[name] = Given(offer.proxy, span)
+        self.found.append(Connection(draft.name, name, interface, target.name, proxy=offer.proxy, span=span))
+        if target is not draft:
+            self.needs.append(Need(draft.name, target.name, port.use.absent if port else "", name, span))
+        if draft.instance.entry.enabled and not target.instance.entry.enabled and not _may_be_absent(port):
+            self.diagnostics.append(codes.NOT_ENABLED.at(
+                span, source=draft.name, interface=interface, target=target.name,
+                related=[Related("not enabled here", target.span)],
+            ))
+
+    def _ambiguous(
+        self, draft: Draft, name: str, interface: str, offers: list[Offer], span: Span, port: Port | None = None
+    ) -> None:
+        shown = [offer.owner.name if _is_only(offer) else offer.full_name for offer in offers]
+        more = f" and {len(shown) - _MANY} more" if len(shown) > _MANY else ""
+        related = [Related(f"'{word}' serves it", o.span) for word, o in zip(shown, offers[:_MANY], strict=False)]
+        self.diagnostics.append(codes.AMBIGUOUS.at(
+            span, source=draft.name, port=name, interface=interface,
+            candidates=", ".join(shown[:_MANY]) + more, hint=f"write `connect: {{{name}: {shown[0]}}}`, or another",
+            related=related + _required(port),
+        ))
+
+    def _mismatch(self, draft: Draft, port: Port, offer: Offer, span: Span) -> None:
+        if offer.port is None:
+            self._unresolved(draft, port)
+            return
+        found = self.contents.difference(port, offer.port)
+        if found is not None:
+            self.diagnostics.append(codes.MISMATCH.at(
+                span, interface=port.interface.name, source=draft.name, target=offer.owner.name,
+                difference=found.message, hint="let both import the same document",
+                related=[Related(f"as '{draft.name}' knows it", found.first),
+                         Related(f"as '{offer.owner.name}' knows it", found.second)],
+            ))
+
+    def _unresolved(self, draft: Draft, port: Port) -> None:
+        linked, name = self.drafts.linked, port.interface.name
+        self.found.append(Connection(draft.name, port.name, name, "", span=draft.span))
+        if linked.is_included or not self.drafts.complete:
+            return
+        told = codes.UNRESOLVED.at(
+            draft.span, source=draft.name, interface=name, related=_required(port),
+            hint=f"add a component that implements {name}, or say where it is: "
+            f'`connect: {{{port.name}: "{name.lower()}:tcp -h HOST -p PORT"}}`',
+        )
+        self.diagnostics.append(told.as_severity(WARNING) if _may_be_absent(port) else told)
+
+
+def is_proxy(text: str) -> bool:
+    """Whether `connect:` names something outside, by its proxy."""
+    return any(char in text for char in ":@ ")
+
+
+def _may_be_absent(port: Port | None) -> bool:
+    return port is not None and port.use.absent == IGNORE
+
+
+def _required(port: Port | None) -> list[Related]:
+    return [] if port is None else [Related(f"{port.name} is required here", port.use.span)]
+
+
+def _is_only(offer: Offer) -> bool:
+    return sum(other.interface == offer.interface for other in offer.owner.offers) == 1
+
+
+def _reaches(draft: Draft, offer: Offer) -> bool:
+    """Whether every closed group around the offer that the draft is outside of exposes it."""
+    source, target = draft.instance, offer.owner.instance
+    return all(
+        any(served.instance is target and served.adapter == offer.adapter for served in group.serves)
+        for group in target.groups
+        if group.is_closed and not group.broken and group not in source.groups
+    )
+
+
+def _nearness(draft: Draft, offer: Offer) -> int:
+    """How many includes and closed groups hold both."""
+    return len(_around(draft.instance) & _around(offer.owner.instance))
+
+
+def _around(instance: LinkedInstance) -> set[str]:
+    steps = instance.scope.split(".")[:-1]
+    return {".".join(steps[:n]) for n in range(1, len(steps) + 1)} | _closed(instance.groups)
+
+
+def _closed(groups: Iterable[LinkedGroup]) -> set[str]:
+    return {f"group {group.name}" for group in groups if group.is_closed}

@@ -1,0 +1,77 @@
+"""From a linked deployment to its network: ports, connections, topics, configurations and order, in this order."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import replace
+
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
+from robocomp_yaml.network import ports, processes
+from robocomp_yaml.network.base import Base, Read, base_of, from_disk
+from robocomp_yaml.network.configuration import Configuration
+from robocomp_yaml.network.connections import Connections
+from robocomp_yaml.network.contents import Contents
+from robocomp_yaml.network.draft import Draft
+from robocomp_yaml.network.drafts import Drafts, drafts_of
+from robocomp_yaml.network.endpoints import endpoint_faults
+from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.order import AFTER, Need, ordered
+from robocomp_yaml.network.rules import rule_faults
+from robocomp_yaml.network.topics import Topics
+
+FOLDER = ".rcyaml/deployments"
+
+
+def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, list[Diagnostic]]:
+    """The network of a deployment, as far as it can be told, and all that is wrong with it. `read` gives the bytes of
+    a flat configuration file, None where there is none."""
+    deployment = linked.deployment
+    folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
+    drafts = drafts_of(linked)
+    network = Network(deployment.name, os.path.abspath(deployment.path), folder, drafts.hosts, extra=deployment.extra)
+    ports.assign(drafts)
+    bases: dict[Draft, Base] = {}
+
+    def base(draft: Draft) -> Base:
+        if draft not in bases:
+            bases[draft] = base_of(draft.instance, read)
+        return bases[draft]
+
+    contents = Contents()
+    connections, topics = Connections(drafts, contents), Topics(drafts, contents, base)
+    connections.resolve()
+    topics.resolve()
+    network.connections = [*connections.found, *topics.found]
+    diagnostics = [*endpoint_faults(drafts), *rule_faults(linked), *connections.diagnostics, *topics.diagnostics]
+    for storm in drafts.storms.values():
+        network.processes[storm.name] = processes.of_storm(storm, folder)
+    known: dict[str, tuple[str, ...]] = {}
+    for draft in drafts.drafts.values():
+        configuration = Configuration(draft, base(draft))
+        configuration.make()
+        diagnostics += configuration.diagnostics
+        network.processes[draft.name] = processes.of_draft(draft, configuration.text, known)
+    diagnostics += _put_in_order(network, [*_said(drafts), *connections.needs, *topics.needs])
+    return network, diagnostics
+
+
+def _said(drafts: Drafts) -> Iterable[Need]:
+    """What the document says by `after:`."""
+    for draft in drafts.drafts.values():
+        texts = draft.instance.entry.after
+        for target in draft.instance.after:
+            name = target.name if isinstance(target, LinkedStorm) else (target.process or target).name
+            span = next((text.span for text in texts if text.text == target.name), draft.span)
+            if name != draft.name:
+                yield Need(draft.name, name, "", AFTER, span)
+
+
+def _put_in_order(network: Network, needs: Iterable[Need]) -> list[Diagnostic]:
+    waves, after, diagnostics = ordered((process.name for process in network.enabled()), needs)
+    network.order = waves
+    for name, targets in after.items():
+        if targets:
+            network.processes[name] = replace(network.processes[name], after=targets)
+    return diagnostics

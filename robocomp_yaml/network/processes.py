@@ -1,0 +1,149 @@
+"""A draft as the process that it comes to: command, folder, environment, readiness, restarts."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model import deployment as model
+from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
+from robocomp_yaml.network.network import (
+    COMPONENT,
+    CONFIG,
+    ICESTORM,
+    PROGRAM,
+    ConfigFile,
+    Process,
+    Readiness,
+    Restart,
+    Variable,
+)
+from robocomp_yaml.source.properties import entry_line
+
+_CODE = ("src", "generated")
+_DEFAULTS = Restart()
+
+
+def of_draft(draft: Draft, text: str | None, known: dict[str, tuple[str, ...]]) -> Process:
+    """`text` is its configuration; `known` remembers the code of each component's folder."""
+    instance, entry = draft.instance, draft.instance.entry
+    component = instance.component
+    program = program_of(draft)
+    folder = os.path.abspath(instance.folder or ".")
+    if component is not None and entry.cwd is not None:
+        folder = os.path.abspath(os.path.join(os.path.dirname(instance.document.path), entry.cwd.text))
+    command = tuple(_command(draft, program))
+    is_told = any(CONFIG in part for part in command)
+    return Process(
+        draft.name, draft.host.name, command, folder, PROGRAM if component is None else COMPONENT,
+        env=tuple(Variable(one.name, one.value, one.source) for one in entry.env),
+        config=ConfigFile(f"config/{draft.name}", text) if text is not None and is_told else None,
+        endpoints=tuple(offer.resolved() for offer in draft.offers),
+        ready=_ready(draft),
+        restart=_restart(entry.restart),
+        watched=(program, *_code(instance.folder, component, known)) if os.path.isabs(program) else (),
+        aliases=tuple(alias.name for alias in draft.aliases),
+        groups=tuple(group.name for group in instance.groups),
+        enabled=entry.enabled,
+        is_ice=component is not None or bool(draft.offers or entry.config_as or entry.connect),
+        component=component.component.name if component is not None else "",
+        extra=(*entry.extra, *_of_aliases(draft)),
+        span=entry.span,
+    )
+
+
+def _of_aliases(draft: Draft) -> Iterator[tuple[str, object]]:
+    given = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
+    if given:
+        yield "aliases", given
+
+
+def program_of(draft: Draft) -> str:
+    """The absolute path of what is started; a bare name is found by PATH."""
+    instance, entry = draft.instance, draft.instance.entry
+    component = instance.component
+    if component is None:
+        text = entry.target.text
+        return os.path.abspath(os.path.join(instance.folder, text)) if "/" in text else text
+    path = entry.executable.text if entry.executable else f"bin/{component.component.name}"
+    return os.path.abspath(os.path.join(instance.folder, path))
+
+
+def _command(draft: Draft, program: str) -> Iterator[str]:
+    """A component takes its configuration as its first argument; a program as `config-as:` says."""
+    entry = draft.instance.entry
+    how = entry.config_as.text if entry.config_as else model.ARGUMENT if draft.instance.component else ""
+    yield program
+    if how == model.ARGUMENT:
+        yield CONFIG
+    yield from (argument.text for argument in entry.args)
+    if how.startswith("-"):
+        yield f"{how}={CONFIG}"
+
+
+def _extra(draft: Draft) -> tuple[tuple[str, object], ...]:
+    """Its own `x-rcmanager`, and those of its other names."""
+    others = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
+    return (*draft.instance.entry.extra, ("aliases", others)) if others else draft.instance.entry.extra
+
+
+def _ready(draft: Draft) -> Readiness:
+    """What it serves answers a ping; of a program, of which nobody knows whether it does, the port is open."""
+    given = draft.instance.entry.ready
+    within = given.within if given and given.within is not None else Readiness().within
+    if given and (given.port is not None or given.command or given.log):
+        return Readiness(within, (), given.port, given.command, given.log)
+    if draft.instance.component is not None:
+        return Readiness(within, tuple(offer.proxy for offer in draft.offers if offer.endpoint))
+    ports = [offer.endpoint.port for offer in draft.offers if offer.endpoint and offer.endpoint.protocol != "udp"]
+    return Readiness(within, port=ports[0] if ports else None)
+
+
+def _restart(given: model.Restart | None) -> Restart:
+    if given is None:
+        return _DEFAULTS
+    delay = _DEFAULTS.delay if given.delay is None else given.delay
+    return Restart(
+        given.policy, delay, max(delay, _DEFAULTS.longest),
+        _DEFAULTS.tries if given.tries is None else given.tries,
+        _DEFAULTS.window if given.within is None else given.within,
+    )
+
+
+def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
+    """The files that a component in Python is made of."""
+    if component is None or component.component.language.name != "python":
+        return ()
+    if folder not in known:
+        known[folder] = tuple(sorted(
+            os.path.abspath(os.path.join(where, name))
+            for below in _CODE
+            for where, _, names in os.walk(os.path.join(folder, below))
+            for name in names if name.endswith(".py")
+        ))
+    return known[folder]
+
+
+def of_storm(storm: StormDraft, folder: str) -> Process:
+    """IceStorm in icebox, with its database in the deployment's own folder."""
+    database = f"{folder}/state/{storm.name}"
+    manager, publish = storm.endpoints()
+    settings = {
+        f"IceBox.Service.{STORM_INSTANCE}": "IceStormService,37:createIceStorm",
+        "IceBox.InheritProperties": "1",
+        f"{STORM_INSTANCE}.InstanceName": STORM_INSTANCE,
+        f"{STORM_INSTANCE}.{MANAGER}.Endpoints": manager.text,
+        f"{STORM_INSTANCE}.{PUBLISH}.Endpoints": publish.text,
+        f"{STORM_INSTANCE}.LMDB.Path": database,
+        f"{STORM_INSTANCE}.LMDB.MapSize": "10",
+    }
+    text = "".join(f"{entry_line(key, value)}\n" for key, value in settings.items())
+    return Process(
+        storm.name, storm.host.name, ("icebox", f"--Ice.Config={CONFIG}"), folder, ICESTORM,
+        config=ConfigFile(f"config/{storm.name}", text),
+        endpoints=(manager, publish),
+        ready=Readiness(pings=(storm.proxy,)),
+        folders=(database,),
+        span=storm.span,
+    )

@@ -1,0 +1,129 @@
+"""Topics: their names after renames and prefixes, the IceStorm that carries each, and who is at the other end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from robocomp_yaml.diag.codes import networks as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.program import Port
+from robocomp_yaml.network.base import Base
+from robocomp_yaml.network.contents import Contents
+from robocomp_yaml.network.draft import Draft, Given, StormDraft
+from robocomp_yaml.network.drafts import Drafts
+from robocomp_yaml.network.network import TOPIC, Connection
+from robocomp_yaml.network.order import Need
+
+
+@dataclass(frozen=True, slots=True)
+class _End:
+    """A port at one end of a topic."""
+
+    draft: Draft
+    port: Port
+    is_out: bool
+    span: Span
+
+
+@dataclass(slots=True)
+class Topics:
+    """As `Connections`: `found` are the lines of the graph, `needs` says who waits for whom."""
+
+    drafts: Drafts
+    contents: Contents
+    base_of: Callable[[Draft], Base]
+    found: list[Connection] = field(default_factory=list)
+    needs: list[Need] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    _ends: dict[tuple[str, str], list[_End]] = field(default_factory=dict)
+
+    def resolve(self) -> None:
+        for draft in self.drafts.drafts.values():
+            component = draft.instance.component
+            if component is None or not (component.publishes or component.subscribes):
+                continue
+            storm, manager = self._storm(draft)
+            if storm is not None:
+                draft.manager = Given(storm.proxy, draft.span)
+                self.needs.append(Need(draft.name, storm.name, "", "TopicManager", draft.span))
+            elif not manager:
+                continue
+            for port in component.publishes:
+                self._end(draft, port, storm, manager, is_out=True)
+            for port in component.subscribes:
+                self._end(draft, port, storm, manager, is_out=False)
+        for (_, topic), ends in self._ends.items():
+            self._compare(topic, ends)
+
+    def _storm(self, draft: Draft) -> tuple[StormDraft | None, str]:
+        """The IceStorm of the deployment, else the proxy of one outside that the configuration names."""
+        near = self.drafts.linked.storms_for(draft.instance)
+        nearest = [storm for storm in near if storm.scope == near[0].scope]
+        here = [storm for storm in nearest if self.drafts.storms[storm].host is draft.host]
+        chosen = nearest if len(nearest) == 1 else here
+        if len(chosen) == 1:
+            return self.drafts.storms[chosen[0]], ""
+        manager = self.base_of(draft).manager
+        if nearest:
+            self.diagnostics.append(codes.TWO_STORMS.at(
+                draft.span, source=draft.name, storms=", ".join(storm.name for storm in nearest),
+                hint="leave one of them: it serves all hosts",
+                related=[Related(f"'{storm.name}'", storm.storm.span) for storm in nearest],
+            ))
+        elif not manager and not self.drafts.linked.is_included and self.drafts.complete:
+            component = draft.instance.component
+            assert component is not None
+            port = (*component.publishes, *component.subscribes)[0]
+            self.diagnostics.append(codes.NO_STORM.at(
+                draft.span, source=draft.name, does="publishes" if port in component.publishes else "subscribes to",
+                topic=port.name, hint="add an IceStorm: `services: {storm: {icestorm: {}}}`",
+                related=[Related(f"{port.name} stands here", port.use.span)],
+            ))
+        return None, manager
+
+    def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> None:
+        rename = next((pair for pair in draft.instance.entry.topics if pair.name == port.name), None)
+        if rename is not None:
+            draft.topics[port.name] = Given(rename.text, rename.span)
+            topic, span = rename.text, rename.span
+        else:
+            topic, span = self.base_of(draft).topic(port.name, port.interface.name, is_out=is_out), draft.span
+        self.found.append(Connection(
+            draft.name, port.name, port.interface.name, storm.name if storm else "", TOPIC, topic, is_out,
+            storm.proxy if storm else manager, span,
+        ))
+        carrier = storm.name if storm else f":{manager}"
+        self._ends.setdefault((carrier, topic), []).append(_End(draft, port, is_out, span))
+
+    def _compare(self, topic: str, ends: list[_End]) -> None:
+        """Every end of a topic must mean the same interface; what is subscribed should be published."""
+        first = next((end for end in ends if end.is_out), ends[0])
+        for end in ends:
+            found = self.contents.difference(first.port, end.port)
+            if found is not None:
+                self.diagnostics.append(codes.TOPIC_MISMATCH.at(
+                    end.span, topic=topic, source=end.draft.name, target=first.draft.name, difference=found.message,
+                    hint="let both import the same document, or rename one topic",
+                    related=[Related(f"as '{first.draft.name}' knows it", found.first),
+                             Related(f"as '{end.draft.name}' knows it", found.second)],
+                ))
+        is_closed = self.drafts.complete and not self.drafts.linked.is_included
+        if first.is_out or not is_closed or not all(c.target for c in self.found if c.topic == topic):
+            return
+        for end in ends:
+            self.diagnostics.append(codes.NOBODY_PUBLISHES.at(
+                end.span, source=end.draft.name, topic=topic, hint=self._other_names(end),
+                related=[Related(f"{end.port.name} is subscribed to here", end.port.use.span)],
+            ))
+
+    def _other_names(self, end: _End) -> str:
+        """The names under which the same interface is published."""
+        published = sorted({
+            topic for (_, topic), ends in self._ends.items() for other in ends
+            if other.is_out and other.port.interface.name == end.port.interface.name
+        })
+        if not published:
+            return "add the component that publishes it"
+        return f"it is published as {', '.join(published)}: `topics: {{{end.port.name}: {published[0]}}}`"
