@@ -59,6 +59,17 @@ def take(parameters: Parameters, data: Any) -> tuple[Any, list[str]]:
     return (None if problems else composite.data(kind, values)), problems
 
 
+def read(parameters: Parameters, properties: dict[str, str]) -> tuple[Any, list[str]]:
+    """The values that properties give, as data; and what is wrong."""
+    python(parameters)
+    from generated.runtime.problems import ParameterError  # type: ignore[import-not-found]
+
+    try:
+        return read_back(parameters, properties), []
+    except ParameterError as error:
+        return None, [problem.message for problem in error.problems]
+
+
 def read_back(parameters: Parameters, properties: dict[str, str]) -> Any:
     """The values that a component has which was started with these properties, as data."""
     started = store(parameters, properties)

@@ -67,7 +67,7 @@ class _Reader:
             spelling = self.parameters.spelling(name) if top else None
             value = self.value(member.type, stem) if spelling is None else self.spelled(spelling, member.type)
             if value is None and _reads_as_empty(member):
-                value = self.empty(member.type, stem)
+                value = _empty(member.type)
             if value is not None:
                 found[member.name] = value
         return found
@@ -88,36 +88,26 @@ class _Reader:
                 return self.record(type_, key, "", top=False) if key in self.stems else None
 
     def list(self, type_: ListType, key: str) -> Any:
-        size = self.properties.get(f"{key}.size", "")
-        if size.isascii() and size.isdigit():
-            count = min(int(size), len(self.properties) + 1_000_000)
-        elif size:
+        size = self.properties.get(f"{key}.size")
+        count = self.count(size) if size else 0
+        if count is None:
             return size  # no list: refused
-        else:
-            count = 0
+        if not size:
             while f"{key}.{count}" in self.stems or f"{key}.{count}" in self.properties:
                 count += 1
             if not count:
                 return None
         return [self.entry(type_.element, f"{key}.{index}") for index in range(count)]
 
+    def count(self, text: str) -> int | None:
+        """How many entries a count asks for; None where it is no count, or more than there could be."""
+        count = int(text) if _is_digits(text) and len(text) < 10 else None
+        return None if count is None or count > len(self.properties) + 1_000_000 else count
+
     def entry(self, type_: Type, key: str) -> Any:
         """An entry of a list or map is there, whether or not it has a property."""
         value = self.value(type_, key)
-        return self.empty(type_, key) if value is None else value
-
-    def empty(self, type_: Type, key: str) -> Any:
-        match type_:
-            case BasicType(name="string"):
-                return ""
-            case ListType():
-                return []
-            case MapType():
-                return {}
-            case RecordType():
-                return self.record(type_, key, "", top=False)
-            case _:
-                return None
+        return _empty(type_) if value is None else value
 
     def scalar(self, type_: ScalarType, key: str) -> Any:
         text = self.properties.get(key)
@@ -162,16 +152,17 @@ class _Reader:
 
     def numbered(self, spelling: Spelling, type_: ListType) -> Any:
         """Rows by their numbers: as many as the count says, else until one is missing."""
-        counted = self.properties.get(spelling.count, "") if spelling.count else ""
-        if counted and not (counted.isascii() and counted.isdigit()):
+        counted = self.properties.get(spelling.count) if spelling.count else None
+        count = self.count(counted) if counted else None
+        if counted and count is None:
             return counted  # no list: refused
         found: list[Any] = []
-        while not counted or len(found) < min(int(counted), len(self.properties) + 1_000_000):
+        while count is None or len(found) < count:
             row = self.numbered_row(spelling, type_, str(spelling.first + len(found)))
-            if row is None and not counted:
+            if row is None and count is None:
                 break
-            found.append(self.empty(type_.element, "") if row is None else row)
-        return found if found or counted else None
+            found.append(_empty(type_.element) if row is None else row)
+        return None if count is None and not found else found
 
     def numbered_row(self, spelling: Spelling, type_: ListType, number: str) -> Any:
         element = type_.element
@@ -183,11 +174,7 @@ class _Reader:
                 member = element.member(name)
                 if text is not None and member is not None:
                     row[name] = self.texts(member.type, text)
-            if row:
-                for member in element.members:
-                    if member.name not in row and _reads_as_empty(member):
-                        row[member.name] = self.empty(member.type, "")
-            return row or None
+            return {**_emptiness(element), **row} if row else None
         text = self.properties.get(Template(spelling.key).fill({"i": number}))
         if text is None:
             return None
@@ -207,8 +194,37 @@ class _Reader:
         return [row for _, row in sorted(found, key=lambda pair: pair[0])] if found else None
 
 
+def _is_digits(text: str) -> bool:
+    return text.isascii() and text.isdigit()
+
+
 def _by_number(text: str) -> tuple[bool, int, str]:
-    return (False, int(text), "") if text.isascii() and text.isdigit() else (True, 0, text)
+    """Numbers first, in their order, however long they are; then words."""
+    if not _is_digits(text):
+        return True, 0, text
+    digits = text.lstrip("0")
+    return False, len(digits), digits
+
+
+def _empty(type_: Type) -> Any:
+    """What is there, and has no property."""
+    match type_:
+        case BasicType(name="string"):
+            return ""
+        case ListType():
+            return []
+        case MapType():
+            return {}
+        case RecordType():
+            return _emptiness(type_)
+        case _:
+            return None
+
+
+def _emptiness(record: RecordType) -> dict[str, Any]:
+    """The members of a record that read as empty where they have no property."""
+    found = {member.name: _empty(member.type) for member in record.members if _reads_as_empty(member)}
+    return {name: value for name, value in found.items() if value is not None}
 
 
 def _reads_as_empty(member: Member) -> bool:

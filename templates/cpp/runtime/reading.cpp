@@ -2,6 +2,7 @@
 #include "reading.h"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 namespace runtime
@@ -10,22 +11,25 @@ namespace runtime
 namespace
 {
 
-constexpr std::size_t mostEntries = 1'000'000;
-
 bool beginsWith(const std::string& text, const std::string& beginning)
 {
     return text.compare(0, beginning.size(), beginning) == 0;
 }
 
-bool isCount(const std::string& text)
+bool isDigits(const std::string& text)
 {
     return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// How many entries a count asks for; more than there could be is cut off.
-std::size_t countOf(const std::string& text, std::size_t most)
+/// How many entries a count asks for; nothing where it is no count, or more than there could be.
+std::optional<std::size_t> countOf(const std::string& text, std::size_t known)
 {
-    return text.size() > 9 ? most : std::min<std::size_t>(std::stoul(text), most);
+    constexpr std::size_t most = 1'000'000;
+    if (!isDigits(text) || text.size() > 9 || std::stoul(text) > known + most)
+    {
+        return {};
+    }
+    return std::stoul(text);
 }
 
 /// Whether a key is one of those whose files quote their texts.
@@ -86,7 +90,7 @@ struct Holes
         for (auto end = at + 1; end <= key.size(); ++end)
         {
             const auto word = key.substr(at, end - at);
-            if (names[hole] == "i" && !isCount(word))
+            if (names[hole] == "i" && !isDigits(word))
             {
                 return false;
             }
@@ -104,10 +108,51 @@ struct Holes
     std::vector<std::string> names;
 };
 
+void fillEmpty(const Kind& kind, Value::Map& row);
+
+/// What is there, and has no property.
+Value empty(const Kind& kind)
+{
+    switch (kind.form)
+    {
+    case Kind::Form::text:
+        return "";
+    case Kind::Form::list:
+        return Value::List{};
+    case Kind::Form::map:
+        return Value::Map{};
+    case Kind::Form::record:
+    case Kind::Form::group:
+    {
+        Value::Map row;
+        fillEmpty(kind, row);
+        return row;
+    }
+    default:
+        return {};
+    }
+}
+
+/// The members of a record that read as empty where they have no property.
+void fillEmpty(const Kind& kind, Value::Map& row)
+{
+    for (const auto& member : kind.members)
+    {
+        if (row.count(member.key) == 0 && member.readsAsEmpty())
+        {
+            auto nothing = empty(member.kind);
+            if (!nothing.isNothing())
+            {
+                row[member.key] = std::move(nothing);
+            }
+        }
+    }
+}
+
 /// Numbers first, in their order, then words.
 std::tuple<bool, std::size_t, std::string> byNumber(const std::string& word)
 {
-    if (!isCount(word))
+    if (!isDigits(word))
     {
         return {true, 0, word};
     }
@@ -165,7 +210,7 @@ Value Reader::readRecord(const Kind& kind, const std::string& key, bool isTop)
                                                   : readSpelled(spelling->second, member.kind);
         if (value.isNothing() && member.readsAsEmpty())
         {
-            value = empty(member.kind, stem);
+            value = empty(member.kind);
         }
         if (!value.isNothing())
         {
@@ -207,29 +252,29 @@ Value Reader::readValue(const Kind& kind, const std::string& key)
 Value Reader::readList(const Kind& kind, const std::string& key)
 {
     const auto* size = get(key + ".size");
-    if (size != nullptr && !size->empty() && !isCount(*size))
+    const bool isSized = size != nullptr && !size->empty();
+    auto count = isSized ? countOf(*size, properties_.size()) : std::optional<std::size_t>(0);
+    if (!count)
     {
         return *size; // no list: refused
     }
-    const bool isSized = size != nullptr && !size->empty();
-    std::size_t count = isSized ? countOf(*size, properties_.size() + mostEntries) : 0;
     if (!isSized)
     {
-        for (;; ++count)
+        for (;; ++*count)
         {
-            const auto entry = key + "." + std::to_string(count);
+            const auto entry = key + "." + std::to_string(*count);
             if (properties_.count(entry) == 0 && !isStem(entry))
             {
                 break;
             }
         }
-        if (count == 0)
+        if (*count == 0)
         {
             return {};
         }
     }
     Value::List found;
-    for (std::size_t index = 0; index < count; ++index)
+    for (std::size_t index = 0; index < *count; ++index)
     {
         found.push_back(readEntry(*kind.element, key + "." + std::to_string(index)));
     }
@@ -240,25 +285,7 @@ Value Reader::readList(const Kind& kind, const std::string& key)
 Value Reader::readEntry(const Kind& kind, const std::string& key)
 {
     auto value = readValue(kind, key);
-    return value.isNothing() ? empty(kind, key) : value;
-}
-
-Value Reader::empty(const Kind& kind, const std::string& key)
-{
-    switch (kind.form)
-    {
-    case Kind::Form::text:
-        return "";
-    case Kind::Form::list:
-        return Value::List{};
-    case Kind::Form::map:
-        return Value::Map{};
-    case Kind::Form::record:
-    case Kind::Form::group:
-        return readRecord(kind, key, false);
-    default:
-        return {};
-    }
+    return value.isNothing() ? empty(kind) : value;
 }
 
 Value Reader::readText(const Kind& kind, const std::string& text) const
@@ -308,7 +335,8 @@ Value Reader::readParts(
     return found;
 }
 
-/// A record's columns, or one plain value; a text that is no row is refused later.
+/// A record's columns, the optional ones at the end if they are there; or one plain value. A text that is no row is
+/// refused later.
 Value Reader::readRow(
     const Spelling& spelling, const Kind& kind, const std::string& text, const std::string& separator)
 {
@@ -317,14 +345,22 @@ Value Reader::readRow(
         return readText(kind, text);
     }
     const auto parts = split(text, separator);
-    if (parts.size() != spelling.columns.size())
+    if (parts.size() > spelling.columns.size())
     {
         return text;
     }
     Value::Map row;
-    for (std::size_t column = 0; column < parts.size(); ++column)
+    for (std::size_t column = 0; column < spelling.columns.size(); ++column)
     {
         const auto* member = kind.member(spelling.columns[column]);
+        if (column >= parts.size())
+        {
+            if (!member->isOptional)
+            {
+                return text;
+            }
+            continue;
+        }
         const bool mayBeEmpty = member->kind.form == Kind::Form::text && !member->isOptional;
         if (!parts[column].empty() || mayBeEmpty)
         {
@@ -339,20 +375,20 @@ Value Reader::readNumbered(const Spelling& spelling, const Kind& kind)
 {
     const auto* counted = spelling.count.empty() ? nullptr : get(spelling.count);
     const bool isCounted = counted != nullptr && !counted->empty();
-    if (isCounted && !isCount(*counted))
+    const auto count = isCounted ? countOf(*counted, properties_.size()) : std::nullopt;
+    if (isCounted && !count)
     {
         return *counted; // no list: refused
     }
-    const auto most = isCounted ? countOf(*counted, properties_.size() + mostEntries) : std::size_t(-1);
     Value::List found;
-    while (found.size() < most)
+    while (!count || found.size() < *count)
     {
         auto row = readNumberedRow(spelling, *kind.element, std::to_string(spelling.first + long(found.size())));
         if (row.isNothing() && !isCounted)
         {
             break;
         }
-        found.push_back(row.isNothing() ? empty(*kind.element, spelling.key) : std::move(row));
+        found.push_back(row.isNothing() ? empty(*kind.element) : std::move(row));
     }
     return found.empty() && !isCounted ? Value() : Value(found);
 }
@@ -376,17 +412,7 @@ Value Reader::readNumberedRow(const Spelling& spelling, const Kind& kind, const 
     {
         return {};
     }
-    for (const auto& member : kind.members)
-    {
-        if (row.count(member.key) == 0 && member.readsAsEmpty())
-        {
-            auto nothing = empty(member.kind, spelling.key);
-            if (!nothing.isNothing())
-            {
-                row[member.key] = std::move(nothing);
-            }
-        }
-    }
+    fillEmpty(kind, row);
     return row;
 }
 

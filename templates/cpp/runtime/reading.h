@@ -48,7 +48,6 @@ private:
     Value readValue(const Kind& kind, const std::string& key);
     Value readList(const Kind& kind, const std::string& key);
     Value readEntry(const Kind& kind, const std::string& key);
-    Value empty(const Kind& kind, const std::string& key);
     Value readText(const Kind& kind, const std::string& text) const;
     Value readSpelled(const Spelling& spelling, const Kind& kind);
     Value readParts(const Spelling& spelling, const Kind& kind, const Value& parts, const std::string& separator);

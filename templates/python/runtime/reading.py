@@ -70,7 +70,7 @@ class Reader:
             spelling = self._spellings.get(stem) if is_top else None
             value = self._value(member.kind, stem) if spelling is None else self._spelled(spelling, member.kind)
             if value is None and member.reads_as_empty:
-                value = self._empty(member.kind, stem)
+                value = _empty(member.kind)
             if value is not None:
                 found[member.key] = value
         return found
@@ -90,10 +90,10 @@ class Reader:
         return self._record(kind, key) if key in self._stems else None
 
     def _list(self, kind: Listing, key: str) -> Any:
-        size = self._get(f"{key}.size") or ""
-        if size and not (size.isascii() and size.isdigit()):
+        size = self._get(f"{key}.size")
+        count = self._count(size) if size else 0
+        if count is None:
             return size  # no list: refused
-        count = min(int(size or "0"), len(self._properties) + 1_000_000)
         if not size:
             while f"{key}.{count}" in self._stems or f"{key}.{count}" in self._properties:
                 count += 1
@@ -101,19 +101,15 @@ class Reader:
                 return None
         return [self._entry(kind.element, f"{key}.{index}") for index in range(count)]
 
+    def _count(self, text: str) -> Optional[int]:
+        """How many entries a count asks for; None where it is no count, or more than there could be."""
+        count = int(text) if text.isascii() and text.isdigit() and len(text) < 10 else None
+        return None if count is None or count > len(self._properties) + 1_000_000 else count
+
     def _entry(self, kind: Kind, key: str) -> Any:
         """An entry of a list or map is there, whether or not it has a property."""
         value = self._value(kind, key)
-        return self._empty(kind, key) if value is None else value
-
-    def _empty(self, kind: Kind, key: str) -> Any:
-        if isinstance(kind, Text):
-            return ""
-        if isinstance(kind, Listing):
-            return []
-        if isinstance(kind, Naming):
-            return {}
-        return self._record(kind, key) if isinstance(kind, Recording) else None
+        return _empty(kind) if value is None else value
 
     def _text(self, kind: Plain, text: str) -> Any:
         quoted = self._quoted and kind.takes_any_text
@@ -155,16 +151,17 @@ class Reader:
 
     def _numbered(self, spelling: Spelling, kind: Listing) -> Any:
         """Rows by their numbers: as many as the count says, else until one is missing."""
-        counted = (self._get(spelling.count) or "") if spelling.count else ""
-        if counted and not (counted.isascii() and counted.isdigit()):
+        counted = self._get(spelling.count) if spelling.count else None
+        count = self._count(counted) if counted else None
+        if counted and count is None:
             return counted  # no list: refused
         found: list[Any] = []
-        while not counted or len(found) < min(int(counted), len(self._properties) + 1_000_000):
+        while count is None or len(found) < count:
             row = self._numbered_row(spelling, kind.element, str(spelling.first + len(found)))
-            if row is None and not counted:
+            if row is None and count is None:
                 break
-            found.append(self._empty(kind.element, spelling.key) if row is None else row)
-        return found if found or counted else None
+            found.append(_empty(kind.element) if row is None else row)
+        return None if count is None and not found else found
 
     def _numbered_row(self, spelling: Spelling, kind: Kind, number: str) -> Any:
         if spelling.fields and isinstance(kind, Recording):
@@ -173,11 +170,7 @@ class Reader:
                 text = self._get(_filled(key, number))
                 if text is not None:
                     row[name] = self._text(kind.members[name].kind, text)
-            if row:
-                for member in kind.members.values():
-                    if member.key not in row and member.reads_as_empty:
-                        row[member.key] = self._empty(member.kind, spelling.key)
-            return row or None
+            return {**_emptiness(kind), **row} if row else None
         text = self._get(_filled(spelling.key, number))
         return None if text is None else self._row(spelling, kind, text, spelling.separator)
 
@@ -193,6 +186,23 @@ class Reader:
                     row.update(zip(names, in_key.groups()))
                 found.append((tuple(map(_by_number, in_key.groups())), row))
         return [row for _, row in sorted(found, key=lambda pair: pair[0])] if found else None
+
+
+def _empty(kind: Kind) -> Any:
+    """What is there, and has no property."""
+    if isinstance(kind, Text):
+        return ""
+    if isinstance(kind, Listing):
+        return []
+    if isinstance(kind, Naming):
+        return {}
+    return _emptiness(kind) if isinstance(kind, Recording) else None
+
+
+def _emptiness(kind: Recording) -> dict[str, Any]:
+    """The members of a record that read as empty where they have no property."""
+    found = {member.key: _empty(member.kind) for member in kind.members.values() if member.reads_as_empty}
+    return {key: value for key, value in found.items() if value is not None}
 
 
 def _levels(kind: Kind) -> tuple[int, Kind]:
@@ -216,4 +226,8 @@ def _pattern(key: str) -> re.Pattern[str]:
 
 
 def _by_number(text: str) -> tuple[bool, int, str]:
-    return (False, int(text), "") if text.isascii() and text.isdigit() else (True, 0, text)
+    """Numbers first, in their order, however long they are; then words."""
+    if not (text.isascii() and text.isdigit()):
+        return True, 0, text
+    digits = text.lstrip("0")
+    return False, len(digits), digits
