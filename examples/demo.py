@@ -1,10 +1,11 @@
-"""The main job on the example, as a user would do it: migrate, check, compile, run.
+"""The main job on the examples, as a user would do it: migrate, check, compile, deploy.
 
-Works on a copy of `examples/talkinghead` in `.demo/`. Run it with `make demo`.
+Works on copies of `examples/talkinghead` and `examples/jointmotor` in `.demo/`. Run it with `make demo`.
 """
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,9 @@ import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-DEMO = HERE.parent / ".demo"
+DEMO = HERE.parent / ".demo" / "talkinghead"
+NETWORK = "head.ddsl.yaml"
+SECONDS = 2.5  # for the head to say what it has to say
 BOLD, DIM, PLAIN = ("\x1b[1m", "\x1b[2m", "\x1b[0m") if sys.stdout.isatty() else ("", "", "")
 
 
@@ -21,10 +24,12 @@ def show(text: str) -> None:
 
 
 def rcyaml(*args: str) -> None:
-    """Runs rcyaml in the copy, showing the command and what it prints."""
+    """Runs rcyaml in the copy, showing the command and what it prints. As where a virtual environment is active,
+    this Python comes first: components start with it."""
     show(f"\n{BOLD}$ rcyaml {' '.join(args)}{PLAIN}")
     program = [sys.executable, "-m", "robocomp_yaml", "--color", "always" if sys.stdout.isatty() else "never"]
-    subprocess.run([*program, *args], cwd=DEMO, check=True)
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)])
+    subprocess.run([*program, *args], cwd=DEMO, check=True, env={**os.environ, "PATH": path})
 
 
 def has_ice() -> bool:
@@ -32,40 +37,30 @@ def has_ice() -> bool:
     return found.returncode == 0
 
 
-def run(*components: tuple[str, str], seconds: float) -> None:
-    """Starts components, each in a process of its own, lets them talk, and stops them in order."""
-    processes = []
-    for folder, name in components:
-        show(f"\n{BOLD}$ components/{folder}/bin/{name} &{PLAIN}")
-        command = [sys.executable, f"components/{folder}/bin/{name}"]
-        processes.append(subprocess.Popen(command, cwd=DEMO))
-        time.sleep(0.3)
-    time.sleep(seconds)
-    failed = [process.args for process in processes if process.poll() is not None]
-    for process in reversed(processes):
-        process.terminate()
-    codes = [process.wait(timeout=5) for process in processes]
-    if failed or any(codes):
-        sys.exit(f"the components did not run to the end: {failed or codes}")
-
-
 def main() -> None:
-    shutil.rmtree(DEMO, ignore_errors=True)
-    shutil.copytree(HERE / "talkinghead", DEMO)
-    show(f"A robot's head as legacy files, copied to {DEMO.name}/: two interfaces and two components.")
+    shutil.rmtree(DEMO.parent, ignore_errors=True)
+    for name in ("talkinghead", "jointmotor"):
+        shutil.copytree(HERE / name, DEMO.parent / name)
+    show(f"A robot's head as legacy files, copied to {DEMO.parent.name}/: two interfaces and two components.")
     rcyaml("migrate", ".")
     show(f"\n{BOLD}$ cat components/speech/speechcomp.cdsl.yaml{PLAIN}")
     show((DEMO / "components/speech/speechcomp.cdsl.yaml").read_text().rstrip())
+    rcyaml("compile", ".", "../jointmotor/python")
     rcyaml("check")
-    rcyaml("compile")
     if not has_ice():
         show(
             "\nTo run the components, Ice is missing: `apt install python3-zeroc-ice` (Debian 12), or "
             "`pip install zeroc-ice`; then `make demo` again."
         )
         return
-    run(("mouth", "MouthComp"), ("speech", "SpeechComp"), seconds=2.5)
-    show(f"\n{DIM}SpeechComp called MouthComp over Ice; both were stopped in order.{PLAIN}")
+    try:
+        rcyaml("deploy", "up", NETWORK)
+        time.sleep(SECONDS)
+        rcyaml("deploy", "status", NETWORK)
+        rcyaml("deploy", "logs", "-n", "8", NETWORK)
+    finally:
+        rcyaml("deploy", "down", NETWORK)
+    show(f"\n{DIM}SpeechComp called MouthComp over Ice, beside JointMotorComp; all were stopped in order.{PLAIN}")
 
 
 if __name__ == "__main__":
