@@ -68,7 +68,6 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
                 files = [file for file in plan.files if not file.path.startswith("etc/")]
                 plan = RootPlan(plan.root, plan.owner, files, partial=True)
             result.plans.append(plan)
-            result.diagnostics += _not_yet(component)
             result.compiled += 1
     return result
 
@@ -165,9 +164,3 @@ def _unresolved(document: Module | Component, cause: str, state: _State) -> Diag
     )
     # Where the cause is an error already, this only says what follows from it.
     return told if cause in state.lowered else told.as_severity(NOTE)
-
-
-def _not_yet(linked: LinkedComponent) -> Iterator[Diagnostic]:
-    component = linked.component
-    if component.compatibility and (linked.machine or component.statemachine):  # RoboComp's own had other names
-        yield cdsl.NOT_COMPILED_YET.at(component.span, key="statemachine")

@@ -15,6 +15,13 @@ STATE, GUARD, ACTION, EVENT = "the state", "the guard", "the action", "the event
 # Methods that every worker has and an action may call.
 CALLABLE = frozenset(["compute", "killYourSelf"])
 
+# What the worker of code for RoboComp's own tool has besides what every worker has, or calls of Qt.
+ROBOCOMPS = frozenset(
+    "Period close configLoader connect disconnect emergency event hibernation hibernationCheck hibernationChecker kill "
+    "parent restore setParams setupUi show startup_check states timer ui".split()
+)
+_DEFAULT_MACHINE = "defaultMachine"
+
 
 @dataclass(frozen=True, slots=True)
 class Named:
@@ -36,6 +43,18 @@ def left(state: str) -> str:
 
 def every_period(state: str) -> str:
     return f"sm_{state}_period"
+
+
+def robocomps_machine(machine: StateMachine) -> str:
+    """The member that RoboComp's code starts: it has the name that the machine has in its own file."""
+    taken = ROBOCOMPS | {"communicator", "events", "log", "mutex", "parameters", "statemachine"}
+    is_name = not machine.inline and re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", machine.name) and machine.name not in taken
+    return machine.name if is_name else _DEFAULT_MACHINE
+
+
+def robocomps_signals(machine: StateMachine) -> list[str]:
+    """The events that RoboComp's code emits as signals: each is named after where the machine goes."""
+    return [event.name for event in events(machine) if re.fullmatch(r"t_\w+_to_\w+", event.name)]
 
 
 def with_handler(machine: StateMachine) -> list[State]:

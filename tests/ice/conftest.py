@@ -5,6 +5,7 @@ Language-neutral: the tests of the Python and of the C++ target use the same fix
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -16,6 +17,7 @@ import pytest
 from components import Build, Built, build as build_components
 from cpp_programs import programs  # noqa: F401 (the fixture)
 from processes import Ports, Running, Start, Storm, answers, until
+from robocomp_workers import NO_QT
 from scenario import INTERFACES, cdsl
 
 
@@ -125,3 +127,15 @@ def behavior(ice: Any, slices: None) -> Callable[[int], Any]:
         return RoboCompCommonBehavior.CommonBehaviorPrx.uncheckedCast(found)
 
     return proxy
+
+
+@pytest.fixture(params=["pyside6", "no-qt"])
+def robocomps_qt(request: pytest.FixtureRequest, tmp_path: Path) -> Mapping[str, str]:
+    """The environment of a process: with PySide6, or with one that cannot be imported."""
+    if request.param == "pyside6":
+        if importlib.util.find_spec("PySide6") is None:
+            pytest.skip("PySide6 is not installed (PySide6-Essentials<6.11)")
+        return {"QT_QPA_PLATFORM": "offscreen"}
+    (tmp_path / "hidden" / "PySide6").mkdir(parents=True)
+    (tmp_path / "hidden" / "PySide6" / "__init__.py").write_text(NO_QT)
+    return {"PYTHONPATH": str(tmp_path / "hidden")}

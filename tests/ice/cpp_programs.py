@@ -20,6 +20,12 @@ needs_cpp = pytest.mark.skipif(
     reason="CMake, g++ or Ice for C++ is not installed (Debian: cmake g++ libzeroc-ice-dev zeroc-ice-compilers)",
 )
 
+# Qt is Debian's qt6-base-dev, and each such program is a build of half a minute and more.
+needs_qt = pytest.mark.skipif(
+    "RCYAML_ALL_BUILDS" not in os.environ or not any(Path("/usr/lib").glob("*/cmake/Qt[56]Widgets")),
+    reason="builds with Qt run where Qt is installed and RCYAML_ALL_BUILDS is set",
+)
+
 
 @dataclass(frozen=True)
 class Program:

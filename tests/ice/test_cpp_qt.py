@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import subprocess
 from pathlib import Path
@@ -10,16 +9,11 @@ from typing import Any
 
 import pytest
 from components import build
-from cpp_programs import Programs, needs_cpp, shared_programs
+from cpp_programs import Programs, needs_cpp, needs_qt, shared_programs
 from cpp_qt_sources import DOCUMENTS, SOURCES
 from processes import Ports, Start, Storm, until
 from scenario import INTERFACES, cdsl
 
-# Qt is Debian's qt6-base-dev, and each of the seven programs is a build of a minute.
-needs_qt = pytest.mark.skipif(
-    "RCYAML_ALL_BUILDS" not in os.environ or not any(Path("/usr/lib").glob("*/cmake/Qt[56]Widgets")),
-    reason="builds with Qt run where Qt is installed and RCYAML_ALL_BUILDS is set",
-)
 pytestmark = [needs_cpp]
 
 OFFSCREEN = {"QT_QPA_PLATFORM": "offscreen"}

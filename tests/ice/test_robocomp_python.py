@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,18 +11,6 @@ from components import Build, Built
 from processes import Ports, Start, Storm, until
 from robocomp_workers import CLIENT_2025, NO_QT, SERVER_2020, SERVER_2023
 from scenario import INTERFACES, cdsl
-
-
-@pytest.fixture(params=["pyside6", "no-qt"])
-def qt(request: pytest.FixtureRequest, tmp_path: Path) -> dict[str, str]:
-    """The environment of a process: with PySide6, or with one that cannot be imported."""
-    if request.param == "pyside6":
-        if importlib.util.find_spec("PySide6") is None:
-            pytest.skip("PySide6 is not installed (PySide6-Essentials<6.11)")
-        return {"QT_QPA_PLATFORM": "offscreen"}
-    (tmp_path / "hidden" / "PySide6").mkdir(parents=True)
-    (tmp_path / "hidden" / "PySide6" / "__init__.py").write_text(NO_QT)
-    return {"PYTHONPATH": str(tmp_path / "hidden")}
 
 
 @pytest.fixture
@@ -71,13 +58,13 @@ def pair(build: Build, free_port: Ports, icestorm: Storm) -> Callable[[str], tup
 def test_interfaces_topics_and_parameters(
     pair: Callable[[str], tuple[Built, Built, int]],
     code: str,
-    qt: dict[str, str],
+    robocomps_qt: Mapping[str, str],
     start: Start,
     behavior: Callable[[int], Any],
 ) -> None:
     server, client, port = pair(code)
-    calling = start(client.command, env=qt)
-    serving = start(server.command, env=qt, cwd=Path("/"))
+    calling = start(client.command, env=robocomps_qt)
+    serving = start(server.command, env=robocomps_qt, cwd=Path("/"))
     said = calling.wait_for("that is all").output
     assert "configured 20 10.5 Shelly True\n" in said
     assert "move 2 1\n" in said
@@ -95,11 +82,11 @@ def test_interfaces_topics_and_parameters(
 
 
 def test_compute_fails_and_goes_on(
-    pair: Callable[[str], tuple[Built, Built, int]], qt: dict[str, str], start: Start, behavior: Callable[[int], Any]
+    pair: Callable[[str], tuple[Built, Built, int]], robocomps_qt: Mapping[str, str], start: Start, behavior: Callable[[int], Any]
 ) -> None:
     """An exception in a slot is shown, and the next turn comes; CommonBehavior and the user's code agree on the period."""
     server, _, port = pair(SERVER_2023)
-    serving = start(server.command, env=qt)
+    serving = start(server.command, env=robocomps_qt)
     until(lambda: serving.output.count("ZeroDivisionError") > 1, lambda: serving.output)
     assert behavior(port).getPeriod() == 20
     behavior(port).setPeriod(3_600_000)
@@ -110,15 +97,15 @@ def test_compute_fails_and_goes_on(
 
 
 def test_startup_check_and_user_stop(
-    pair: Callable[[str], tuple[Built, Built, int]], qt: dict[str, str], start: Start, ice: Any, slices: None
+    pair: Callable[[str], tuple[Built, Built, int]], robocomps_qt: Mapping[str, str], start: Start, ice: Any, slices: None
 ) -> None:
     import RoboCompArm
 
     server, _, _ = pair(SERVER_2023)
-    checking = start([*server.command, "--startup-check"], env=qt)
+    checking = start([*server.command, "--startup-check"], env=robocomps_qt)
     assert checking.exit_code() == 0
     assert "checked 1 True\n" in checking.output
-    serving = start(server.command, env=qt).wait_for("first turn")
+    serving = start(server.command, env=robocomps_qt).wait_for("first turn")
     config = (server.root / "etc" / "config").read_text()
     endpoint = next(line.partition("= ")[2] for line in config.splitlines() if line.startswith("Arm.Endpoints"))
     RoboCompArm.ArmPrx.uncheckedCast(ice.stringToProxy(f"arm:{endpoint} -h 127.0.0.1")).betray()
@@ -138,9 +125,9 @@ def test_more_of_qt_than_there_is(build: Build, start: Start, tmp_path: Path) ->
         assert "Traceback" not in refused.output
 
 
-def test_the_skeleton_runs(build: Build, start: Start, free_port: Ports, qt: dict[str, str]) -> None:
+def test_the_skeleton_runs(build: Build, start: Start, free_port: Ports, robocomps_qt: Mapping[str, str]) -> None:
     built = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", compatibility="robocomp", implements=["Arm"])})["Any"]
     built.configure({"Arm.Endpoints": f"tcp -p {free_port()}"})
-    running = start(built.command, env=qt).wait_for("Any is running")
+    running = start(built.command, env=robocomps_qt).wait_for("Any is running")
     assert running.stop() == 0
     assert "Traceback" not in running.output

@@ -57,9 +57,10 @@ def _events(machine: StateMachine) -> Iterator[Diagnostic]:
 def _in_code(linked: LinkedComponent, machine: StateMachine) -> Iterator[Diagnostic]:
     taken = {named.name: named for named in _of_ports(linked)}
     guards, actions = names.guards(machine), names.actions(machine)
+    reserved = _RESERVED | names.ROBOCOMPS if linked.component.compatibility else _RESERVED
     for named in (*guards, *actions):
         is_own = named.kind == names.ACTION and named.name in names.CALLABLE
-        if named.name in _RESERVED and not is_own:
+        if named.name in reserved and not is_own:
             yield codes.METHOD_NAME.at(named.text.span, name=named.name)
     handlers = [
         names.Named(names.STATE, Text(state.id, state.span), name)

@@ -18,6 +18,7 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
 
 _WINDOW_FILES = ("windowworker.h",)  # of the folder qt, only for windows whose worker has its own thread
+_MACHINE_FILES = ("machine.cpp", "machine.h")  # of the folder robocomp, only for components with a state machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +91,7 @@ def files(linked: LinkedComponent) -> list[FilePlan]:
     if component.gui or component.compatibility:
         plans += (plan for plan in _folder("qt") if not component.compatibility or _name(plan) not in _WINDOW_FILES)
     if component.compatibility:
-        plans += _folder("robocomp")
+        plans += (plan for plan in _folder("robocomp") if linked.machine or _name(plan) not in _MACHINE_FILES)
     if component.gui:
         plans.append(FilePlan(form.PATH, form.text(component.gui.base, component.name), ONCE))
     return plans

@@ -30,13 +30,16 @@ class StateView:
 @dataclass(frozen=True, slots=True)
 class MachineView:
     """What the worker has of a machine: states, names of guards and actions; `called` are all actions, also those that
-    every worker has. `fires` is an example of how to fire an event."""
+    every worker has. `fires` is an example of how to fire an event. `member` and `signals` are for code for RoboComp's
+    own tool."""
 
     states: list[StateView]
     guards: list[str]
     actions: list[str]
     called: list[str]
     fires: str
+    member: str
+    signals: list[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +57,8 @@ def view(machine: StateMachine) -> MachineView:
         [name for name in called if name not in names.CALLABLE],
         called,
         next((f"events.{event.method}()" for event in _events(machine)), "there are none"),
+        parameter(names.robocomps_machine(machine)),
+        names.robocomps_signals(machine),
     )
 
 

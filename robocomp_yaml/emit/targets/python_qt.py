@@ -12,6 +12,7 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.interface import Sequence
 
 QT_STAGE, ROBOCOMP_STAGE = "generated.qt.stage", "generated.robocomp.stage"
+_MACHINE_FILES = ("machine.py",)  # of the folder robocomp, only for components with a state machine
 
 
 def stage(linked: LinkedComponent) -> str:
@@ -44,7 +45,7 @@ def files(linked: LinkedComponent) -> list[FilePlan]:
     if component.gui or component.compatibility:
         plans += _folder("qt")
     if component.compatibility:
-        plans += _folder("robocomp")
+        plans += (plan for plan in _folder("robocomp") if linked.machine or _name(plan) not in _MACHINE_FILES)
     if component.gui:
         plans.append(FilePlan(form.PATH, form.text(component.gui.base, component.name), ONCE))
     return plans
@@ -55,3 +56,7 @@ def _folder(name: str) -> tuple[FilePlan, ...]:
     folder = resources.folder("templates") / "python" / name
     found = sorted(folder.glob("*.py"))
     return tuple(FilePlan(f"generated/{name}/{file.name}", file.read_text(encoding="utf-8")) for file in found)
+
+
+def _name(plan: FilePlan) -> str:
+    return plan.path.rpartition("/")[2]

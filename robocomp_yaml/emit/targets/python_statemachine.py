@@ -36,12 +36,15 @@ class StateView:
 
 @dataclass(frozen=True, slots=True)
 class MachineView:
-    """What the worker has of a machine: states, names of guards and actions. `fires` is an example of an event."""
+    """What the worker has of a machine: states, names of guards and actions. `fires` is an example of an event.
+    `member` and `signals` are for code for RoboComp's own tool."""
 
     states: list[StateView]
     guards: list[str]
     actions: list[str]
     fires: str
+    member: str
+    signals: list[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +63,8 @@ def view(machine: StateMachine) -> MachineView:
         [guard.name for guard in names.guards(machine)],
         [action.name for action in names.actions(machine) if action.name not in names.CALLABLE],
         next((f"self.events.{event.method}()" for event in _events(machine)), "there are none"),
+        python_name(names.robocomps_machine(machine)),
+        names.robocomps_signals(machine),
     )
 
 

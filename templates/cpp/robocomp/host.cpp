@@ -123,6 +123,7 @@ void Host::prepare(const runtime::Settings& settings, bool onlyCheck)
 void Host::waitForEnd(runtime::Shutdown& shutdown)
 {
     loop_.run(shutdown);
+    end();
 }
 
 }

@@ -26,6 +26,10 @@ class Host : public runtime::Worker
 public:
     Host(const std::string& name, int period, runtime::Table parameters, bool hasWindow);
 
+    // For the state machine
+    using runtime::Worker::communicator;
+    using runtime::Worker::log;
+
     /// The one of this process; the user's constructors cannot hand it on.
     static Host& current();
 
@@ -55,6 +59,11 @@ private:
 
     /// In the main thread: the worker's period.
     virtual void setWorkersPeriod(int milliseconds) = 0;
+
+    /// In the main thread, before the component stops.
+    virtual void end()
+    {
+    }
 
     void prepare(const runtime::Settings& settings, bool onlyCheck) override;
     void waitForEnd(runtime::Shutdown& shutdown) override;

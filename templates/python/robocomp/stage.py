@@ -41,6 +41,7 @@ class Stage(stage.Stage):
         application = kind.instance() or kind([self.component.name, *sys.argv[1:]])
         self._loop = Loop(application, self.stopping, self.log)
         self._context: worker.Context | None = None
+        self.machine: Any = None  # of a component with a state machine, once the worker is made
         Stage.current = self
 
     def worker_class(self) -> stage.WorkerClass:
@@ -61,6 +62,12 @@ class Stage(stage.Stage):
 
     def wait(self) -> None:
         self._loop.run()
+        if self.machine is not None:
+            self.machine.stop()
+
+    def post(self, job: Callable[[], object]) -> None:
+        """Carried out soon, in the main thread; from any thread."""
+        self._loop.post(job)
 
     def create(self, worker_class: Callable[..., Any], context: worker.Context) -> worker.Worker:
         self._context = context
@@ -78,6 +85,7 @@ class Stage(stage.Stage):
         made.Period = self._context.schedule.period
         made.timer = QtCore.QTimer(made)
         made.log = self.log
+        made.communicator = self._context.communicator
         made.kill.connect(self.stopping.request)
         if self.component.base:
             from generated.qt import window
@@ -105,6 +113,8 @@ class Stage(stage.Stage):
         made = worker_class(values.proxies(self.component, context.proxies), *arguments)
         if hasattr(made, "setParams") and made.setParams(values.parameters(self.settings)) is False:
             self.log.warning("setParams() says that it did not like the parameters")
+        if self.machine is not None and not self.only_check:
+            self.machine.start()  # unless the user's code has done so
         self.period_set(int(made.Period))
         context.schedule.told = lambda milliseconds: self._loop.post(lambda: self._follow(made, milliseconds))
         return made

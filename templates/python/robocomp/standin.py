@@ -126,6 +126,8 @@ def Slot(*types: object, **options: object) -> Callable[[Callable[..., Any]], Ca
 
 
 class QObject:
+    destroyed = Signal()
+
     def __init__(self, parent: object = None) -> None:
         self._parent = parent
 
