@@ -1,6 +1,6 @@
 """The main job on the examples, as a user would do it: migrate, check, compile, deploy.
 
-Works on copies of `examples/talkinghead` and `examples/jointmotor` in `.demo/`. Run it with `make demo`.
+Works on a copy of the examples in `.demo/`. Run it with `make demo`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-DEMO = HERE.parent / ".demo" / "talkinghead"
+DEMO = HERE.parent / ".demo"
 NETWORK = "head.ddsl.yaml"
 SECONDS = 2.5  # for the head to say what it has to say
 BOLD, DIM, PLAIN = ("\x1b[1m", "\x1b[2m", "\x1b[0m") if sys.stdout.isatty() else ("", "", "")
@@ -38,14 +38,13 @@ def has_ice() -> bool:
 
 
 def main() -> None:
-    shutil.rmtree(DEMO.parent, ignore_errors=True)
-    for name in ("talkinghead", "jointmotor"):
-        shutil.copytree(HERE / name, DEMO.parent / name)
-    show(f"A robot's head as legacy files, copied to {DEMO.parent.name}/: two interfaces and two components.")
-    rcyaml("migrate", ".")
-    show(f"\n{BOLD}$ cat components/speech/speechcomp.cdsl.yaml{PLAIN}")
-    show((DEMO / "components/speech/speechcomp.cdsl.yaml").read_text().rstrip())
-    rcyaml("compile", ".", "../jointmotor/python")
+    shutil.rmtree(DEMO, ignore_errors=True)
+    shutil.copytree(HERE, DEMO, ignore=shutil.ignore_patterns("demo.py", "cpp"))
+    show(f"A robot's head, copied to {DEMO.name}/: two components as legacy files, and one that is YAML already.")
+    rcyaml("migrate", "talkinghead")
+    show(f"\n{BOLD}$ cat talkinghead/components/speech/speechcomp.cdsl.yaml{PLAIN}")
+    show((DEMO / "talkinghead/components/speech/speechcomp.cdsl.yaml").read_text().rstrip())
+    rcyaml("compile", "talkinghead", "jointmotor")
     rcyaml("check")
     if not has_ice():
         show(
