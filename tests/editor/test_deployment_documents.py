@@ -1,0 +1,240 @@
+"""Deployments in the editor: completion, messages and hovers at each construct."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from editor.snippets import inserted
+from editor.workbench import Workbench
+
+from robocomp_yaml import resources
+from robocomp_yaml.source import schema, tree
+
+D = "deployment: A\n"
+E = D + "components:\n  a:\n    component: b\n    "
+P = D + "components:\n  a:\n    program: b\n    "
+IN_ENTRY = [
+    "connect: {…}", "set: {…}", "ready: 10 s", "restart: …", "component", "program", "process", "doc", "host",
+    "executable", "args", "cwd", "env", "port", "ports", "config", "config-as", "connect", "topics", "set", "endpoints",
+    "restart", "ready", "after", "enabled", "instances",
+]
+COMPLETIONS = [
+    ("|", ["deployment document", "hosts: …", "services: …", "components: …", "groups: …", "include: […]", "deployment",
+           "doc", "hosts", "services", "components", "groups", "include"]),
+    ("deployment: |", ["ShellyHead"]),
+    (D + "hosts: |", ["host", "host of another user"]),
+    (D + "hosts:\n  |", ["host", "host of another user"]),
+    (D + "hosts:\n  a: |", ["address", "address and user"]),
+    (D + "hosts: {a: {u|}}", ["address", "user", "doc"]),
+    (D + "services: |", ["IceStorm"]),
+    (D + "services:\n  storm: |", ["an IceStorm"]),
+    (D + "services: {storm: {icestorm: |}}", ["port", "host and port"]),
+    (D + "components: |", ["component", "program", "several instances"]),
+    (D + "components:\n  |", ["component", "program", "several instances"]),
+    (D + "components:\n  a: |", ["a component", "a program", "several instances", "a second name of a process"]),
+    (D + "components:\n  a:\n    |", IN_ENTRY),
+    (D + "components:\n  a: {c|}", IN_ENTRY),
+    (E + "args: |", ["list of arguments"]),
+    (E + "env: |", ["variable", "variable from outside"]),
+    (E + "env:\n      X: |", ["text", "from outside"]),
+    (E + "ports: |", ["port"]),
+    (E + "connect: |", ["connection"]),
+    (E + "topics: |", ["topic"]),
+    (E + "set: |", ["value"]),
+    (E + "restart: |", ["on-failure", "always", "no", "with limits"]),
+    (E + "restart: {p|}", ["policy", "delay", "tries", "within"]),
+    (E + "restart: {policy: |}", ['"no"', "on-failure", "always"]),
+    (E + "ready: |", ["time", "port", "command", "log"]),
+    (E + "ready: {p|}", ["within", "port", "command", "log"]),
+    (E + "ready: {command: |}", ["command"]),
+    (E + "after: |", ["list of names"]),
+    (E + "enabled: |", ["false", "true"]),
+    (P + "endpoints: |", ["endpoint"]),
+    (P + "config-as: |", ["--Ice.Config", "argument"]),
+    (D + "groups: |", ["group", "group that acts as one component", "deployment as a group"]),
+    (D + "groups:\n  a: |", ["members", "as one component", "another deployment"]),
+    (D + "groups:\n  a: {c|}", ["components", "include", "as", "expose", "host", "doc"]),
+    (D + "groups:\n  a: {components: |}", ["list of entries"]),
+    (D + "groups:\n  a: {expose: |}", ["interface", "interface with a rate", "interface with some methods"]),
+    (D + "groups:\n  a: {expose: {Speech: |}}", ["member", "with a rate", "with some methods"]),
+    (D + "groups:\n  a: {expose: {Speech: {m|}}}", ["member", "rate", "allow", "doc"]),
+    (D + "include: |", ["list of deployments", "deployments with names"]),
+]  # fmt: skip
+A_NAME = "a name has letters, digits, _ and -, and starts with no digit"
+TIME = "a time is milliseconds, such as 500, or has a unit, such as 500 ms or 10 s"
+ONE = "an entry has one of component:, program: and process:"
+MESSAGES = [
+    ("- a", ["1:1 a deployment document is a mapping: deployment: Robot, and the components that it consists of"]),
+    ("doc: x", ["1:1 the key 'deployment' is missing"]),
+    ("deployment: a b", ["1:13 deployment: is a name: letters, digits, _ and -, not starting with a digit"]),
+    (D + "component: {}", ["2:1 Property component is not allowed."]),
+    (D + "hosts: {a b: 10.0.0.2}", [f"2:9 {A_NAME}"]),
+    (D + "hosts: {a: [10.0.0.2]}",
+     ["2:12 behind a host's name stands its address, onboard: 10.0.0.2, or more, onboard: {address: 10.0.0.2, "
+      "user: robot}"]),
+    (D + "hosts: {a: {user: me}}", ["2:9 the key 'address' is missing"]),
+    (D + "services: {s: icestorm}", ["2:15 a service is {icestorm: {host: onboard, port: 9999}}"]),
+    (D + "services: {s: {icestorm: {port: 0}}}", ["2:33 a port is a whole number from 1 to 65535"]),
+    (D + "components: [a]",
+     ["2:13 components: is a mapping of names to what runs, such as speech: {component: ../speech/speech.cdsl.yaml}"]),
+    (D + "components: {a: b}",
+     ["2:17 an entry is a mapping, such as {component: ../speech/speech.cdsl.yaml, host: onboard}"]),
+    (D + "components: {a: {host: b}}", ["2:14 the key 'component' is missing (or 'program', or 'process')"]),
+    (D + "components: {a: {component: b, program: c}}", [f"2:17 {ONE}"]),
+    (D + "components: {a: {process: b, port: 1}}",
+     ["2:30 a second name of a process has only endpoints:; all else stands with the first"]),
+    (D + "components: {a: {program: b, set: {c: 1}}}",
+     ["2:30 this is for a component; a program has args:, config: and endpoints:"]),
+    (E + "prot: 1", ["5:5 Property prot is not allowed."]),
+    (E + "port: 70000", ["5:11 a port is a whole number from 1 to 65535"]),
+    (E + "ports: 10001",
+     ["5:12 ports: is a mapping of interfaces to ports, such as {Speech: 10001, CommonBehavior: 10002}"]),
+    (E + "args: -f", ['5:11 args: is a list of texts, such as [simulation.xml, -f, "100"]']),
+    (E + "connect: {A: [b]}",
+     ['5:18 a connection leads to an entry, such as mouth or mouth.Mouth, or to a proxy in quotes, such as '
+      '"mouth:tcp -h 10.0.0.9 -p 10002"']),
+    (E + "restart: no", []),
+    (E + "restart: sometimes",
+     ["5:14 restart: is no, on-failure or always, or a mapping, such as {policy: on-failure, delay: 1 s, tries: 5, "
+      "within: 1 min}"]),
+    (E + "ready: 10 sec",
+     ["5:12 ready: is a time, such as 10 s, or says how to tell: {port: 10003, within: 10 s}, {command: […]} or "
+      "{log: …}"]),
+    (E + "ready: {within: soon}", [f"5:21 {TIME}"]),
+    (E + "instances: 0", ["5:16 instances: is a whole number from 1 to 10000"]),
+    (E + "enabled: yes", ["5:14 enabled: is true or false"]),
+    (D + "groups: {a: [b]}",
+     ["2:13 a group is a mapping, such as {components: [speech, mouth], as: face.cdsl.yaml}"]),
+    (D + "groups: {a: {components: [b], expose: {C: {rate: 1}}}}", ["2:40 the key 'member' is missing"]),
+    (D + "groups: {a: {components: [b], expose: {C: {member: b, rate: 0}}}}",
+     ["2:61 rate: is a number of calls a second, above 0"]),
+    (D + "include: arm",
+     ["2:10 include: is a list of deployments, [arm.ddsl.yaml], or a mapping with names, {left: arm.ddsl.yaml}"]),
+]
+HOVERS = [
+    ("deploy|ment: A", "Deployment"),
+    (D + "do|c: x", "Documentation"),
+    (D + "x-m|ine: 1", "Extension"),
+    (D + "hos|ts: {a: b}", "Hosts"),
+    (D + "hosts: {aa|: b}", "Host's description"),
+    (D + "hosts: {aa|: {address: b}}", "Host's description"),
+    (D + "hosts: {a: {addr|ess: b}}", "Address"),
+    (D + "hosts: {a: {address: b, us|er: c}}", "User"),
+    (D + "serv|ices: {s: {icestorm: }}", "Services"),
+    (D + "services: {ss|: {icestorm: }}", "Service"),
+    (D + "services: {s: {ice|storm: {port: 1}}}", "IceStorm"),
+    (D + "services: {s: {icestorm: {po|rt: 1}}}", "IceStorm's port"),
+    (D + "compo|nents: {a: {program: b}}", "Components"),
+    (D + "components: {aa|: {program: b}}", "Entry"),
+    (E + "do|c: x", "Documentation"),
+    (D + "components: {a: {compo|nent: b}}", "Component"),
+    (D + "components: {a: {prog|ram: b}}", "Program"),
+    (D + "components: {a: {proc|ess: b}}", "Process"),
+    (E + "exec|utable: x", "Executable"),
+    (E + "ar|gs: [x]", "Arguments"),
+    (E + "args: [xx|]", "Argument"),
+    (E + "cw|d: x", "Working folder"),
+    (E + "en|v: {A: b}", "Environment"),
+    (E + "env: {AA|: b}", "Variable"),
+    (E + "env: {A: {en|v: b}}", "Variable from outside"),
+    (E + "ho|st: x", "Host"),
+    (E + "po|rt: 1", "Port"),
+    (E + "por|ts: {A: 1}", "Ports"),
+    (E + "ports: {AA|: 1}", "Port of an interface"),
+    (E + "conf|ig: x", "Configuration"),
+    (E + "config|-as: argument", "How the configuration is passed"),
+    (E + "conn|ect: {A: b}", "Connect"),
+    (E + "connect: {AA|: b}", "Target"),
+    (E + "top|ics: {A: b}", "Topics"),
+    (E + "topics: {AA|: b}", "Topic's name"),
+    (E + "se|t: {a: 1}", "Set"),
+    (E + "endp|oints: {A: b}", "Endpoints"),
+    (E + "endpoints: {AA|: b}", "Endpoint"),
+    (E + "rest|art: no", "Restart"),
+    (E + "rest|art: {tries: 1}", "Restart"),
+    (E + "restart: {pol|icy: no}", "Policy"),
+    (E + "restart: {del|ay: 1 s}", "Delay"),
+    (E + "restart: {tr|ies: 1}", "Tries"),
+    (E + "restart: {with|in: 1 s}", "Within"),
+    (E + "rea|dy: 1 s", "Ready"),
+    (E + "rea|dy: {log: a}", "Ready"),
+    (E + "ready: {with|in: 1 s}", "Time limit"),
+    (E + "ready: {po|rt: 1}", "Port of readiness"),
+    (E + "ready: {comm|and: [a]}", "Command"),
+    (E + "ready: {lo|g: a}", "Line of the log"),
+    (E + "aft|er: [b]", "After"),
+    (E + "after: [bb|]", "Name of an entry"),
+    (E + "enab|led: true", "Enabled"),
+    (E + "inst|ances: 1", "Instances"),
+    (D + "gro|ups: {a: {components: [b]}}", "Groups"),
+    (D + "groups: {aa|: {components: [b]}}", "Group"),
+    (D + "groups: {a: {compo|nents: [b]}}", "Members"),
+    (D + "groups: {a: {components: [bb|]}}", "Member"),
+    (D + "groups: {a: {a|s: b, components: [b]}}", "As"),
+    (D + "groups: {a: {ho|st: b, include: b}}", "Host of the members"),
+    (D + "groups: {a: {incl|ude: b}}", "Included deployment"),
+    (D + "groups: {a: {components: [b], exp|ose: {C: b}}}", "Expose"),
+    (D + "groups: {a: {components: [b], expose: {CC|: b}}}", "Exposed interface"),
+    (D + "groups: {a: {components: [b], expose: {C: {member: b, ra|te: 1}}}}", "Rate"),
+    (D + "groups: {a: {components: [b], expose: {C: {member: b, all|ow: [d]}}}}", "Allow"),
+    (D + "groups: {a: {components: [b], expose: {C: {member: b, allow: [dd|]}}}}", "Method"),
+    (D + "incl|ude: [a]", "Include"),
+    (D + "include: [aa|]", "Included deployment"),
+]
+
+
+@pytest.mark.parametrize(("text", "labels"), COMPLETIONS)
+def test_a_deployment_is_completed(editor: Workbench, text: str, labels: list[str]) -> None:
+    proposals = editor.complete("ddsl", text)
+    assert [proposal.label for proposal in proposals] == labels
+    for proposal in proposals:
+        if "$" in proposal.text:
+            result = inserted(text, proposal.text)
+            root, said = tree.parse("new.yaml", result)
+            assert root is not None, (proposal, result, said)
+            assert [d.message for d in schema.validate("ddsl", root) if d.code != "RC0203"] == [], (proposal, result)
+
+
+def test_one_message_for_each_fault(editor: Workbench) -> None:
+    assert editor.messages("ddsl", [text for text, _ in MESSAGES]) == [messages for _, messages in MESSAGES]
+
+
+def test_a_right_document_has_none(editor: Workbench) -> None:
+    text = (Path(__file__).parent / "documents" / "robot.ddsl.yaml").read_text(encoding="utf-8")
+    assert editor.messages("ddsl", [text]) == [[]]
+
+
+@pytest.fixture(scope="module")
+def texts() -> dict[str, set[str]]:
+    """The Markdown of each construct, by its title."""
+    found: dict[str, set[str]] = {}
+
+    def collect(part: Any) -> None:
+        if isinstance(part, dict):
+            if isinstance(part.get("title"), str):
+                found.setdefault(part["title"], set()).add(part["markdownDescription"])
+            for value in part.values():
+                collect(value)
+        elif isinstance(part, list):
+            for value in part:
+                collect(value)
+
+    collect(json.loads(resources.text("schemas/ddsl.schema.json")))
+    return found
+
+
+@pytest.mark.parametrize(("text", "title"), HOVERS, ids=lambda value: repr(value))
+def test_the_construct_explains_itself(
+    editor: Workbench, texts: dict[str, set[str]], text: str, title: str
+) -> None:
+    shown = editor.hover("ddsl", text)
+    [expected] = texts[title]
+    assert shown.startswith(f"#### {title}\n\n{expected}\n"), shown
+    assert shown.count(expected) == 1
+
+
+def test_every_construct_is_here(texts: dict[str, set[str]]) -> None:
+    assert texts.keys() - {"DDSL document"} == {title for _, title in HOVERS}
