@@ -19,7 +19,7 @@ _CONFIG = re.compile(r"(?:^|/)(?:etc/[^/]+|[^/]*config[^/]*|[^/]+\.(?:conf|cfg|t
 @dataclass(frozen=True, slots=True)
 class Command:
     """`words` are the program and its arguments, without its configuration, which `config` names. `config_as` is the
-    option that takes it, '' where it is the first argument."""
+    option that takes it, '' where it is an argument."""
 
     host: str
     folder: str
@@ -34,6 +34,12 @@ class Command:
         first, *more = self.words
         script = more and _INTERPRETER.fullmatch(posixpath.basename(first)) and not more[0].startswith("-")
         return more[0] if script else first
+
+    @property
+    def full(self) -> tuple[str, ...]:
+        """The words with the configuration, which a program that is none of ours takes as it always did."""
+        option = f"{self.config_as}={self.config}" if self.config_as else self.config
+        return (*self.words, option) if self.config else self.words
 
     @property
     def stem(self) -> str:

@@ -84,6 +84,7 @@ class _Builder:
             owner = first.setdefault(node.command.key, node)
             if owner is not node:
                 self.owners[node.name] = owner
+                owner.is_shared = node.is_shared = True
                 self.said.append(codes.SAME_PROCESS.at(node.span, name=node.alias, other=owner.alias))
 
     def hosts(self, running: Sequence[Node]) -> dict[str, str]:

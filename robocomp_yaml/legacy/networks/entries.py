@@ -38,14 +38,9 @@ def program_entry(node: Node, host: str, after: List, key: str, *, process: str 
             made.put("host", host)
         if command.folder:
             made.put("cwd", command.folder, node.by_key.get("cwd"))
-        args = [*command.words[1:]]
-        if command.config and args and not command.config_as:  # behind a script, of which it is the first argument
-            args.append(command.config)
+        args = list(command.full[1:])
         if args:
             made.put("args", List([Entry("", word) for word in args]))
-        if command.config not in ("", *args):
-            made.put("config", command.config)
-            made.put("config-as", command.config_as or "argument")
     if node.endpoint is not None:
         endpoints = Map()
         endpoints.put(node.interface, node.endpoint.text)
@@ -128,7 +123,7 @@ def _closed(made: Map, node: Node, after: List, key: str) -> Map:
     """The entry with what it waits for, and with what only an exporter needs and cannot know otherwise."""
     if after.items:
         made.put("after", after)
-    known = _known_anyway(node)
+    known = _known_anyway(node, made)
     for entry in list(node.extra.entries):
         if entry.key in known and entry.value == known[entry.key]:
             node.extra.entries.remove(entry)
@@ -138,9 +133,12 @@ def _closed(made: Map, node: Node, after: List, key: str) -> Map:
     return made
 
 
-def _known_anyway(node: Node) -> dict[str, str]:
+def _known_anyway(node: Node, made: Map) -> dict[str, str]:
     """What an exporter says where nothing is kept."""
-    if node.command is None or node.endpoint is None:
-        return {}
-    host = LOCAL if node.command.host in LOOPBACK else node.command.host
-    return {"workingDir": node.command.folder, "endpoint": node.endpoint.proxy(host)}
+    command, known = node.command, dict[str, str]()
+    if command is not None and any(entry.key == "cwd" for entry in made.entries):
+        known["workingDir"] = posixpath.normpath(command.folder)
+    endpoint = node.endpoint
+    if command is not None and endpoint is not None and not node.is_shared and endpoint.identity.islower():
+        known["endpoint"] = endpoint.proxy(LOCAL if command.host in LOOPBACK else command.host)
+    return known

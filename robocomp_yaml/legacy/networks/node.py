@@ -31,6 +31,8 @@ class Node:
     notes: Notes = field(default_factory=Notes)
     by_key: dict[str, Notes] = field(default_factory=dict)
     extra: Map = field(default_factory=Map)
+    is_shared: bool = False
+    """Whether its process has several names."""
 
 
 @dataclass(slots=True, eq=False)

@@ -1,0 +1,117 @@
+"""Services for docker compose, in the network of their host. Several hosts have a folder each.
+
+The programs are those of the host: the image (`RCYAML_IMAGE`) has what they need to run, and their folders are mounted
+where they are. A service is healthy once it is ready, and those behind it wait for that.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+
+from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, words
+from robocomp_yaml.network.network import ALWAYS, COMPONENT, ICESTORM, NEVER, Network, Process
+from robocomp_yaml.values.spell_yaml import quoted
+
+_IMAGE = "${RCYAML_IMAGE:-debian:bookworm}"
+_INSIDE = "/run/rcyaml"
+_SYSTEM = re.compile(r"/(?:(?:usr|bin|s?bin|lib\w*|etc|proc|sys|dev|run|tmp)(?:/(?!local/\w)|$)|$)")
+"""Folders that the image has itself."""
+
+
+def export(network: Network) -> dict[str, str]:
+    files: dict[str, str] = {}
+    for folder, processes in by_host(network):
+        here = {process.name: process for process in processes}
+        lines = [f"name: {quoted(_project(network.name))}", "services:"]
+        for process in processes:
+            lines += [f"  {line}" for line in _service(process, here)]
+        files[f"{folder}compose.yaml"] = "\n".join(lines) + "\n"
+        files |= configs(folder, processes)
+    return files
+
+
+def _service(process: Process, here: dict[str, Process]) -> list[str]:
+    inside = f"{_INSIDE}/{os.path.basename(process.config.path)}" if process.config else ""
+    program, *arguments = words(process, inside)
+    lines = [
+        f"{quoted(file_name(process.name))}:", f"  image: {quoted(_IMAGE)}", '  network_mode: "host"', "  init: true",
+        *_list("entrypoint", [program]), *_list("command", arguments), f"  restart: {quoted(_restart(process))}",
+    ]  # fmt: skip
+    if _folder(process):
+        lines.append(f"  working_dir: {_text(process.cwd)}")
+    if not process.enabled:
+        lines.append('  profiles: ["disabled"]')
+    if process.env:
+        lines.append("  environment:")
+        for item in process.env:
+            value = quoted(f"${{{item.source}}}") if item.source else _text(item.value)
+            lines.append(f"    {quoted(item.name)}: {value}")
+    lines += _volumes(process, inside)
+    check = _health(process)
+    if check:
+        tries = max(int(process.ready.within), 1)
+        more = ["    interval: 1s", "    timeout: 1s", f"    retries: {tries}"]
+        lines += ["  healthcheck:", *(f"  {line}" for line in _list("test", ["CMD", *check])), *more]
+    needed = [here[name] for name in process.after if name in here and here[name].enabled]
+    if needed:
+        lines.append("  depends_on:")
+        for other in needed:
+            condition = "service_healthy" if _health(other) else "service_started"
+            lines.append(f"    {quoted(file_name(other.name))}: {{condition: {condition}}}")
+    return lines
+
+
+def _volumes(process: Process, inside: str) -> list[str]:
+    """The folders of the program, and its configuration."""
+    home = os.path.dirname(process.command[0]) if os.path.isabs(process.command[0]) else ""
+    if process.kind == COMPONENT and os.path.basename(home) == "bin":
+        home = os.path.dirname(home)
+    folders = [folder for folder in dict.fromkeys((home, _folder(process))) if folder and not _SYSTEM.match(folder)]
+    mounts = [(folder, folder, False) for folder in folders]
+    mounts += [(folder, folder, True) for folder in process.folders]
+    if process.config is not None:
+        mounts.append((f"./{process.config.path}", inside, False))
+    if not mounts:
+        return []
+    lines = ["  volumes:"]
+    for source, target, is_written in mounts:
+        rights = ", bind: {create_host_path: true}" if is_written else ", read_only: true"
+        lines.append(f"    - {{type: bind, source: {_text(source)}, target: {_text(target)}{rights}}}")
+    return lines
+
+
+def _folder(process: Process) -> str:
+    """Where it runs; IceStorm does not care."""
+    return "" if process.kind == ICESTORM else process.cwd
+
+
+def _health(process: Process) -> list[str]:
+    """What tells that it is ready: its own command, or that something listens at its port."""
+    if process.ready.command:
+        return list(process.ready.command)
+    listening = [endpoint.port for endpoint in process.endpoints if endpoint.port and endpoint.protocol == "tcp"]
+    port = process.ready.port or (listening[0] if listening and not process.ready.log else 0)
+    return ["bash", "-c", f"</dev/tcp/127.0.0.1/{port}"] if port else []
+
+
+def _restart(process: Process) -> str:
+    if process.restart.policy in (NEVER, ALWAYS):
+        return process.restart.policy
+    return f"on-failure:{process.restart.tries}"
+
+
+def _list(key: str, items: Iterable[str]) -> list[str]:
+    found = [_text(item) for item in items]
+    return [f"  {key}: [{', '.join(found)}]"]
+
+
+def _text(text: str) -> str:
+    """A text in which compose finds no variable."""
+    return quoted(text.replace("$", "$$"))
+
+
+def _project(name: str) -> str:
+    """Compose's names of projects have small letters."""
+    return file_name(name).lower().replace(".", "_")

@@ -1,0 +1,59 @@
+"""An application for IceGrid: `icegridadmin -e 'application add NAME.xml'`.
+
+The nodes are the hosts, by their names. Configurations are part of the descriptor, so no file has to be carried
+anywhere. IceGrid knows no order of starting and no readiness: all servers start at once, and find each other.
+"""
+
+from __future__ import annotations
+
+from robocomp_yaml.emit.exports._commands import file_name, without_config
+from robocomp_yaml.emit.exports._xml import HEAD, element
+from robocomp_yaml.network.network import ICESTORM, NEVER, Network, Process
+from robocomp_yaml.source import properties
+
+_DROP_LAST = 'n=$#; for word do shift; n=$((n-1)); [ "$n" -gt 0 ] && set -- "$@" "$word"; done; exec "$@"'
+"""A node appends `--Ice.Config=…` to every command, which only Ice's programs understand."""
+
+_MAKE_FOLDERS = 'while [ "$1" != -- ]; do mkdir -p "$1" || exit 1; shift; done; shift; exec "$@"'
+
+
+def export(network: Network) -> dict[str, str]:
+    nodes: list[str] = []
+    for host in network.hosts:
+        servers = [line for process in network.processes.values() if process.host == host for line in _server(process)]
+        if servers:
+            nodes += element("node", {"name": host}, servers)
+    application = element("application", {"name": network.name}, nodes)
+    return {f"{file_name(network.name)}.xml": HEAD + "\n".join(element("icegrid", {}, application)) + "\n"}
+
+
+def _server(process: Process) -> list[str]:
+    program, *arguments = without_config(process)
+    if not process.is_ice:
+        program, arguments = "/bin/sh", ["-c", _DROP_LAST, process.name, program, *arguments]
+    if process.folders:
+        program, arguments = "/bin/sh", ["-c", _MAKE_FOLDERS, process.name, *process.folders, "--", program, *arguments]
+    attributes = {"id": process.name, "exe": _literal(program), "activation": _activation(process)}
+    if process.cwd and process.kind != ICESTORM:
+        attributes["pwd"] = _literal(process.cwd)
+    inside = [line for word in arguments for line in element("option", {}, text=_literal(word))]
+    for variable in process.env:
+        value = f"${variable.source}" if variable.source else _literal(variable.value)
+        inside += element("env", {}, text=f"{variable.name}={value}")
+    values = properties.read(process.config.text).values if process.config and process.is_ice else {}
+    if not process.is_ice:
+        values["Ice.Admin.Enabled"] = "0"  # a node would wait for its administrative object for ever
+    given = [
+        line for key, value in values.items()
+        for line in element("property", {"name": _literal(key), "value": _literal(value)})
+    ]
+    return element("server", attributes, [*inside, *(element("properties", {}, given) if given else [])])
+
+
+def _activation(process: Process) -> str:
+    return "always" if process.enabled and process.restart.policy != NEVER else "manual"
+
+
+def _literal(text: str) -> str:
+    """A text in which IceGrid finds no variable of its own."""
+    return text.replace("${", "$${")

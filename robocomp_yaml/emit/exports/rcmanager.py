@@ -1,0 +1,184 @@
+"""RCManager's XML: its nodes with their dependences, commands, and places in its graph.
+
+What a migrated document keeps under `x-rcmanager:` is written as it was, as far as it still says what the network does.
+"""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+
+from robocomp_yaml.emit.exports._commands import file_name, words
+from robocomp_yaml.emit.exports._xml import HEAD, element
+from robocomp_yaml.network.network import CONFIG, ICESTORM, LOOPBACK, Network, Process
+
+_ATTRIBUTES = {
+    "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
+    "xpos": "value", "ypos": "value", "radius": "value", "color": "value",
+}  # fmt: skip
+"""The elements of a node that say one thing, by the attribute that says it; in RCManager's order."""
+
+_OWN = ("alias", "endpoint", "dependence", "aliases")
+_GENERAL = {
+    "editor": {"path": "kate", "dock": "false"},
+    "timeouts": {"fixed": "1000.0", "blink": "300.0"},
+    "clicks": {"switch": "2.0", "interval": "400.0"},
+    "graph": {"alpha": "80.0", "active": "true", "scale": "200.0"},
+    "graphTiming": {"idletime": "1000.0", "focustime": "500.0", "fasttime": "10.0", "fastperiod": "2000.0"},
+    "simulation": {"hookes": "0.07", "springlength": "0.5", "friction": "0.4", "step": "0.5", "fieldforce": "20000.0"},
+}
+_SPACE = 100
+_LOCAL = (LOOPBACK, "127.0.0.1", "::1")
+
+Kept = Mapping[str, object]
+
+
+def export(network: Network) -> dict[str, str]:
+    exporter = _Exporter(network)
+    lines = "\n".join(element("rcmanager", exporter.attributes(), exporter.children()))
+    return {f"{file_name(network.name)}.xml": f"{HEAD}{lines}\n"}
+
+
+class _Exporter:
+    def __init__(self, network: Network) -> None:
+        self.network = network
+        self.kept = dict(network.extra)
+        self.nodes = _mapping(self.kept.pop("nodes", None))
+        self.owners = {name: process.name for process in network.processes.values()
+                       for name in (process.name, *process.aliases)}  # fmt: skip
+        self.aliases = {name: _text(self.of(name).get("alias"), name) for name in self.owners}
+        self.by_alias = {alias: name for name, alias in self.aliases.items()}
+
+    def of(self, name: str) -> Kept:
+        """What is kept of a node."""
+        process = self.network.processes.get(self.owners.get(name, ""))
+        if process is None or name in self.nodes:
+            return _mapping(self.nodes.get(name))
+        extra = dict(process.extra)
+        return extra if name == process.name else _mapping(_mapping(extra.get("aliases")).get(name))
+
+    def attributes(self) -> dict[str, str]:
+        return {key: value for key, value in self.kept.items() if isinstance(value, str)}
+
+    def children(self) -> Iterator[str]:
+        given = {key: value for key, value in self.kept.items() if not isinstance(value, str)}
+        for key, value in (given or {"generalInformation": _GENERAL}).items():
+            yield from _generic(key, value)
+        for process in self.network.processes.values():
+            yield from self.node(process, process.name, 0)
+            for number, alias in enumerate(process.aliases, 1):
+                yield from self.node(process, alias, number)
+        for name in self.nodes:
+            if name not in self.owners:
+                kept = self.of(name)
+                yield from _node(_text(kept.get("alias"), name), _text(kept.get("endpoint")), _texts(kept), kept)
+
+    def node(self, process: Process, name: str, number: int) -> Iterator[str]:
+        """`number` counts the names of a process from 0."""
+        kept = self.of(name)
+        made: dict[str, object] = {"workingDir": process.cwd, "upCommand": self.command(process, name)}
+        if not kept:
+            config = self.network.config_path(process)
+            made |= {"downCommand": f"pkill -f {shlex.quote(config or process.command[0])}", "configFile": config}
+            made |= {**self.place(process, number), "radius": "10.0", "color": "#AAAAAA"}
+        given = {key: value for key, value in kept.items() if key not in _OWN}
+        if "upCommand" in given and not self.still_means(process, _text(given["upCommand"])):
+            del given["upCommand"]
+        yield from _node(self.aliases[name], self.endpoint(process, kept, number),
+                         self.dependences(process, name, kept), {**made, **given})  # fmt: skip
+
+    def endpoint(self, process: Process, kept: Kept, number: int) -> str:
+        given = _text(kept.get("endpoint"))
+        ports = [str(endpoint.port) for endpoint in process.endpoints]
+        if "endpoint" in kept and (not ports or any(given.rstrip().endswith(port) for port in ports)):
+            return given
+        found = [endpoint for endpoint in process.endpoints if endpoint.identity][number : number + 1]
+        address = self.network.address(process)
+        return "".join(f"{one.identity}:{one.protocol} -h {address} -p {one.port}" for one in found)
+
+    def dependences(self, process: Process, name: str, kept: Kept) -> list[str]:
+        """Those that the file had, names and all, while the process still waits for them."""
+        given = _texts(kept)
+        meant = {self.owners[self.by_alias[alias]] for alias in given if alias in self.by_alias} - {process.name}
+        if "dependence" in kept and meant <= set(process.after):
+            return given
+        return [self.aliases[other] for other in process.after] if name == process.name else []
+
+    def command(self, process: Process, name: str) -> str:
+        told = shlex.join(words(process, self.network.config_path(process)))
+        return f"rcremote {self.network.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {told}"
+
+    def still_means(self, process: Process, command: str) -> bool:
+        """Whether a command of the file starts what the process is, on its host and in its folder."""
+        if process.kind == ICESTORM:
+            return True
+        try:
+            told = shlex.split(command)
+        except ValueError:
+            told = command.split()
+        if told[:1] == ["rcremote"]:
+            host, folder, told = told[1], told[3], told[4:]
+            local = (host in _LOCAL) == (self.network.address(process) in _LOCAL)
+            if not local or (host not in _LOCAL and host != self.network.address(process)):
+                return False
+            if self.path(os.path.dirname(self.network.path), folder) != process.cwd:
+                return False
+        if process.command[:2] == ("sh", "-c"):
+            return command.rstrip().endswith(process.command[2])
+        return len(told) == len(process.command) and all(
+            CONFIG in word or text == word or self.path(process.cwd, text) == word
+            for text, word in zip(told, process.command, strict=True)
+        )
+
+    def path(self, folder: str, text: str) -> str:
+        return os.path.abspath(os.path.join(folder, os.path.expanduser(text)))
+
+    def place(self, process: Process, number: int) -> dict[str, object]:
+        """A row for each wave of processes that start together, the first one below."""
+        for row, wave in enumerate(self.network.order):
+            if process.name in wave:
+                column = wave.index(process.name) - (len(wave) - 1) / 2
+                return {"xpos": f"{column * _SPACE + number * _SPACE / 4:.1f}", "ypos": f"{-row * _SPACE:.1f}"}
+        return {"xpos": f"{number * _SPACE / 4:.1f}", "ypos": f"{_SPACE:.1f}"}
+
+
+def _node(alias: str, endpoint: str, dependences: Sequence[str], given: Kept) -> Iterator[str]:
+    inside = [line for other in dependences for line in element("dependence", {"alias": other})]
+    rest = {key: value for key, value in given.items() if key not in (*_ATTRIBUTES, *_OWN)}
+    for name, attribute in _ATTRIBUTES.items():
+        value = given.get(name)
+        if isinstance(value, str):
+            inside += element(name, {attribute: value})
+        elif value is not None:
+            inside += _generic(name, value)
+    attributes = {"alias": alias, "endpoint": endpoint}
+    for key, value in rest.items():
+        if isinstance(value, str):
+            attributes[key] = value
+        else:
+            inside += _generic(key, value)
+    yield from element("node", attributes, inside)
+
+
+def _generic(name: str, value: object) -> list[str]:
+    """An element whose texts are its attributes; a list stands for several elements of one name."""
+    if isinstance(value, list):
+        return [line for item in value for line in _generic(name, item)]
+    body = _mapping(value)
+    attributes = {key: item for key, item in body.items() if isinstance(item, str)}
+    below = [line for key, item in body.items() if not isinstance(item, str) for line in _generic(key, item)]
+    return element(name, attributes, below)
+
+
+def _mapping(value: object) -> Kept:
+    return value if isinstance(value, dict) else {}
+
+
+def _text(value: object, otherwise: str = "") -> str:
+    return value if isinstance(value, str) else otherwise
+
+
+def _texts(kept: Kept) -> list[str]:
+    value = kept.get("dependence")
+    return [_text(item) for item in value] if isinstance(value, list) else []
