@@ -6,7 +6,7 @@ import asyncio
 import os
 import sys
 from collections.abc import Callable, Collection, Coroutine, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 import click
@@ -16,6 +16,7 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._attaching import attached
 from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy import folder, operations
+from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Engine
 from robocomp_yaml.deploy.engines import make_engine
 from robocomp_yaml.diag.codes import deploying
@@ -31,8 +32,10 @@ T = TypeVar("T")
 
 @dataclass(slots=True)
 class Opened:
-    """A deployment as a command works on it. `told` are the diagnostics so far; `documents` were read."""
+    """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
+    so far; `documents` were read."""
 
+    path: str
     network: Network
     engine: Engine
     format_: str
@@ -58,7 +61,7 @@ def open_(
         _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)
     assert network
     told = [] if lenient else analysis.diagnostics
-    return Opened(network, make_engine(engine, network), format_, list(told), analysis.program.documents)
+    return Opened(path, network, make_engine(engine, network), format_, list(told), analysis.program.documents)
 
 
 def _document(path: str) -> str:
@@ -227,14 +230,22 @@ def _run(
         ctx.exit(130)
     finally:
         work.close()
-    opened.told.append(deploying.FOLDER.at(Span(opened.network.path), path=opened.network.folder, reason=reason))
+    where = shown_path(opened.network.folder)
+    opened.told.append(deploying.FOLDER.at(Span(opened.network.path), path=where, reason=reason))
     _end(ctx, opened)
     raise AssertionError("a command that failed has ended")
 
 
+def _shown(opened: Opened, told: Diagnostic) -> Diagnostic:
+    """Engines know the document by its whole path, which is not how the user named it."""
+    if told.span.file != opened.network.path:
+        return told
+    return replace(told, span=replace(told.span, file=opened.path))
+
+
 def _end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = None, code: int = 0) -> None:
     """Tells what is wrong and ends the command: with 1 where one of it is an error."""
-    told = [*opened.told, *opened.engine.notes]
+    told = [_shown(opened, one) for one in (*opened.told, *opened.engine.notes)]
     if opened.format_ == "json":
         head: dict[str, object] = {"deployment": opened.network.name, "engine": opened.engine.name, **(data or {})}
         click.echo(dumps({**head, "diagnostics": [as_data(one) for one in told]}), nl=False)

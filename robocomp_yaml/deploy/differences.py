@@ -72,7 +72,7 @@ def _command(spec: Spec) -> str:
 
 
 def _variables(variables: tuple[Variable, ...]) -> dict[str, str]:
-    return {variable.name: f"{{from: {variable.source}}}" if variable.source else variable.value
+    return {variable.name: f"{{env: {variable.source}}}" if variable.source else variable.value
             for variable in variables}  # fmt: skip
 
 

@@ -58,7 +58,7 @@ async def until_ready(
             raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=watch.result()))
         raise DeployFailed(
             deploying.NOT_READY.at(
-                spec.process.span, name=spec.name, within=spec.process.ready.within, why=_why_not(spec, running)
+                spec.process.span, name=spec.name, within=f"{spec.process.ready.within:g}", why=_why_not(spec, running)
             )
         )
     finally:
@@ -77,6 +77,8 @@ async def _until_it_ends(spec: Spec, state: Callable[[], Awaitable[Running | Non
             tries = running.restarts if running else 0
             return f"{how}, after {tries} restarts" if tries else how or "it was stopped"
         if running.state == ENDED and _asks_for_something(spec):
+            # The sign may be its last line, which those who follow the log see a little later.
+            await asyncio.sleep(2 * _LONGEST if spec.process.ready.log else 0)
             return running.last_exit
         await asyncio.sleep(_LONGEST / 2)
 

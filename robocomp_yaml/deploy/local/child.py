@@ -8,6 +8,7 @@ import signal
 import subprocess
 from collections import deque
 from collections.abc import Collection
+from contextlib import suppress
 from typing import Any
 
 from robocomp_yaml.deploy.local import procfs
@@ -58,8 +59,7 @@ class Child:
             return
         root, self._is_stopping = self.pid, True
         try:
-            _signal_group(root, signal.SIGTERM)
-            _signal_group(root, signal.SIGCONT)  # one that was halted cannot end
+            self._ask_to_end(root, roots)
             deadline = self._loop.time() + within
             try:
                 await asyncio.wait_for(self._exited.wait(), within)
@@ -69,12 +69,21 @@ class Child:
                 if self._loop.time() > deadline + _AFTER_KILL:
                     raise TimeoutError
                 if self._loop.time() > deadline:
-                    _kill(members)
+                    _signal(members, signal.SIGKILL)
                 await asyncio.sleep(0.02)
             await asyncio.wait_for(self._exited.wait(), _AFTER_KILL)
         finally:
             self._is_stopping = False
         self._turn(STOPPED)
+
+    def _ask_to_end(self, root: int, roots: Collection[int]) -> None:
+        """Its group, and what has left that; one that was halted goes on, so that it can end."""
+        alive = procfs.table()
+        family = procfs.family(root, self.mark, os.getpid(), alive, roots)
+        for number in (signal.SIGTERM, signal.SIGCONT):
+            with suppress(ProcessLookupError):
+                os.killpg(root, number)
+            _signal([pid for pid in family if alive[pid].group != root], number)
 
     def members(self, root: int, roots: Collection[int]) -> set[int]:
         return procfs.family(root, self.mark, os.getpid(), procfs.table(), roots)
@@ -89,7 +98,7 @@ class Child:
         if self._is_stopping:
             self.log.say(f"stopped: {self.last_exit}")
             return
-        _kill(self.members(root, roots))
+        _signal(self.members(root, roots), signal.SIGKILL)
         self._after_end(is_failure=code != 0)
 
     def _after_end(self, *, is_failure: bool) -> None:
@@ -187,19 +196,10 @@ class Child:
         self.state, self.since = state, self._loop.time()
 
 
-def _signal_group(group: int, number: int) -> None:
-    try:
-        os.killpg(group, number)
-    except ProcessLookupError:
-        pass
-
-
-def _kill(members: Collection[int]) -> None:
+def _signal(members: Collection[int], number: int) -> None:
     for pid in members:
-        try:
-            os.kill(pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
+        with suppress(ProcessLookupError):
+            os.kill(pid, number)
 
 
 def _in_words(code: int) -> str:

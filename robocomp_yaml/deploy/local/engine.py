@@ -10,6 +10,7 @@ from functools import partial
 from typing import Any
 
 from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
 from robocomp_yaml.deploy.local import launch, record
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
@@ -145,7 +146,7 @@ class LocalEngine:
             raise DeployFailed(killed.as_severity(ERROR)) from error
 
     def _folder_failed(self, path: str, reason: str) -> DeployFailed:
-        return DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason.lower()))
+        return DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=shown_path(path), reason=reason.lower()))
 
 
 _DONE = {"start": "started", "stop": "stopped"}

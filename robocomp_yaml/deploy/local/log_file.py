@@ -48,18 +48,34 @@ class LogFile:
         stamp = time.strftime(f"%Y-%m-%dT%H:%M:%S.{int(now % 1 * 1000):03}Z ", time.gmtime(now)).encode()
         if self._lost:
             lines = [f"rcyaml: {self._lost} lines are missing here: they could not be written".encode(), *lines]
-        text = b"".join(stamp + line.rstrip(b"\r") + b"\n" for line in lines)
-        try:
-            self._open(len(text))
-            written = os.write(self._file, text)
-            if written < len(text):  # the disk is full: no half lines
-                os.ftruncate(self._file, self._size)
-                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-            self._size += written
-        except OSError:
-            self._lost += len(lines) - bool(self._lost)
-            return
-        self._lost = 0
+        texts = [stamp + line.rstrip(b"\r") + b"\n" for line in lines]
+        while texts:
+            count = self._fitting(texts)
+            try:
+                self._append(b"".join(texts[:count]))
+            except OSError:
+                self._lost += len(texts) - bool(self._lost)
+                return
+            self._lost = 0
+            texts = texts[count:]
+
+    def _fitting(self, texts: list[bytes]) -> int:
+        """How many of these go into one file, which is one at least."""
+        room, count = self.limit - self._size if self._file >= 0 else self.limit, 0
+        if room < len(texts[0]):
+            room = self.limit
+        while count < len(texts) and (room := room - len(texts[count])) >= 0:
+            count += 1
+        return max(count, 1)
+
+    def _append(self, text: bytes) -> None:
+        """Raises OSError, with nothing of it written."""
+        self._open(len(text))
+        written = os.write(self._file, text)
+        if written < len(text):  # the disk is full: no half lines
+            os.ftruncate(self._file, os.fstat(self._file).st_size - written)
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        self._size += written
 
     def _open(self, more: int) -> None:
         """Opens the file, or a new one where this text would make it too large."""

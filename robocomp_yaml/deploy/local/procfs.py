@@ -23,6 +23,7 @@ class Entry:
 
     pid: int
     parent: int
+    group: int
     session: int
     start: int
     cpu: float
@@ -40,8 +41,8 @@ def entry(pid: int) -> Entry | None:
     # The name, in parentheses, may hold anything.
     fields = text[text.rindex(b")") + 2 :].split()
     return Entry(
-        pid, int(fields[1]), int(fields[3]), int(fields[19]), (int(fields[11]) + int(fields[12])) / _TICKS,
-        fields[0] in (b"Z", b"X"),
+        pid, int(fields[1]), int(fields[2]), int(fields[3]), int(fields[19]),
+        (int(fields[11]) + int(fields[12])) / _TICKS, fields[0] in (b"Z", b"X"),
     )  # fmt: skip
 
 

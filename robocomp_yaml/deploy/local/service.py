@@ -49,13 +49,16 @@ class _Service:
         server = await asyncio.start_unix_server(
             self._talk, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
         )
-        record.write(self.folder, os.getppid())
+        keeper = os.getppid()
+        record.write(self.folder, keeper)
         await self._over.wait()
         server.close()
         stops = (self._stop(child, END_WITHIN) for child in self.children.values())
         await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
         for child in self.children.values():
             child.log.close()
+        if os.getppid() != keeper:  # it was killed, and cannot take leave for both
+            record.remove(self.folder)
 
     def _reap(self) -> None:
         """Takes the exit codes of all that ended: children, and what they left to us."""
@@ -79,23 +82,24 @@ class _Service:
             if not channel.is_ours(writer.get_extra_info("socket")):
                 return
             while line := await reader.readline():
-                task = asyncio.create_task(self._answer(json.loads(line), writer))
+                request = json.loads(line)
+                task = asyncio.create_task(self._answer(request["id"], _REQUESTS[request["do"]](self, request), writer))
                 tasks.add(task)
                 task.add_done_callback(tasks.discard)
-        except (ValueError, ConnectionError):
+        except (ValueError, LookupError, TypeError, ConnectionError):
             pass  # what talks like this is no client of ours
         finally:
             # What a client began is brought to its end, even where the client is gone.
             await asyncio.gather(*tasks)
             writer.close()
 
-    async def _answer(self, request: Request, writer: asyncio.StreamWriter) -> None:
+    async def _answer(self, number: int, work: Awaitable[Request], writer: asyncio.StreamWriter) -> None:
         try:
-            answer = await _REQUESTS[request["do"]](self, request)
+            answer = await work
         except OSError as error:
             answer = {"error": (error.strerror or "it does not end, even though it was killed").lower()}
         try:
-            writer.write(json.dumps({"id": request["id"], **answer}).encode() + b"\n")
+            writer.write(json.dumps({"id": number, **answer}).encode() + b"\n")
             await writer.drain()
         except ConnectionError:
             pass

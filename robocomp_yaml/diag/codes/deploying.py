@@ -56,7 +56,7 @@ REFUSED = Code(
 NOT_READY = Code(
     "RC7003",
     "error",
-    "'{name}' was not ready within {within:g} s: {why}",
+    "'{name}' was not ready within {within} s: {why}",
     "What depends on a process is started only when the process is ready: its interfaces answer a ping, or what "
     "`ready:` says holds. The last lines of its log, which are shown, often say what it waits for. A slow one needs "
     "more time: `ready: 60 s`.",
@@ -88,9 +88,9 @@ UNSET_VARIABLE = Code(
     "RC7006",
     "error",
     "'{name}' takes a variable from your environment that is not set: {variable}",
-    "`{from: NAME}` under `env:` gives a process the value that a variable has where `rcyaml deploy up` is called, so "
+    "`{env: NAME}` under `env:` gives a process the value that a variable has where `rcyaml deploy up` is called, so "
     "that a password need not stand in a document. Set it there.",
-    _one('program: "true"\nenv: {PASSWORD: {from: RCYAML_EXAMPLE_PASSWORD}}'),
+    _one('program: "true"\nenv: {PASSWORD: {env: RCYAML_EXAMPLE_PASSWORD}}'),
     _FINE,
     _UP,
 )

@@ -1,0 +1,347 @@
+"""What a deployment does when something of it fails: the rows of the table of faults in docs/deploying.md."""
+
+from __future__ import annotations
+
+import ast
+import os
+import shutil
+import signal
+import socket
+import subprocess
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from processes import Ports, until
+import robocomp_yaml.deploy
+from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy import operations
+from robocomp_yaml.deploy.carry_out import SKIPPED
+from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING
+from robocomp_yaml.deploy.local import channel, procfs
+from robocomp_yaml.network.network import NEVER, Endpoint, Process, Readiness, Restart, Variable
+from small_networks import Place, config_of, is_alive, listener, shell, sleeper
+
+FAILS = "echo about to fail; exit 3"
+ONCE = Restart(policy=NEVER)
+DEEP = "(setsid sh -c 'sleep 600 & sleep 600' &) ; sleep 600 & wait"
+
+
+def codes(result: operations.Result) -> list[str]:
+    return [found.code for found in result.diagnostics]
+
+
+# A process fails while the network comes up.
+
+
+def test_what_was_started_stops_and_the_log_is_shown(place: Place) -> None:
+    result = place.up(sleeper("a"), shell("b", FAILS, "a", restart=ONCE), sleeper("c", "b"))
+    assert codes(result) == ["RC7004"]
+    assert result.diagnostics[0].message == "'b' ended before it was ready: exit code 3"
+    assert "b | about to fail" in result.diagnostics[0].more.splitlines()
+    assert place.order(SKIPPED) == ["c"]
+    assert set(place.pids().values()) == {0}
+
+
+def test_what_ran_before_is_rolled_back_to(place: Place) -> None:
+    def network(value: str, last: Process) -> tuple[Process, ...]:
+        return (sleeper("a"), shell("b", 'cat "$0"; exec sleep 600', "a", config=config_of("b", f"x={value}\n")), last)
+
+    place.up(*network("1", sleeper("gone")))
+    before = place.pids()
+    result = place.up(*network("2", shell("c", FAILS, "b", restart=ONCE)), on_failure=operations.ROLL_BACK)
+    assert codes(result) == ["RC7004"]
+    after = place.pids()
+    assert after["a"] == before["a"] and after["b"] not in (0, before["b"])
+    assert place.log("b")[-1] == "x=1"
+    assert is_alive(after["gone"])
+    assert "c" not in after
+    assert place.up(*network("1", sleeper("gone"))).plan.is_empty
+
+
+def test_the_independent_go_on_where_that_is_wanted(place: Place) -> None:
+    result = place.up(
+        shell("a", FAILS, restart=ONCE), sleeper("b", "a"), sleeper("c"), on_failure=operations.KEEP_GOING
+    )
+    assert codes(result) == ["RC7004"] and result.outcome.skipped == ["b"]
+    assert {name for name, pid in place.pids().items() if pid} == {"c"}
+
+
+def test_one_that_is_never_ready(place: Place, free_port: Ports) -> None:
+    result = place.up(sleeper("a", ready=Readiness(port=free_port(), within=0.3)))
+    assert codes(result) == ["RC7003"]
+    assert "nothing listens on port" in result.diagnostics[0].message
+
+
+def test_a_port_that_another_program_has(place: Place, free_port: Ports) -> None:
+    port = free_port()
+    with socket.create_server(("127.0.0.1", port)):
+        served = listener("a", port, endpoints=(Endpoint("Laser", "laser", port, f"tcp -p {port}"),))
+        result = place.up(sleeper("b"), served)
+    assert codes(result) == ["RC7001"]
+    assert f"(pid {os.getpid()})" in result.diagnostics[0].message
+    assert place.pids() == {}  # nothing at all was started
+    assert not place.up(sleeper("b"), served).diagnostics
+    changed = replace(served, env=(Variable("X", "1"),))
+    assert not place.up(sleeper("b"), changed).diagnostics  # its own port is not in its own way
+
+
+@pytest.mark.parametrize(
+    ("command", "reason"),
+    [
+        (("no-such-program",), "no program 'no-such-program' is in the PATH"),
+        (("/no/such/file",), "there is no file '/no/such/file'"),
+        (("/etc/passwd",), "'/etc/passwd' is no program that may be run"),
+    ],
+)
+def test_a_program_that_cannot_be_run(place: Place, command: tuple[str, ...], reason: str) -> None:
+    result = place.up(sleeper("b"), replace(sleeper("a"), command=command))
+    assert [found.message for found in result.diagnostics] == [f"'a' cannot be started: {reason}"]
+    assert place.pids() == {}
+
+
+def test_a_file_that_is_no_program_after_all(place: Place) -> None:
+    program = place.root / "program"
+    program.write_bytes(b"\x7fELF, but not really")
+    program.chmod(0o755)
+    result = place.up(replace(sleeper("a"), command=(str(program),)))
+    assert [found.message for found in result.diagnostics] == ["'a' cannot be started: exec format error"]
+
+
+# A process ends while the network runs.
+
+
+def test_one_that_crashes_is_started_again(place: Place) -> None:
+    place.up(sleeper("a"), sleeper("b", "a"))
+    before = place.pids()
+    os.kill(before["a"], signal.SIGKILL)
+    until(lambda: place.pids()["a"] not in (0, before["a"]), "a is back")
+    running = place.observe()["a"]
+    assert (running.restarts, running.last_exit) == (1, "SIGKILL")
+    assert place.pids()["b"] == before["b"]
+    assert "rcyaml: ended by itself: SIGKILL; starting again in 0.1 s" in place.log("a")
+
+
+def test_a_crash_loop_is_given_up(place: Place) -> None:
+    short = Restart(delay=0.01, longest=0.02, tries=3)
+    result = place.up(shell("a", FAILS, restart=short))
+    assert codes(result) == ["RC7004"]
+    assert result.diagnostics[0].message == "'a' ended before it was ready: exit code 3, after 3 restarts"
+    assert place.log("a").count("about to fail") == 4
+    assert place.log("a")[-1] == "rcyaml: given up: it ended 4 times within 60 s, the last time with exit code 3"
+
+
+def test_one_that_was_given_up_starts_with_the_next_up(place: Place) -> None:
+    flag = place.root / "broken"
+    flag.touch()
+    flaky = shell("a", f"[ -e {flag} ] && exit 1; exec sleep 600", restart=ONCE)
+    place.up(flaky, sleeper("b"), on_failure=operations.KEEP_GOING)
+    place.wait_for_state("a", GIVEN_UP)
+    flag.unlink()
+    result = place.up(flaky, sleeper("b"))
+    assert result.plan.steps["a"].reason == "it was given up: exit code 1"
+    assert place.observe()["a"].state == RUNNING
+
+
+def test_a_program_that_vanishes_between_two_runs(place: Place) -> None:
+    program = place.root / "program"
+    program.symlink_to("/bin/sleep")
+    place.up(replace(sleeper("a", restart=Restart(delay=0.01, tries=2)), command=(str(program), "600")))
+    program.unlink()
+    os.kill(place.pids()["a"], signal.SIGKILL)
+    assert place.wait_for_state("a", GIVEN_UP).last_exit == "no such file or directory"
+
+
+def test_one_that_will_not_end_is_killed(place: Place) -> None:
+    place.up(shell("a", "trap '' TERM; while :; do sleep 0.05; done"))
+    pid = place.pids()["a"]
+
+    async def stop(engine: operations.Engine) -> None:
+        await engine.stop("a", 0.2)
+
+    place.run(stop)
+    assert not is_alive(pid)
+    assert "rcyaml: did not end within 0.2 s: killed" in place.log("a")
+
+
+# No orphans, whoever is killed.
+
+
+def family(place: Place) -> set[int]:
+    """Everything of the deployment that is alive, also what has left its session and lost its parent."""
+    return {pid for pid in procfs.marked(place.folder) if is_alive(pid)}
+
+
+def deep_family(place: Place, count: int) -> set[int]:
+    until(lambda: len(family(place)) >= count, lambda: f"{count} processes, of which there are {family(place)}")
+    return family(place)
+
+
+def test_what_a_process_started_ends_with_it(place: Place) -> None:
+    place.up(shell("a", DEEP, restart=ONCE), sleeper("b"))
+    deep_family(place, 2 + 1 + 5)
+    b = place.pids()["b"]
+    os.kill(place.pids()["a"], signal.SIGKILL)
+    until(lambda: family(place) <= {b, *place.keeper_and_supervisor()}, lambda: f"{family(place)}")
+
+
+def test_down_ends_what_left_its_session(place: Place) -> None:
+    place.up(shell("a", DEEP))
+    deep_family(place, 2 + 5)
+    place.down()
+    place.wait_gone()
+
+
+def test_the_supervisor_is_killed(place: Place) -> None:
+    network = (shell("a", DEEP), sleeper("b", "a"))
+    place.up(*network)
+    deep_family(place, 2 + 6)
+    os.kill(place.keeper_and_supervisor()[1], signal.SIGKILL)
+    place.wait_gone()
+    result = place.up(*network)
+    assert not result.diagnostics and place.observe()["b"].state == RUNNING
+
+
+def test_the_keeper_is_killed(place: Place) -> None:
+    """The supervisor and all that it runs go on."""
+    place.up(shell("a", DEEP))
+    before = place.pids()
+    os.kill(place.keeper_and_supervisor()[0], signal.SIGKILL)
+    assert place.pids() == before
+    place.down()
+    place.wait_gone()
+
+
+def test_both_are_killed_at_once(place: Place) -> None:
+    network = (shell("a", DEEP), sleeper("b"))
+    place.up(*network)
+    deep_family(place, 2 + 6)
+    children = place.pids()
+    for pid in place.keeper_and_supervisor():
+        os.kill(pid, signal.SIGKILL)
+    until(lambda: not any(map(is_alive, children.values())), "the children die with it")
+    assert place.observe() == {}  # this looks, finds what is left of `a`, and ends it
+    place.wait_gone()
+    assert not place.up(*network).diagnostics
+
+
+def test_the_folder_is_deleted_while_it_runs(place: Place) -> None:
+    """What runs cannot be asked any more: the next `up` ends it and starts anew, and nothing runs twice."""
+    place.up(sleeper("a"))
+    old = family(place)
+    shutil.rmtree(place.folder)
+    assert not place.up(sleeper("a")).diagnostics
+    until(lambda: not any(map(is_alive, old)), "the old ones are gone")
+    assert len(family(place)) == 3
+
+
+def test_a_signal_to_the_supervisor_takes_all_down(place: Place) -> None:
+    place.up(shell("a", DEEP), sleeper("b"))
+    os.kill(place.keeper_and_supervisor()[0], signal.SIGTERM)
+    place.wait_gone()
+    assert place.observe() == {}
+
+
+# Secrets, logs, clocks.
+
+
+def test_a_secret_is_nowhere(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    secret = "correct-horse-battery"
+    monkeypatch.setenv("ROBOT_TOKEN", secret)
+    token = Variable("TOKEN", source="ROBOT_TOKEN")
+    said = shell("a", 'printf "%s" "$TOKEN" | wc -c; exec sleep 600', env=(token,))
+    place.up(said)
+    until(lambda: str(len(secret)) in [line.strip() for line in place.log("a")], "it has got it")
+    files = [path for path in Path(place.folder).rglob("*") if path.is_file()]
+    assert files and not [path for path in files if secret.encode() in path.read_bytes()]
+    assert secret not in subprocess.run(["ps", "-ef"], capture_output=True, text=True, check=True).stdout
+    assert secret not in repr(place.observe()) + repr(place.events)
+
+
+def test_a_variable_that_is_not_set(place: Place) -> None:
+    result = place.up(sleeper("a", env=(Variable("TOKEN", source="RCYAML_TEST_NOT_SET"),)))
+    assert codes(result) == ["RC7006"] and place.pids() == {}
+
+
+def test_a_secret_that_changes_is_not_shown(place: Place) -> None:
+    def network(value: str) -> Process:
+        return sleeper("a", config=config_of("a", f"mail.password={value}\nx=1\n"))
+
+    place.up(network("hunter2"))
+    result = place.up(network("hunter3"))
+    assert result.plan.steps["a"].reason == "config mail.password: (hidden) → (hidden)"
+
+
+def test_a_log_of_limited_size(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("RCYAML_LOG_LIMIT", "20000")
+    count = 2000
+    place.up(shell("a", f"i=0; while [ $i -lt {count} ]; do echo line $i; i=$((i+1)); done; exec sleep 600"))
+    until(lambda: place.log("a", 1)[-1] == f"line {count - 1}", "the last line")
+    logs = Path(place.folder, "logs")
+    assert sorted(path.name for path in logs.iterdir()) == ["a.log", "a.log.1"]
+    assert all(path.stat().st_size <= 20000 for path in logs.iterdir())
+    last = place.log("a", 500)
+    assert last == [f"line {number}" for number in range(count - len(last), count)] and len(last) == 500
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    done = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=256k", "tmpfs", str(disk)], capture_output=True)
+    if done.returncode:
+        pytest.skip("only root may mount a small disk")
+    yield disk
+    subprocess.run(["umount", "-l", str(disk)], check=True)
+
+
+def test_a_full_disk(place: Place, small_disk: Path, tmp_path: Path) -> None:
+    """Lines are lost, and that is said once there is room again; the process does not notice."""
+    place.root = small_disk
+    talk = "i=0; while [ $i -lt 4000 ]; do echo $i a line that takes room on the disk, as lines do; i=$((i+1)); done"
+    wait = f"touch {tmp_path}/full; while [ ! -e {tmp_path}/go ]; do sleep 0.02; done"
+    (small_disk / "ballast").write_bytes(bytes(150_000))
+    place.up(shell("a", f"{talk}; {wait}; echo there is room; exec sleep 600"))
+    until((tmp_path / "full").exists, "it goes on though nothing can be written")
+    assert place.observe()["a"].restarts == 0
+    (small_disk / "ballast").unlink()
+    (tmp_path / "go").touch()
+    until(lambda: "there is room" in place.log("a"), "what it says then")
+    assert any(line.startswith("rcyaml: ") and line.endswith("they could not be written") for line in place.log("a"))
+
+
+def test_only_logs_know_what_time_it_is() -> None:
+    """Clocks are set while robots run: what waits or measures goes by a clock that nobody sets."""
+    folder = Path(robocomp_yaml.deploy.__file__).parent
+    users = {
+        path.name
+        for path in folder.rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Attribute) and ast.unparse(node) in ("time.time", "datetime.now", "datetime.datetime.now")
+    }
+    assert users == {"log_file.py"}
+
+
+def test_the_supervisor_is_small(place: Place) -> None:
+    place.up(*(sleeper(f"p{number}") for number in range(10)))
+    used = procfs.memory(place.keeper_and_supervisor())
+    assert used < 40 << 20, f"{used >> 20} MiB"
+
+
+def test_two_at_once(place: Place) -> None:
+    with own_folder.locked(place.folder) as first, own_folder.locked(place.folder, patience=0.05) as second:
+        assert first and not second
+
+
+def test_what_talks_nonsense_to_the_socket_harms_nothing(place: Place) -> None:
+    place.up(sleeper("a"))
+    before = place.pids()
+    for text in (b"\n", b"{}\n", b"GET / HTTP/1.1\r\n\r\n", b'{"id": 1, "do": "nothing"}\n', b"[]\n"):
+        connection = channel.connect(f"{place.folder}/state")
+        assert connection
+        with connection:
+            connection.setblocking(True)
+            connection.sendall(text)
+    assert place.pids() == before
