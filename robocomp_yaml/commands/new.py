@@ -1,8 +1,8 @@
-"""`rcyaml new interface|component|parameters`: a document that already checks and compiles, where its kind belongs.
+"""`rcyaml new interface|component|parameters|deployment`: a document that already checks and compiles, where its kind belongs.
 
 An interface goes to the workspace's first folder of interfaces, a component to `components/` and a folder of its own,
-which bears its name in lower case; parameters go beside their component. Where there is no workspace yet, this folder
-becomes one.
+which bears its name in lower case; parameters go beside their component, a deployment to `deployments/`. Where there is
+no workspace yet, this folder becomes one.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class NewDocument:
     text: str
 
 
-@click.group(short_help="Write a new interface, component or parameters document.")
+@click.group(short_help="Write a new interface, component, parameters or deployment document.")
 def command() -> None:
     """Write a new document that already checks and compiles, commented as a tutorial.
 
@@ -106,6 +106,22 @@ def parameters(ctx: click.Context, name: str) -> None:
     _create(ctx, lambda root: parameters_document(root, name))
 
 
+@command.command(short_help="A new deployment document.")
+@click.argument("name")
+@click.pass_context
+def deployment(ctx: click.Context, name: str) -> None:
+    """Write deployments/NAME.ddsl.yaml (in lower case): the components of the workspace, on this machine."""
+    _create(ctx, lambda root: deployment_document(root, name), "deploy plan")
+
+
+def deployment_document(root: Path, name: str) -> NewDocument:
+    from robocomp_yaml.commands import new_deployment
+
+    _refuse_odd(name)
+    path, text = new_deployment.deployment_document(root, name)
+    return NewDocument(_free(path), text)
+
+
 def parameters_document(root: Path, name: str) -> NewDocument:
     from robocomp_yaml.commands import new_parameters
 
@@ -152,7 +168,7 @@ def write(ctx: click.Context, document: NewDocument) -> None:
     _workspace.tell(ctx, "wrote", document.path)
 
 
-def _create(ctx: click.Context, make: Callable[[Path], NewDocument]) -> None:
+def _create(ctx: click.Context, make: Callable[[Path], NewDocument], next_: str = "compile") -> None:
     from robocomp_yaml.source import workspace_files
 
     root = _root()
@@ -167,7 +183,7 @@ def _create(ctx: click.Context, make: Callable[[Path], NewDocument]) -> None:
     except OSError as error:
         raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
-        click.echo(f"next: rcyaml compile {document.path}")
+        click.echo(f"next: rcyaml {next_} {document.path}")
 
 
 def _root() -> Path | None:

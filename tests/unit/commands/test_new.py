@@ -1,4 +1,4 @@
-"""`rcyaml new interface` and `rcyaml new component`."""
+"""`rcyaml new interface`, `rcyaml new component` and `rcyaml new deployment`."""
 
 from __future__ import annotations
 
@@ -101,9 +101,55 @@ def test_an_ambiguous_interface_wants_its_module(rcyaml: Run, workspace: Path) -
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
 
 
+def components_of(root: Path) -> str:
+    """What stands under `components:` of the new deployment."""
+    text = (root / "deployments/head.ddsl.yaml").read_text()
+    return text.partition("\ncomponents:\n")[2].partition("\n\n")[0]
+
+
+def errors(said: Result) -> list[str]:
+    return [line for line in said.stdout.splitlines() if line.startswith("error")]
+
+
+def test_a_new_deployment_has_the_workspaces_components(rcyaml: Run, workspace: Path) -> None:
+    rcyaml("new", "component", "TalkComp", "--implements", "Speech", "--subscribes", "SpeechEvents")
+    rcyaml("new", "component", "Listener", "--requires", "Speech", "--publishes", "SpeechEvents")
+    said = rcyaml("new", "deployment", "Head")
+    assert said.stdout.splitlines()[-1] == "next: rcyaml deploy plan deployments/head.ddsl.yaml"
+    assert components_of(workspace).splitlines() == [
+        "  listener:", "    component: ../components/listener/listener.cdsl.yaml",
+        "  talk:", "    component: ../components/talkcomp/talkcomp.cdsl.yaml",
+    ]
+    assert "storm: {icestorm: }" in (workspace / "deployments/head.ddsl.yaml").read_text()
+    assert rcyaml("compile").exit_code == 0
+    assert rcyaml("check").stdout == "4 documents: nothing wrong\n"
+
+
+def test_a_new_deployment_says_what_does_not_follow_by_itself(rcyaml: Run, workspace: Path) -> None:
+    for name in ("TalkComp", "Talk2", "talk"):
+        rcyaml("new", "component", name, "--implements", "Speech")
+    rcyaml("new", "component", "Listener", "--requires", "Speech")
+    rcyaml("new", "deployment", "Head")
+    assert "      Speech: talk  # or talk2, talk3" in components_of(workspace).splitlines()
+    assert errors(rcyaml("check")) == []
+
+
+def test_a_new_deployment_asks_where_is_what_nobody_implements(rcyaml: Run, workspace: Path) -> None:
+    rcyaml("new", "component", "Listener", "--requires", "Speech")
+    rcyaml("new", "deployment", "Head")
+    assert '      Speech: "speech:tcp -h localhost -p 10000"  # no component' in components_of(workspace)
+    assert errors(rcyaml("check")) == []
+
+
+def test_a_new_deployment_of_nothing_checks(rcyaml: Run, tmp_path: Path) -> None:
+    assert rcyaml("new", "deployment", "Head").exit_code == 0
+    assert rcyaml("check").stdout == "1 document: nothing wrong\n"
+
+
 @pytest.mark.parametrize(
     ("args", "reason"),
     [
+        (["deployment", "../Head"], "cannot be a name"),
         (["interface", "../Speech"], "cannot be a name"),
         (["interface", "a/b"], "cannot be a name"),
         (["interface", "Sprache-1"], "cannot be a name"),

@@ -1,0 +1,96 @@
+"""The document that `rcyaml new deployment` writes: the components of the workspace, each of them once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from robocomp_yaml.link.program import LinkedComponent, Port
+
+_SUFFIX = "comp"
+
+
+@dataclass(frozen=True, slots=True)
+class DeploymentView:
+    modeline: str
+    name: str
+    rows: list[str]
+    has_topics: bool
+    has_components: bool
+
+
+def deployment_document(root: Path, name: str) -> tuple[Path, str]:
+    """Path and text: in the workspace's folder of deployments."""
+    from robocomp_yaml.emit.render import render
+    from robocomp_yaml.source.workspace_files import modeline
+
+    path = root / "deployments" / f"{name.lower()}.ddsl.yaml"
+    components = _components(root)
+    names = _names(components)
+    rows = [row for linked in components for row in _entry(linked, path, names, components)]
+    has_topics = any(linked.component.publishes or linked.component.subscribes for linked in components)
+    view = DeploymentView(modeline("ddsl", path, root), name, rows, has_topics, bool(components))
+    return path, render("new/deployment.ddsl.yaml.j2", view)
+
+
+def _components(root: Path) -> list[LinkedComponent]:
+    """The components of a workspace that have no errors, in the order of their paths."""
+    from robocomp_yaml.link.documents import Documents
+    from robocomp_yaml.link.linker import Linker
+    from robocomp_yaml.link.workspace import Search
+    from robocomp_yaml.pipeline import search_folders
+    from robocomp_yaml.source.discover import documents_below, kind_of
+
+    paths = [path for path in documents_below(str(root)) if kind_of(path) == "cdsl"]
+    program = Linker(Documents(), Search(search_folders(()))).link(paths)
+    sound = (linked for linked in program.components.values() if not linked.broken)
+    return sorted(sound, key=lambda linked: linked.component.path)
+
+
+def _names(components: Sequence[LinkedComponent]) -> dict[int, str]:
+    """A name of its own for each, by what the component is called: SpeechComp is `speech`."""
+    names: dict[int, str] = {}
+    for linked in components:
+        plain = linked.component.name.lower()
+        plain = plain.removesuffix(_SUFFIX) or plain
+        taken = set(names.values())
+        numbered = (f"{plain}{number}" for number in range(2, len(components) + 2))
+        names[id(linked)] = plain if plain not in taken else next(n for n in numbered if n not in taken)
+    return names
+
+
+def _entry(
+    linked: LinkedComponent, path: Path, names: dict[int, str], components: Sequence[LinkedComponent]
+) -> Iterator[str]:
+    document = Path(os.path.relpath(linked.component.path, path.parent)).as_posix()
+    yield f"  {names[id(linked)]}:"
+    yield f"    component: {document}"
+    connect = list(_connections(linked, names, components))
+    if connect:
+        yield "    connect:"
+        yield from connect
+
+
+def _connections(
+    linked: LinkedComponent, names: dict[int, str], components: Sequence[LinkedComponent]
+) -> Iterator[str]:
+    """What has to be said: who serves it where several do, and where it is where nobody does."""
+    for port in linked.requires:
+        serving = [other for other in components if other is not linked for p in other.implements if _equal(p, port)]
+        if len(serving) == 1:
+            continue
+        if serving:
+            others = ", ".join(dict.fromkeys(names[id(other)] for other in serving[1:]))
+            yield f"      {port.name}: {names[id(serving[0])]}  # or {others}"
+        else:
+            where = f'"{port.interface.name.lower()}:tcp -h localhost -p 10000"'
+            yield f"      {port.name}: {where}  # no component here implements it: where is it?"
+
+
+def _equal(port: Port, other: Port) -> bool:
+    mine, theirs = (port.scope.module.name, port.interface.name), (other.scope.module.name, other.interface.name)
+    return mine == theirs
