@@ -58,11 +58,8 @@ class Connections:
         offers, behind = self._named(draft, pair)
         if offers is None:
             return
-        if behind:
-            offers = [offer for offer in offers if behind in (offer.adapter, offer.interface)] or offers
-        fitting = [offer for offer in offers if offer.interface == interface]
-        if port is None and behind:
-            fitting = [offer for offer in offers if behind in (offer.adapter, offer.interface)]
+        named = [offer for offer in offers if not behind or behind in (offer.adapter, offer.interface)]
+        fitting = [offer for offer in named if offer.interface == interface or (port is None and behind)]
         equal = [offer for offer in fitting if port is None or self._is_equal(port, offer)]
         exact = [offer for offer in equal if offer.adapter in (behind, pair.name)]
         if len(equal) > 1 and len(exact) == 1:

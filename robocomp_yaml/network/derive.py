@@ -45,15 +45,17 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
     topics.resolve()
     network.connections = [*connections.found, *topics.found]
     diagnostics = [*endpoint_faults(drafts), *rule_faults(linked), *connections.diagnostics, *topics.diagnostics]
+    needs = [*_said(drafts), *connections.needs, *topics.needs]
+    wanted = {need.target for need in needs}
     for storm in drafts.storms.values():
-        network.processes[storm.name] = processes.of_storm(storm, folder)
+        network.processes[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in wanted)
     known: dict[str, tuple[str, ...]] = {}
     for draft in drafts.drafts.values():
         configuration = Configuration(draft, base(draft))
         configuration.make()
         diagnostics += configuration.diagnostics
         network.processes[draft.name] = processes.of_draft(draft, configuration.text, known)
-    diagnostics += _put_in_order(network, [*_said(drafts), *connections.needs, *topics.needs])
+    diagnostics += _put_in_order(network, needs)
     return network, diagnostics
 
 

@@ -20,8 +20,12 @@ def is_loopback(address: str) -> bool:
 
 
 def listening(host: Host, number: int) -> str:
-    """Where an adapter listens: on a machine that others reach, on all its interfaces."""
-    return f"tcp -h {spelled_host(host.address)} -p {number}" if is_loopback(host.address) else f"tcp -p {number}"
+    """Where an adapter listens: on a machine that others reach, on all its interfaces. `localhost` may also mean ::1,
+    which a machine without IPv6 cannot listen on."""
+    if not is_loopback(host.address):
+        return f"tcp -p {number}"
+    address = "127.0.0.1" if host.address == LOOPBACK else host.address
+    return f"tcp -h {spelled_host(address)} -p {number}"
 
 
 @dataclass(eq=False, slots=True)

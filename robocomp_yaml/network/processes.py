@@ -125,8 +125,8 @@ def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple
     return known[folder]
 
 
-def of_storm(storm: StormDraft, folder: str) -> Process:
-    """IceStorm in icebox, with its database in the deployment's own folder."""
+def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
+    """IceStorm in icebox, with its database in the deployment's own folder; not `enabled` where nobody needs it."""
     database = f"{folder}/state/{storm.name}"
     manager, publish = storm.endpoints()
     settings = {
@@ -145,5 +145,6 @@ def of_storm(storm: StormDraft, folder: str) -> Process:
         endpoints=(manager, publish),
         ready=Readiness(pings=(storm.proxy,)),
         folders=(database,),
+        enabled=enabled,
         span=storm.span,
     )

@@ -1,0 +1,74 @@
+"""The order in which processes start: waves behind what they need, and circles broken where someone can wait."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.network.order import AFTER, Need, ordered
+
+Arrow = tuple[str, str, str]
+
+
+def needs(*arrows: Arrow) -> list[Need]:
+    """`("a", "b", "wait")`: a needs b; `after` is what the document says."""
+    return [
+        Need(source, target, "" if how == AFTER else how, AFTER if how == AFTER else "Proxy", Span("x", number + 1))
+        for number, (source, target, how) in enumerate(arrows)
+    ]
+
+
+def test_each_stands_behind_all_that_it_needs() -> None:
+    arrows = [("a", "b", "wait"), ("b", "c", "fail"), ("a", "d", AFTER), ("e", "c", "ignore")]
+    waves, after, told = ordered("abcdef", needs(*arrows))
+    assert waves == [("c", "d", "f"), ("b", "e"), ("a",)] and not told
+    assert after["a"] == ("b", "d")
+
+
+@pytest.mark.parametrize(("arrows", "first"), [
+    ([("a", "b", "wait"), ("b", "a", "wait")], "a"),
+    ([("a", "b", "wait"), ("b", "a", "ignore")], "b"),
+    ([("a", "b", "fail"), ("b", "a", "wait")], "b"),
+    ([("a", "b", AFTER), ("b", "a", "wait")], "b"),
+    ([("a", "b", "wait"), ("a", "b", "fail"), ("b", "a", "wait")], "b"),
+    ([("a", "b", "fail"), ("b", "c", "fail"), ("c", "a", "wait")], "c"),
+])
+def test_in_a_circle_one_that_can_wait_starts_first(arrows: list[Arrow], first: str) -> None:
+    waves, _, (told,) = ordered("abc", needs(*arrows))
+    assert first in waves[0] and (told.code, told.severity) == ("RC4401", "warning")
+    assert f"'{first}' starts before" in told.message
+    circle = told.message.removeprefix("these need each other: ").partition(";")[0].split(" → ")
+    assert circle[0] == circle[-1] == first and len(circle) == len(set(circle)) + 1
+
+
+@pytest.mark.parametrize("how", ["fail", AFTER])
+def test_a_circle_in_which_nobody_can_wait(how: str) -> None:
+    _, _, (told,) = ordered("ab", needs(("a", "b", how), ("b", "a", how)))
+    assert (told.code, told.severity) == ("RC4402", "error")
+
+
+def test_one_that_needs_itself() -> None:
+    waves, after, (told,) = ordered("a", needs(("a", "a", AFTER)))
+    assert waves == [("a",)] and after == {"a": ()} and told.code == "RC4402"
+
+
+def test_what_is_not_enabled_is_nobodys_concern() -> None:
+    assert ordered("a", needs(("a", "b", "wait"))) == ([("a",)], {"a": ()}, [])
+
+
+names = st.sampled_from("abcdefgh")
+
+
+@given(st.lists(st.tuples(names, names, st.sampled_from(["wait", "fail", "ignore", "after"])), max_size=30))
+def test_every_graph_is_ordered(arrows: list[Arrow]) -> None:
+    waves, after, told = ordered("abcdefgh", needs(*arrows))
+    wave = {name: number for number, names in enumerate(waves) for name in names}
+    assert sorted(wave) == list("abcdefgh")
+    assert all(wave[target] < wave[source] for source, targets in after.items() for target in targets)
+    assert all(not targets or any(wave[t] == wave[name] - 1 for t in targets) for name, targets in after.items())
+    kept = {(source, target) for source, targets in after.items() for target in targets}
+    dropped = {(source, target) for source, target, _ in arrows} - kept
+    assert bool(dropped) == bool(told)
+    assert ordered("abcdefgh", needs(*arrows)) == (waves, after, told)

@@ -1,0 +1,105 @@
+"""Topics of a network: names after renames and prefixes, their IceStorm, and the other end."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from deployments import FACE, component, config, deployed, faults, network, said
+
+from robocomp_yaml.network.network import ICESTORM, TOPIC, Network
+
+STORM = "services: {storm: {icestorm: {}}}\n"
+BOTH = "components:\n  ears: {component: ears}\n  mind: {component: mind}\n"
+EARS, MIND = "publishes: [Heard]\n", "subscribes: [Heard]\n"
+ENDS = {"ears": EARS, "mind": MIND}
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def lines(found: Network) -> set[tuple[str, str, str, bool]]:
+    return {(line.source, line.target, line.topic, line.is_out) for line in found.connections if line.kind == TOPIC}
+
+
+def test_both_ends_meet_in_the_storm() -> None:
+    found = network(deployed(STORM + BOTH, **ENDS))
+    assert lines(found) == {("ears", "storm", "Heard", True), ("mind", "storm", "Heard", False)}
+    assert found.order == [("storm",), ("ears", "mind")]
+    manager = "IceStorm/TopicManager:tcp -h localhost -p 9999"
+    assert config(found.processes["ears"])["TopicManager.Proxy"] == manager
+    assert config(found.processes["mind"])["HeardTopic.Endpoints"] == "tcp -h 127.0.0.1 -p 0"
+
+
+def test_the_storm_is_a_process() -> None:
+    found = network(deployed("services: {storm: {icestorm: {port: 9998}}}\n" + BOTH, **ENDS))
+    storm = found.processes["storm"]
+    assert (storm.kind, storm.command) == (ICESTORM, ("icebox", "--Ice.Config={config}"))
+    assert storm.folders == (f"{found.folder}/state/storm",)
+    assert storm.ready.pings == ("IceStorm/TopicManager:tcp -h localhost -p 9998",)
+    settings = config(storm)
+    assert settings["IceStorm.TopicManager.Endpoints"] == "tcp -h 127.0.0.1 -p 9998"
+    assert settings["IceStorm.LMDB.Path"] == storm.folders[0]
+
+
+def test_a_storm_that_nobody_needs_is_not_started() -> None:
+    found = network(deployed(STORM + "components: {mouth: {component: mouth}}\n"))
+    assert not found.processes["storm"].enabled and found.order == [("mouth",)]
+
+
+def test_a_rename_takes_the_prefix_away() -> None:
+    values = "component: ../ears.cdsl.yaml\ntopics: {prefix: {HeardPub: left}, name: {Heard: Words}}\n"
+    files = deployed(STORM + BOTH, **ENDS, **{"ears/etc/config.yaml": values})
+    (kept,) = faults(files)  # nobody publishes `Heard` any more
+    assert kept.code == "RC4210" and kept.hint == "it is published as left/Words: `topics: {Heard: left/Words}`"
+    both = BOTH.replace("}", ", topics: {Heard: all/heard}}")
+    found = network({**files, "robot.ddsl.yaml": f"deployment: Robot\n{STORM}{both}"})
+    assert {topic for _, _, topic, _ in lines(found)} == {"all/heard"}
+    settings = config(found.processes["ears"])
+    assert settings["Heard"] == "all/heard" and "Proxies.HeardPubPrefix" not in settings
+
+
+def test_a_topic_without_a_storm() -> None:
+    found = faults(deployed(BOTH, **ENDS))
+    assert [said(fault) for fault in found] == [
+        ("RC4208", "robot.ddsl.yaml", 3, 3), ("RC4208", "robot.ddsl.yaml", 4, 3)
+    ]
+    assert found[0].hint == "add an IceStorm: `services: {storm: {icestorm: {}}}`"
+    assert found[1].related[0].span.file == "mind/mind.cdsl.yaml"
+
+
+def test_a_storm_outside_that_the_configuration_names() -> None:
+    manager = "IceStorm/TopicManager:tcp -h 10.0.0.9 -p 9999"
+    values = f'component: ../NAME.cdsl.yaml\ntopics: {{manager: "{manager}"}}\n'
+    files = {f"{name}/etc/config.yaml": values.replace("NAME", name) for name in ENDS}
+    found = network(deployed(BOTH, **ENDS, **files))
+    assert lines(found) == {("ears", "", "Heard", True), ("mind", "", "Heard", False)}
+    assert config(found.processes["mind"])["TopicManager.Proxy"] == manager
+
+
+def test_several_storms() -> None:
+    two = "services: {a: {icestorm: {}}, b: {icestorm: {port: 9998}}}\n"
+    assert {fault.code for fault in faults(deployed(two + BOTH, **ENDS))} == {"RC4209"}
+
+
+def test_the_storm_of_ones_own_host() -> None:
+    text = "hosts: {l: 10.0.0.2, r: 10.0.0.3}\nservices: {a: {icestorm: {host: l}}, b: {icestorm: {host: r}}}\n"
+    found = network(deployed(text + "components: {ears: {component: ears, host: r}}\n", ears=EARS))
+    assert lines(found) == {("ears", "b", "Heard", True)}
+    assert found.processes["b"].endpoints[0].text == "tcp -p 9999"
+
+
+def test_nobody_publishes_it() -> None:
+    (found,) = faults(deployed(STORM + "components: {mind: {component: mind}}\n", mind=MIND))
+    assert said(found) == ("RC4210", "robot.ddsl.yaml", 3, 14) and found.severity == "warning"
+    assert found.hint == "add the component that publishes it"
+
+
+def test_both_ends_must_mean_the_same() -> None:
+    other = FACE.replace("word: {in: {text: string", "word: {in: {text: int")
+    files = deployed(STORM + BOTH, **ENDS, **{"Other.idsl.yaml": other})
+    (found,) = faults({**files, "mind/mind.cdsl.yaml": component("MindComp", MIND, "Other")})
+    assert said(found) == ("RC4211", "robot.ddsl.yaml", 5, 3)
+    assert found.message.endswith("by the topic Heard: 'text' of 'word' is string, and int")
