@@ -12,6 +12,38 @@ namespace
 
 constexpr long double largestFloat = 3.4028234663852886e38L;
 
+/// A text in quotes, on one line.
+std::string quoted(const std::string& text)
+{
+    std::string said = "'";
+    for (const char c : text)
+    {
+        const auto code = static_cast<unsigned char>(c);
+        const auto digits = "0123456789abcdef";
+        said += c == '\n' ? "\\n"
+            : c == '\t' ? "\\t"
+            : c == '\r' ? "\\r"
+            : code < 32 || code == 127 ? std::string("\\x") + digits[code / 16] + digits[code % 16]
+            : std::string(1, c);
+    }
+    return said + "'";
+}
+
+/// At most 60 bytes, of whole characters.
+std::string shortened(const std::string& said)
+{
+    if (said.size() <= 60)
+    {
+        return said;
+    }
+    std::size_t end = 57;
+    while (end > 0 && (static_cast<unsigned char>(said[end]) & 0xC0) == 0x80)
+    {
+        --end;
+    }
+    return said.substr(0, end) + "...";
+}
+
 /// A value for messages: shortened, and no secret.
 std::string shownValue(const Value& raw)
 {
@@ -19,15 +51,10 @@ std::string shownValue(const Value& raw)
     {
         return text->reference;
     }
-    std::string said = raw.isNothing() ? "nothing"
+    return raw.isNothing() ? "nothing"
         : raw.as<Value::List>() != nullptr ? "a list"
         : raw.as<Value::Map>() != nullptr ? "a mapping"
-        : spelled(raw);
-    if (raw.as<std::string>() != nullptr)
-    {
-        said = "'" + said + "'";
-    }
-    return said.size() <= 60 ? said : said.substr(0, 57) + "...";
+        : shortened(raw.as<std::string>() != nullptr ? quoted(spelled(raw)) : spelled(raw));
 }
 
 std::string joinedNames(const Value::List& values)
