@@ -33,7 +33,7 @@ class Trace:
 HERE = Path(__file__).resolve().parent
 PYTHON = ROOT / "templates" / "python" / "machine"
 CPP = ROOT / "templates" / "cpp" / "machine"
-_OF_WORKERS = {"worker.cpp", "worker.h"}  # they need Ice
+_OF_WORKERS = {"reports.cpp", "worker.cpp"}  # they need Ice
 
 
 def package(folder: Path) -> Path:
