@@ -71,21 +71,16 @@ def program_of(draft: Draft) -> str:
 
 
 def _command(draft: Draft, program: str) -> Iterator[str]:
-    """A component takes its configuration as its first argument; a program as `config-as:` says."""
+    """Its configuration is the first argument, or as `config-as:` says; a program that names neither gets none."""
     entry = draft.instance.entry
-    how = entry.config_as.text if entry.config_as else model.ARGUMENT if draft.instance.component else ""
+    is_given = draft.instance.component is not None or entry.config is not None
+    how = entry.config_as.text if entry.config_as else model.ARGUMENT if is_given else ""
     yield program
     if how == model.ARGUMENT:
         yield CONFIG
     yield from (argument.text for argument in entry.args)
     if how.startswith("-"):
         yield f"{how}={CONFIG}"
-
-
-def _extra(draft: Draft) -> tuple[tuple[str, object], ...]:
-    """Its own `x-rcmanager`, and those of its other names."""
-    others = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
-    return (*draft.instance.entry.extra, ("aliases", others)) if others else draft.instance.entry.extra
 
 
 def _ready(draft: Draft) -> Readiness:
