@@ -49,19 +49,19 @@ def _put(entries: Entries, steps: list[str], key: Scalar, node: Node, type_: Typ
     """Changes `entries`, those of a mapping of this type. Raises LookupError with what is not there."""
     step, *rest = steps
     known = entries.get(step)
+    name = text_at(key.span, step)
     if not rest:
-        entries[step] = (key, _joined(known, node))
+        entries[step] = (name, _joined(known, node))
         return
     below = base.entries.get(step) if base is not None and base.entries else None
     member = type_.member(step) if isinstance(type_, RecordType) else None
     inner = member.type if member else type_.element if isinstance(type_, MapType) else None
-    name = text_at(key.span, step)
     if isinstance(inner, ListType):
         entries[step] = (name, _replaced(known[1] if known else _list(below, member), rest, key, node))
         return
     inside = dict(known[1].entries) if known and isinstance(known[1], Mapping) else {}
     if inner is None:
-        inside[rest[0]] = (key, node)  # the judge says what is wrong with it
+        inside[rest[0]] = (text_at(key.span, rest[0]), node)  # the judge says what is wrong with it
     else:
         _put(inside, rest, key, node, inner, below)
     entries[step] = (name, mapping_at(key.span, inside))

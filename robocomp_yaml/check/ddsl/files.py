@@ -12,7 +12,7 @@ import socket
 from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import networks as codes
-from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.network.draft import is_loopback
@@ -33,11 +33,6 @@ def missing(network: Network, linked: LinkedDeployment, *, environment: bool = F
             yield codes.NO_PROGRAM.at(process.span, name=process.name, problem=problem, hint=_mend(process))
 
 
-def in_the_way(network: Network, linked: LinkedDeployment) -> list[Diagnostic]:
-    """The same as errors: what keeps a network from being started."""
-    return [found.as_severity(ERROR) for found in missing(network, linked, environment=True)]
-
-
 def is_this_machine(address: str) -> bool:
     """Whether an address is one of this machine's own; names are compared, not resolved."""
     if is_loopback(address) or address == socket.gethostname():
@@ -53,16 +48,17 @@ def is_this_machine(address: str) -> bool:
 
 
 def _problem(process: Process, program: str, environment: bool) -> str:
-    if "/" not in program:
+    if "/" in program:
+        if os.path.isdir(program):
+            return f"{_shown(program)} is a folder"
+        if not os.path.exists(program):
+            return f"there is no {_shown(program)}"
+        if not os.access(program, os.X_OK):
+            return f"{_shown(program)} is not executable"
+    elif environment:
         path = next((variable.value for variable in process.env if variable.name == "PATH"), None)
-        is_lost = environment and shutil.which(program, path=path) is None
-        return f"PATH finds no '{program}'" if is_lost else ""
-    if os.path.isdir(program):
-        return f"{_shown(program)} is a folder"
-    if not os.path.exists(program):
-        return f"there is no {_shown(program)}"
-    if not os.access(program, os.X_OK):
-        return f"{_shown(program)} is not executable"
+        if shutil.which(program, path=path) is None:
+            return f"PATH finds no '{program}'"
     # the folder of an IceStorm is the deployment's own, which is made when it is started
     if process.kind != ICESTORM and not os.path.isdir(process.cwd):
         return f"there is no folder {_shown(process.cwd)} to run in"

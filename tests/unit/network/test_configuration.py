@@ -78,6 +78,13 @@ def test_what_the_deployment_sets(given: str, expected: dict[str, str]) -> None:
     assert {key: found.get(key) for key in expected} == expected
 
 
+def test_a_path_is_named_as_it_is_meant() -> None:
+    (found,) = faults(files(', set: {period.compute: 0, voice.pitch: 1}'))
+    assert found.message.startswith("period.compute is 0 ms")
+    (found,) = faults(files(', set: {voice.pich: 1}'))
+    assert found.message == "there is no parameter 'voice.pich'" and found.hint == "did you mean 'pitch'?"
+
+
 def test_each_instance_has_its_own() -> None:
     found = network(deployed(
         'components: {"m{i}": {component: idle, instances: 2, set: {name: "cam{i}"}}}\n', idle="",
