@@ -18,7 +18,7 @@ from robocomp_yaml import __version__
 
 COMMANDS = {
     "init": "Make a folder a workspace that already checks.",
-    "new": "Write a new interface, component or parameters document.",
+    "new": "Write a new document of any kind, which already checks.",
     "check": "Report everything that is wrong with the documents.",
     "compile": "Write Slice and components; only what changed.",
     "migrate": "Carry legacy files over to YAML, losing nothing.",
