@@ -171,7 +171,8 @@ class Connections:
     ) -> None:
         shown = [offer.owner.name if _is_only(offer) else offer.full_name for offer in offers]
         more = f" and {len(shown) - _MANY} more" if len(shown) > _MANY else ""
-        related = [Related(f"'{word}' serves it", o.span) for word, o in zip(shown, offers[:_MANY], strict=False)]
+        places = {offer.span: word for word, offer in reversed(list(zip(shown, offers[:_MANY], strict=False)))}
+        related = [Related(f"'{word}' serves it", span) for span, word in reversed(places.items())]
         self.diagnostics.append(codes.AMBIGUOUS.at(
             span, source=draft.name, port=name, interface=interface,
             candidates=", ".join(shown[:_MANY]) + more, hint=f"write `connect: {{{name}: {shown[0]}}}`, or another",

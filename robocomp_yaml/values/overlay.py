@@ -88,7 +88,7 @@ def _replaced(node: Node | None, steps: list[str], key: Scalar, new: Node) -> No
     step, *rest = steps
     if isinstance(node, Sequence):
         if not step.isdigit() or int(step) >= len(node.items):
-            raise LookupError(f"the list has {_count(len(node.items))} before, the first of them 0")
+            raise LookupError(f"the list has {_count(len(node.items))}, counted from 0")
         at = int(step)
         items = [_replaced(item, rest, key, new) if index == at else item for index, item in enumerate(node.items)]
         return sequence_at(node.span, items)
