@@ -1,0 +1,50 @@
+"""A command run beside a process, on its host: a server of its own, for as long as it takes."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from typing import Any
+
+from robocomp_yaml.deploy.icegrid import descriptors
+from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed
+from robocomp_yaml.deploy.icegrid.places import Places, is_here
+from robocomp_yaml.deploy.icegrid.status import told
+from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.network.network import NEVER, PROGRAM, Restart
+
+_TIMED_OUT, _NOT_FOUND, _UNKNOWN = 124, 127, 1
+_LOOK = 0.01
+_CODE = "exit code "
+
+
+def run_beside(
+    grid: Grid, places: Places, spec: Spec, command: tuple[str, ...], within: float, lock: threading.Lock,
+    deploy: Callable[[Collection[str], list[tuple[str, Any]]], None],
+) -> int:  # fmt: skip
+    """Its exit code; `deploy` replaces servers, under the lock."""
+    host, here = spec.process.host, is_here(spec.address)
+    name = f"{spec.name}.ready"
+    process = replace(spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=Restart(NEVER))
+    own = replace(spec, process=process, command=command)
+    server = descriptors.server(places, own, grid.user_of(host), is_here=here)
+    with lock:
+        deploy([name], [(host, server)])
+    try:
+        grid.start(name)
+        until = time.monotonic() + within
+        while grid.states([name])[name][0] not in ("Inactive", ""):
+            if time.monotonic() > until:
+                grid.stop(name)
+                return _TIMED_OUT
+            time.sleep(_LOOK)
+        last = told(grid, places, name, here=here)
+        code = last.last_exit.removeprefix(_CODE) if last else ""
+        return int(code) if code.isdigit() else _UNKNOWN
+    except GridFailed:
+        return _NOT_FOUND
+    finally:
+        with lock:
+            deploy([name], [])

@@ -1,0 +1,120 @@
+"""IceGrid's daemons: the registry and the nodes of this machine are started here, others by a script.
+
+The script of a host holds all that its node needs, the deployment's key too, and is given to bash on that host: over
+SSH, or by hand with the command that is shown. It starts nothing that runs already.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shlex
+import signal
+import subprocess
+from collections.abc import Mapping
+
+from robocomp_yaml import resources
+from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy.icegrid import settings
+from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.deploy.local.procfs import MARK
+from robocomp_yaml.network.network import LOOPBACK, Host
+from robocomp_yaml.source.properties import entry_line
+
+
+
+def as_text(properties: Mapping[str, str]) -> str:
+    return "".join(entry_line(key, value) + "\n" for key, value in properties.items())
+
+
+def start_registry(places: Places, registry: Registry) -> None:
+    """Starts the registry, and what starts it again after a crash. Raises OSError."""
+    own = places.registry_folder
+    os.makedirs(f"{own}/data", mode=0o700, exist_ok=True)
+    own_folder.write(places.folder, "state/icegrid/registry/settings", as_text(settings.of_registry(places, registry)))
+    own_folder.write(places.folder, "state/icegrid/registry/guard", resources.text("templates/icegrid/guard"))
+    command = ["bash", f"{own}/guard", own, "icegridregistry", f"--Ice.Config={own}/settings"]
+    started = subprocess.Popen(
+        command, env={**os.environ, MARK: f"{places.folder}:"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL, start_new_session=True, cwd="/",
+    )  # fmt: skip
+    started.returncode = 0  # it stays when this process ends, and nobody waits for it
+
+
+def is_registry_alive(places: Places) -> bool:
+    """Whether the registry, or what starts it again, runs on this machine."""
+    return _is_locked(places.registry_folder)
+
+
+def is_node_alive(places: Places, host: str) -> bool:
+    return _is_locked(f"{places.root}/nodes/{host}")
+
+
+def end(folder: str) -> None:
+    """Asks the daemon of this folder to end, with what would start it again."""
+    try:
+        with open(f"{folder}/pid", encoding="ascii") as file:
+            pid = int(file.read())
+        with open(f"/proc/{pid}/cmdline", "rb") as file:
+            if os.fsencode(f"{folder}/guard") in file.read().split(b"\0"):
+                os.kill(pid, signal.SIGTERM)
+    except (OSError, ValueError):
+        return
+
+
+def last_words(folder: str) -> str:
+    """The last line of a daemon's log."""
+    try:
+        with open(f"{folder}/log", encoding="utf-8", errors="replace") as file:
+            return next((line.strip() for line in reversed(file.readlines()) if line.strip()), "")
+    except OSError:
+        return ""
+
+
+def write_script(places: Places, host: Host, registry: Registry) -> str:
+    """The path of the script that starts the host's node."""
+    address = "127.0.0.1" if host.address == LOOPBACK else host.address
+    facts = {
+        "folder": places.folder,
+        "host": host.name,
+        "certificate": _text(places.certificate),
+        "key": _text(places.key),
+        "settings": as_text(settings.of_node(places, host.name, address, registry)),
+        "run": resources.text("templates/icegrid/run"),
+        "guard": resources.text("templates/icegrid/guard"),
+    }
+    head = "".join(f"{name}={shlex.quote(text.rstrip())}\n" for name, text in facts.items())
+    own_folder.write(places.folder, f"state/icegrid/hosts/{host.name}.sh", head + resources.text("templates/icegrid/node"))
+    return places.script(host.name)
+
+
+def start_node_here(script: str) -> str:
+    """Starts a node on this machine; why it did not start, or ''."""
+    with open(script, "rb") as file:
+        done = subprocess.run(["bash", "-s"], stdin=file, capture_output=True, text=True, check=False, cwd="/")
+    return (done.stderr.strip() or "the script that starts it failed") if done.returncode else ""
+
+
+def by_hand(script: str, host: Host) -> str:
+    """The command that starts a node on another host."""
+    where = f"{host.user}@{host.address}" if host.user else host.address
+    return f"ssh {where} bash -s < {shlex.quote(script)}"
+
+
+def _text(path: str) -> str:
+    with open(path, encoding="ascii") as file:
+        return file.read()
+
+
+def _is_locked(folder: str) -> bool:
+    try:
+        lock = os.open(f"{folder}/lock", os.O_RDONLY | os.O_CLOEXEC)
+    except OSError:
+        return False
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    finally:
+        os.close(lock)
+    return False

@@ -1,0 +1,146 @@
+"""A network's processes as IceGrid's descriptors.
+
+Each process is a server on the node named after its host, started through the `run` script that the node brought, and
+by nobody but us: IceGrid knows no start order. No server opens Ice.Admin: programs that are not Ice could not, and one
+that does not would stay "activating".
+
+IceGrid replaces `${…}` in every string, expands `$NAME` in variables of the environment, and drops empty arguments:
+words get a letter before them, and the configuration's text is encoded.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Iterable
+from typing import Any
+
+import IceGrid
+
+from robocomp_yaml.deploy.engine import STOP_WITHIN
+from robocomp_yaml.deploy.icegrid.places import KEEPER, Places
+from robocomp_yaml.deploy.local.procfs import MARK
+from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.network.network import ICESTORM, Process
+from robocomp_yaml.source import properties
+
+LONGEST_CONFIG = 100_000
+"""Bytes of a configuration that can be sent to another host: Linux limits a variable to 128 KiB."""
+
+_SERVICE = "IceBox.Service."
+_AFTER_KILL = 10  # seconds that IceGrid itself waits, after what `run` waits
+
+
+def server(places: Places, spec: Spec, user: str, *, is_here: bool) -> Any:
+    """The descriptor of a process; its configuration travels in it to another host."""
+    process = spec.process
+    is_storm = process.kind == ICESTORM and process.config is not None
+    words = [process.name, places.folder, *(f"f{path}" for path in process.folders)]
+    words += [f"s{v.name}={v.source}" if v.source else f"e{v.name}={v.value}" for v in process.env]
+    environment = [f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}"]
+    command = spec.command
+    if is_storm:
+        words.append("k")  # IceGrid writes the configuration of an IceBox and its services itself
+        command = command[:1]
+    elif process.config and not is_here:
+        words.append(f"c{spec.config_path}")
+        environment.append(f"RCYAML_CONFIG={encoded(process.config.text)}")
+    words += [f"={part}" for part in command]
+    facts = _facts(
+        process.name, "setpriv", ["--pdeathsig", "KILL", "--", "${node.data}/../run", *map(_literal, words)],
+        pwd=_literal(process.cwd), envs=environment, user=user, activation="manual",
+        logs=[_literal(places.log(process.name)), _literal(places.status(process.name))],
+        deactivationTimeout=f"{STOP_WITHIN + _AFTER_KILL:g}",
+        propertySet=_property_set({"Rcyaml.Restart": _restart(process), **_QUIET}),
+    )  # fmt: skip
+    if is_storm:
+        assert process.config
+        return IceGrid.IceBoxDescriptor(**facts, services=list(_services(process.config.text)))
+    return IceGrid.ServerDescriptor(**facts)
+
+
+def keeper(places: Places, user: str) -> Any:
+    """The server that brings processes back when their node has come back; IceGrid itself restarts it."""
+    return IceGrid.ServerDescriptor(
+        **_facts(
+            KEEPER, sys.executable,
+            [_literal(word) for word in ("-m", "robocomp_yaml.deploy.icegrid.keeper", places.folder)],
+            pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
+            envs=[f"PYTHONPATH={package_path()}", f"{MARK}={places.folder}:"], logs=[],
+        )  # fmt: skip
+    )
+
+
+def package_path() -> str:
+    """Where Python finds this package and what it has found so far."""
+    return os.pathsep.join(path for path in sys.path if path)
+
+
+def application(name: str, servers: Iterable[tuple[str, Any]]) -> Any:
+    """`servers` are pairs of a node and a descriptor."""
+    nodes: dict[str, Any] = {}
+    for host, one in servers:
+        if host not in nodes:
+            nodes[host] = IceGrid.NodeDescriptor(
+                variables={}, serverInstances=[], servers=[], loadFactor="", description="", propertySets={}
+            )
+        nodes[host].servers.append(one)
+    return IceGrid.ApplicationDescriptor(
+        name=name, variables={}, replicaGroups=[], serverTemplates={}, serviceTemplates={}, nodes=nodes,
+        distrib=_nothing_to_distribute(), description="", propertySets={},
+    )  # fmt: skip
+
+
+def encoded(text: str) -> str:
+    """For `printf %b`: without the dollars that IceGrid would replace."""
+    return text.replace("\\", "\\\\").replace("$", "\\0044")
+
+
+# A proxy with an `ssl` endpoint stands in every configuration that IceGrid writes: it must be understood.
+_QUIET = {"Ice.Admin.Enabled": "0", "Ice.Plugin.IceSSL": "IceSSL:createIceSSL"}
+
+
+def _literal(text: str) -> str:
+    """With what IceGrid would take for a variable escaped."""
+    return re.sub(r"(\$+)\{", lambda found: found[1] * 2 + "{", text)
+
+
+def _restart(process: Process) -> str:
+    """What `run` reads: the policy, and times in milliseconds."""
+    rule = process.restart
+    return f"{rule.policy} {rule.delay * 1000:.0f} {rule.longest * 1000:.0f} {rule.tries} {rule.window * 1000:.0f}"
+
+
+def _services(text: str) -> Iterable[Any]:
+    """The services of an IceBox whose configuration is given."""
+    values = properties.read(text).values
+    own = {key: value for key, value in values.items() if not key.startswith("IceBox.")}
+    for key, entry in values.items():
+        if key.startswith(_SERVICE):
+            service = IceGrid.ServiceDescriptor(
+                adapters=[], propertySet=_property_set({**_QUIET, **own}), dbEnvs=[], logs=[], description="",
+                name=key.removeprefix(_SERVICE), entry=_literal(entry),
+            )  # fmt: skip
+            yield IceGrid.ServiceInstanceDescriptor(
+                template="", parameterValues={}, descriptor=service, propertySet=_property_set({})
+            )
+
+
+def _facts(name: str, exe: str, options: list[str], **facts: Any) -> dict[str, Any]:
+    """Every member that IceGrid's Python mapping wants to be set."""
+    return {
+        "adapters": [], "dbEnvs": [], "description": "", "id": name, "exe": exe, "iceVersion": "", "options": options,
+        "activationTimeout": "", "applicationDistrib": False, "distrib": _nothing_to_distribute(),
+        "allocatable": False, **facts,
+    }  # fmt: skip
+
+
+def _property_set(values: dict[str, str]) -> Any:
+    return IceGrid.PropertySetDescriptor(
+        [], [IceGrid.PropertyDescriptor(name, _literal(value)) for name, value in values.items()]
+    )
+
+
+def _nothing_to_distribute() -> Any:
+    return IceGrid.DistributionDescriptor("", [])

@@ -1,0 +1,248 @@
+"""The engine of several machines: what `deploy` asks of a deployment's IceGrid.
+
+Ice and IceGrid's own calls wait for their answers; they run in threads beside the event loop.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import shutil
+import threading
+from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
+from robocomp_yaml.deploy.icegrid.places import KEEPER, Places, is_here
+from robocomp_yaml.deploy.local import procfs
+from robocomp_yaml.deploy.local.log_reader import LogReader
+from robocomp_yaml.deploy.local.log_reader import merged as merged_here
+from robocomp_yaml.deploy.local.obstacles import obstacles
+from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.diag.codes import deploying, grids
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.network.network import Network
+
+if TYPE_CHECKING:
+    from robocomp_yaml.deploy.icegrid.grid import Grid
+
+T = TypeVar("T")
+
+_TOO_LONG = "its configuration is longer than the 100,000 bytes that IceGrid carries to another host"
+_CALLS = 32  # at once: each waits, and costs next to nothing
+
+
+class IceGridEngine:
+    """See `deploy.engine.Engine`."""
+
+    name = "icegrid"
+
+    def __init__(self) -> None:
+        self.notes: list[Diagnostic] = []
+        self._network = Network("", "", "")
+        self._places = Places("")
+        self._grid: Grid | None = None
+        self._specs: dict[str, Spec | None] = {}
+        self._wanted: set[str] = set()
+        self._lock = threading.Lock()
+        self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
+
+    async def open(self, network: Network, *, create: bool) -> bool:
+        self._network, self._places = network, Places(network.folder)
+        if missing := _missing():
+            raise DeployFailed(grids.NOT_INSTALLED.at(Span(network.path), what=missing))
+        return await self._beside("", "reached", self._open, create)
+
+    def _open(self, create: bool) -> bool:
+        from robocomp_yaml.deploy.icegrid import start_up
+
+        grid = start_up.reached(self._places, self._network)
+        if grid is None and not create:
+            return False
+        used = {process.host for process in self._network.enabled()}
+        hosts = [self._network.hosts[name] for name in self._network.hosts if name in used]
+        if create:
+            if grid:
+                grid.close()
+            grid = start_up.created(self._places, self._network)
+            try:
+                start_up.ensure_nodes(grid, self._places, self._network, hosts)
+            except BaseException:
+                grid.close()
+                raise
+        self._grid = grid
+        self._specs, self._wanted = self._places.specs(), self._places.wanted()
+        return True
+
+    async def observe(self) -> dict[str, Running]:
+        from robocomp_yaml.deploy.icegrid.status import observe
+
+        hosts = {name: process.host for name, process in self._network.processes.items()}
+        return await self._beside("", "observed", observe, self._reached(), self._places, dict(self._specs), hosts)
+
+    async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
+        """On this machine; other hosts are asked when a process starts there."""
+        own: set[int] = set()
+        if self._grid:
+            alive = procfs.table()
+            running = await self.observe()
+            own = procfs.descendants({one.pid for name, one in running.items() if name in leaving and one.pid}, alive)
+        return obstacles([spec for spec in specs if is_here(spec.address)], own) + [
+            deploying.REFUSED.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
+            for spec in specs
+            if _is_too_long(spec)
+        ]
+
+    async def prepare(self, specs: Sequence[Spec]) -> None:
+        await self._beside("", "deployed", self._prepare, specs)
+
+    def _prepare(self, specs: Sequence[Spec]) -> None:
+        from robocomp_yaml.deploy.icegrid import descriptors
+
+        grid = self._reached()
+        for spec in specs:
+            if is_here(spec.address):
+                if config := spec.process.config:
+                    own_folder.write(self._places.folder, config.path, config.text)
+        with self._lock:
+            self._specs.update({spec.name: spec for spec in specs})
+            self._places.keep_specs(self._specs)
+            users = {host: grid.user_of(host) for host in {spec.process.host for spec in specs}}
+            servers = [
+                (spec.process.host, descriptors.server(
+                    self._places, spec, users[spec.process.host], is_here=is_here(spec.address)
+                ))
+                for spec in specs
+            ]  # fmt: skip
+            self._deploy({spec.name for spec in specs}, servers)
+
+    def _deploy(self, replaced: Collection[str], servers: list[tuple[str, Any]]) -> None:
+        """Deploys these servers, and those that were deployed before except the replaced."""
+        from robocomp_yaml.deploy.icegrid import descriptors
+
+        grid = self._reached()
+        before = grid.descriptor(self._network.name)
+        if before is not None:
+            servers += [
+                (host, one) for host, node in before.nodes.items() for one in node.servers if one.id not in replaced
+            ]
+        elif keeper_host := self._host_here():
+            servers.append((keeper_host, descriptors.keeper(self._places, grid.user_of(keeper_host))))
+        grid.deploy(descriptors.application(self._network.name, servers), is_new=before is None)
+
+    def _host_here(self) -> str:
+        """A host that is this machine, on which the keeper can run."""
+        used = {process.host for process in self._network.enabled()}
+        here = (host.name for host in self._network.hosts.values() if host.name in used and is_here(host.address))
+        return next(here, "")
+
+    async def start(self, name: str) -> None:
+        spec = self._specs[name]
+        if spec and is_here(spec.address) and (found := obstacles([spec], ())):
+            raise DeployFailed(found[0])
+        self._want(name, True)
+        await self._beside(name, "started", self._reached().start, name)
+
+    async def stop(self, name: str, within: float = STOP_WITHIN) -> None:
+        self._want(name, False)
+        await self._beside(name, "stopped", self._reached().stop, name)
+
+    def _want(self, name: str, is_wanted: bool) -> None:
+        with self._lock:
+            self._wanted = self._wanted | {name} if is_wanted else self._wanted - {name}
+            self._places.keep_wanted(self._wanted)
+
+    async def forget(self, names: Iterable[str]) -> None:
+        await self._beside("", "forgotten", self._forget, set(names))
+
+    def _forget(self, names: set[str]) -> None:
+        with self._lock:
+            gone = {name: self._specs.pop(name) for name in names if name in self._specs}
+            if not gone:
+                return
+            self._deploy(gone, [])
+            self._wanted -= names
+            self._places.keep_wanted(self._wanted)
+            self._places.keep_specs(self._specs)
+        for name, spec in gone.items():
+            own_folder.remove(self._places.folder, f"state/icegrid/status/{name}")
+            if spec and spec.process.config:
+                own_folder.remove(self._places.folder, spec.process.config.path)
+
+    async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncGenerator[Line, None]:
+        from robocomp_yaml.deploy.icegrid.logs import GridReader, merged
+
+        def reader(name: str) -> LogReader | GridReader:
+            spec = self._specs.get(name)
+            if grid and spec and not is_here(spec.address):
+                return GridReader(grid, name, self._places.log(name))
+            return LogReader(self._places.folder, name)
+
+        grid = self._grid
+        readers = await self._beside("", "read", lambda: [reader(name) for name in names])
+        near = [one for one in readers if isinstance(one, LogReader)]
+        if len(near) == len(readers):
+            return merged_here(near, last, follow)
+        return merged(readers, last, follow)
+
+    async def run(self, name: str, command: Sequence[str], within: float) -> int:
+        from robocomp_yaml.deploy.icegrid.beside import run_beside
+
+        spec = self._specs[name]
+        assert spec
+        grid = self._reached()
+        return await self._beside(name, "asked", run_beside, grid, self._places, spec, tuple(command), within,
+                                  self._lock, self._deploy)  # fmt: skip
+
+    async def close(self, *, end: bool = False) -> None:
+        from robocomp_yaml.deploy.icegrid import start_up
+
+        grid, self._grid = self._grid, None
+        if grid and end:
+            await self._beside("", "ended", start_up.ended, grid, self._places, self._network.name)
+        elif grid:
+            await self._beside("", "left", grid.close)
+        self._calls.shutdown(wait=False)
+
+    def _reached(self) -> Grid:
+        assert self._grid, "open it first"
+        return self._grid
+
+    async def _beside(self, about: str, what: str, work: Callable[..., T], *arguments: Any) -> T:
+        """Carries out work that waits; what fails it is told of the process of that name, where there is one."""
+        from robocomp_yaml.deploy.icegrid.grid import GridFailed
+
+        try:
+            return await asyncio.get_running_loop().run_in_executor(self._calls, work, *arguments)
+        except GridFailed as error:
+            process = self._network.processes.get(about)
+            where = process.span if process and process.span.file else Span(self._network.path)
+            name = about or self._network.name
+            raise DeployFailed(deploying.REFUSED.at(where, name=name, what=what, reason=error)) from error
+        except OSError as error:
+            path = error.filename or self._network.folder
+            reason = (error.strerror or str(error)).lower()
+            raise DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason)) from error
+
+
+def _is_too_long(spec: Spec) -> bool:
+    from robocomp_yaml.deploy.icegrid.descriptors import LONGEST_CONFIG, encoded
+
+    config = spec.process.config
+    return bool(config and not is_here(spec.address) and len(encoded(config.text).encode()) > LONGEST_CONFIG)
+
+
+def _missing() -> str:
+    """What the engine needs and this machine lacks, or ''."""
+    try:
+        import Ice  # noqa: F401
+        import IceGrid  # noqa: F401
+    except ImportError:
+        return "Ice for Python (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
+    for program, package in (("icegridregistry", "zeroc-icegrid"), ("icegridnode", "zeroc-icegrid"),
+                             ("openssl", "openssl"), ("setpriv", "util-linux")):  # fmt: skip
+        if shutil.which(program) is None:
+            return f"{program} (Debian: {package})"
+    return ""

@@ -1,0 +1,186 @@
+"""An administrator's session with a deployment's registry, in calls that wait for their answers."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import Ice
+import IceGrid
+
+from robocomp_yaml.deploy.icegrid import settings
+from robocomp_yaml.deploy.icegrid.places import Places, Registry
+
+_RETRY = 0.05
+
+
+class GridFailed(Exception):
+    """IceGrid refused, or does not answer; says why in words."""
+
+
+class Unreachable(GridFailed):
+    """The registry, or the node that is asked for, does not answer."""
+
+
+class Grid:
+    """A session. Its methods may be called from several threads; they raise GridFailed."""
+
+    def __init__(self, places: Places, registry: Registry) -> None:
+        data = Ice.InitializationData()
+        data.properties = Ice.createProperties()
+        for key, value in settings.of_client(places).items():
+            data.properties.setProperty(key, value)
+        data.logger = _Silent()
+        self.communicator = Ice.initialize(data)
+        try:
+            proxy = self.communicator.stringToProxy(settings.registry_proxy(registry))
+            self.session = IceGrid.RegistryPrx.uncheckedCast(proxy).createAdminSession("rcyaml", "")
+            self.admin = self.session.getAdmin()
+        except Ice.Exception as error:
+            self.communicator.destroy()
+            raise Unreachable(in_words(error)) from error
+
+    def close(self) -> None:
+        with contextlib.suppress(Ice.Exception):
+            self.session.destroy()
+        self.communicator.destroy()
+
+    def has_node(self, host: str) -> bool:
+        try:
+            answer: bool = self.admin.pingNode(host)
+        except IceGrid.NodeNotExistException:
+            return False
+        except Ice.Exception as error:
+            raise Unreachable(in_words(error)) from error
+        return answer
+
+    def user_of(self, host: str) -> str:
+        """The user as whom a node runs: its data folder is named after them."""
+        info = self._call(self.admin.getNodeInfo, host)
+        name: str = info.dataDir.rstrip("/").rpartition("/")[2]
+        return name
+
+    def descriptor(self, application: str) -> Any:
+        """What is deployed; None where nothing is."""
+        try:
+            return self.admin.getApplicationInfo(application).descriptor
+        except IceGrid.ApplicationNotExistException:
+            return None
+        except Ice.Exception as error:
+            raise GridFailed(in_words(error)) from error
+
+    def deploy(self, descriptor: Any, *, is_new: bool) -> None:
+        """Nothing that runs is restarted by this."""
+        if is_new:
+            self._call(self.admin.addApplication, descriptor)
+        else:
+            self._call(self.admin.syncApplicationWithoutRestart, descriptor)
+
+    def remove(self, application: str) -> None:
+        with contextlib.suppress(IceGrid.ApplicationNotExistException):
+            self._call(self.admin.removeApplication, application)
+
+    def states(self, names: Iterable[str]) -> dict[str, tuple[str, int]]:
+        """State and pid of each server; '' for one whose node does not answer, and one that there is not."""
+        asked = [(name, self.admin.getServerStateAsync(name), self.admin.getServerPidAsync(name)) for name in names]
+        found: dict[str, tuple[str, int]] = {}
+        for name, state, pid in asked:
+            try:
+                found[name] = (str(state.result()), pid.result())
+            except (IceGrid.NodeUnreachableException, IceGrid.ServerNotExistException):
+                found[name] = ("", 0)
+            except Ice.Exception as error:
+                raise Unreachable(in_words(error)) from error
+        return found
+
+    def start(self, name: str) -> None:
+        try:
+            self._call(self.admin.startServer, name)
+        except GridFailed:
+            # The keeper may have been faster.
+            if self.states([name])[name][0] not in ("Active", "Activating"):
+                raise
+
+    def stop(self, name: str) -> None:
+        try:
+            self._call(self.admin.stopServer, name)
+        except GridFailed:
+            if self.states([name])[name][0] != "Inactive":
+                raise
+
+    def read(self, name: str, path: str) -> list[str]:
+        """The lines of one of a process's files, on its host; none where it is not there."""
+        try:
+            iterator = self.session.openServerLog(name, path, -1)
+        except IceGrid.FileNotAvailableException:
+            return []
+        except Ice.Exception as error:
+            raise Unreachable(in_words(error)) from error
+        try:
+            lines: list[str] = []
+            while True:
+                is_end, more = iterator.read(1 << 16)
+                lines += more
+                if is_end:
+                    return lines
+        finally:
+            with contextlib.suppress(Ice.Exception):
+                iterator.destroy()
+
+    def shut_down_node(self, host: str) -> None:
+        with contextlib.suppress(GridFailed):
+            self._call(self.admin.shutdownNode, host)
+
+    def _call(self, operation: Callable[..., Any], *arguments: Any) -> Any:
+        try:
+            return operation(*arguments)
+        except IceGrid.NodeUnreachableException as error:
+            raise Unreachable(f"the IceGrid node of '{error.name}' does not answer") from error
+        except IceGrid.ApplicationNotExistException:
+            raise
+        except Ice.UserException as error:
+            raise GridFailed(in_words(error)) from error
+        except Ice.Exception as error:
+            raise Unreachable(in_words(error)) from error
+
+
+def reach(places: Places, registry: Registry, within: float) -> Grid:
+    """A session, tried for so many seconds. Raises Unreachable."""
+    until = time.monotonic() + within
+    while True:
+        try:
+            return Grid(places, registry)
+        except Unreachable:
+            if time.monotonic() > until:
+                raise
+            time.sleep(_RETRY)
+
+
+def in_words(error: Exception) -> str:
+    """What IceGrid says is wrong, else what kind of exception it is."""
+    reason = getattr(error, "reason", "") or str(error)
+    return " ".join(reason.split()).rstrip(".") or type(error).__name__
+
+
+class _Silent(Ice.Logger):
+    """Connections that fail are told as diagnostics."""
+
+    def print(self, message: str) -> None:
+        return
+
+    def trace(self, category: str, message: str) -> None:
+        return
+
+    def warning(self, message: str) -> None:
+        return
+
+    def error(self, message: str) -> None:
+        return
+
+    def getPrefix(self) -> str:
+        return ""
+
+    def cloneWithPrefix(self, prefix: str) -> _Silent:
+        return self

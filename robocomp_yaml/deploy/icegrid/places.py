@@ -1,0 +1,154 @@
+"""Where the IceGrid engine keeps what it knows of a deployment, and which hosts are this machine.
+
+The deployment's folder has the same path on every host. Below `state/icegrid` stand the key of the deployment, the
+registry's files, a folder for each node, the status that each host's `run` script writes, and what is wanted to run.
+"""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.network.network import LOOPBACK, Host
+
+KEEPER = "rcyaml.keeper"
+"""The id of the server that brings processes back after a node's death. No process can have it as a name."""
+
+_ROOT = "state/icegrid"
+_WANTED, _SPECS, _REGISTRY, _NODES = (f"{_ROOT}/{name}.json" for name in ("wanted", "specs", "registry", "nodes"))
+
+
+@dataclass(frozen=True, slots=True)
+class Registry:
+    """Where the registry of a deployment listens."""
+
+    address: str
+    port: int
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    """The files of one deployment's engine, by the deployment's folder."""
+
+    folder: str
+
+    @property
+    def root(self) -> str:
+        return f"{self.folder}/{_ROOT}"
+
+    @property
+    def registry_folder(self) -> str:
+        return f"{self.root}/registry"
+
+    @property
+    def key(self) -> str:
+        return f"{self.root}/key.pem"
+
+    @property
+    def certificate(self) -> str:
+        return f"{self.root}/certificate.pem"
+
+    def status(self, name: str) -> str:
+        return f"{self.root}/status/{name}"
+
+    def log(self, name: str) -> str:
+        return f"{self.folder}/logs/{name}.log"
+
+    def script(self, host: str) -> str:
+        """What starts the host's node, given to bash there."""
+        return f"{self.root}/hosts/{host}.sh"
+
+    def registry(self) -> Registry | None:
+        data = self._read(_REGISTRY, None)
+        return Registry(**data) if data else None
+
+    def keep_registry(self, registry: Registry) -> None:
+        self._write(_REGISTRY, {"address": registry.address, "port": registry.port})
+
+    def wanted(self) -> set[str]:
+        """The processes that are to run, whatever happens to their nodes."""
+        return set(self._read(_WANTED, []))
+
+    def keep_wanted(self, names: Iterable[str]) -> None:
+        self._write(_WANTED, sorted(names))
+
+    def started_nodes(self) -> set[str]:
+        """The hosts whose nodes rcyaml started, and ends: not those that were started by hand."""
+        return set(self._read(_NODES, []))
+
+    def keep_started_nodes(self, hosts: Iterable[str]) -> None:
+        self._write(_NODES, sorted(hosts))
+
+    def specs(self) -> dict[str, Spec | None]:
+        """What the processes were given; None where another version of rcyaml wrote it."""
+        return {name: _spec(data) for name, data in self._read(_SPECS, {}).items()}
+
+    def keep_specs(self, specs: dict[str, Spec | None]) -> None:
+        kept = self._read(_SPECS, {})
+        self._write(_SPECS, {name: spec.as_data() if spec else kept.get(name) for name, spec in specs.items()})
+
+    def _read(self, path: str, missing: Any) -> Any:
+        try:
+            with open(f"{self.folder}/{path}", encoding="utf-8") as file:
+                return json.load(file)
+        except (FileNotFoundError, NotADirectoryError, ValueError):
+            return missing
+
+    def _write(self, path: str, data: Any) -> None:
+        own_folder.write(self.folder, path, json.dumps(data))
+
+
+def _spec(data: dict[str, Any]) -> Spec | None:
+    try:
+        return Spec.of_data(data)
+    except (KeyError, TypeError, ValueError):
+        return None
+
+
+def is_here(address: str) -> bool:
+    """Whether an address is one of this machine's: only those can be bound. One that cannot be resolved is not."""
+    if address == LOOPBACK:
+        return True
+    try:
+        family, kind, protocol, _, place = socket.getaddrinfo(address, 0, type=socket.SOCK_STREAM)[0]
+        with socket.socket(family, kind, protocol) as probe:
+            probe.bind(place)
+    except OSError:
+        return False
+    return True
+
+
+def registry_address(hosts: Iterable[Host]) -> str:
+    """The address of this machine at which all these hosts reach it: a loopback address where all are this machine,
+    else that of its own entry, else the one from which it reaches the first of the others."""
+    others = [host.address for host in hosts if not is_here(host.address)]
+    if not others:
+        return "127.0.0.1"
+    own = [host.address for host in hosts if host.address not in others and not _is_loopback(host.address)]
+    return own[0] if own else _towards(others[0])
+
+
+def free_port(address: str) -> int:
+    with socket.create_server((address, 0)) as probe:
+        port: int = probe.getsockname()[1]
+        return port
+
+
+def _is_loopback(address: str) -> bool:
+    return address == LOOPBACK or address.startswith("127.") or address == "::1"
+
+
+def _towards(address: str) -> str:
+    """Nothing is sent: the system only chooses the way."""
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            probe.connect((address, 9))
+            found: str = probe.getsockname()[0]
+            return found
+    except OSError:
+        return "127.0.0.1"

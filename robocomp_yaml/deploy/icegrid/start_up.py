@@ -1,0 +1,126 @@
+"""Bringing up what the engine itself needs: the registry on this machine, and a node on every host."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterable
+
+from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy.differences import shown_path
+from robocomp_yaml.deploy.engine import DeployFailed
+from robocomp_yaml.deploy.icegrid import daemons, settings, ssh
+from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed, Unreachable, reach
+from robocomp_yaml.deploy.icegrid.places import Places, Registry, free_port, is_here, registry_address
+from robocomp_yaml.diag.codes import grids
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.network.network import Host, Network
+
+_PATIENCE = 20.0  # seconds: far more than is needed, also where a machine is busy
+_ENDS_WITHIN = 15.0
+_LOOK = 0.02
+
+
+def reached(places: Places, network: Network) -> Grid | None:
+    """A session with the registry that there is; None where none runs and nothing is to. One that was killed, with all
+    that would start it again, is started again."""
+    registry = places.registry()
+    if registry is None or not (places.wanted() or daemons.is_registry_alive(places)):
+        return None
+    return _session(places, registry, network)
+
+
+def created(places: Places, network: Network) -> Grid:
+    """A session with the registry, started where none runs, at an address that all hosts reach."""
+    address = registry_address(network.hosts.values())
+    registry = places.registry()
+    if registry is None or registry.address != address:
+        _end_all(places)
+        try:
+            own_folder.make(network.folder)
+            settings.make_key(places)
+            registry = Registry(address, free_port(address))
+            places.keep_registry(registry)
+        except OSError as error:
+            raise _failed(network, error.strerror or str(error)) from error
+    return _session(places, registry, network)
+
+
+def _session(places: Places, registry: Registry, network: Network) -> Grid:
+    if not daemons.is_registry_alive(places):
+        try:
+            daemons.start_registry(places, registry)
+        except OSError as error:
+            raise _failed(network, error.strerror or str(error)) from error
+    try:
+        return reach(places, registry, _PATIENCE)
+    except Unreachable as error:
+        said = daemons.last_words(places.registry_folder)
+        raise _failed(network, said or str(error)) from error
+
+
+def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[Host]) -> None:
+    """Every host has its node: those of this machine are started, others over SSH. Raises DeployFailed for the first
+    that has none."""
+    registry = places.registry()
+    assert registry
+    missing = [host for host in hosts if not grid.has_node(host.name)]
+    scripts = {host.name: daemons.write_script(places, host, registry) for host in missing}
+    tried = {host.name: _start(host, scripts[host.name]) for host in missing}
+    places.keep_started_nodes(places.started_nodes() | {name for name, reason in tried.items() if not reason})
+    for host in missing:
+        reason = tried[host.name]
+        if not reason and not _until(lambda host=host: grid.has_node(host.name), _PATIENCE):  # type: ignore[misc]
+            reason = daemons.last_words(f"{places.root}/nodes/{host.name}") or "it does not reach the registry"
+        if reason:
+            command = daemons.by_hand(shown_path(scripts[host.name]), host)
+            where = host.span if host.span.file else Span(network.path)
+            raise DeployFailed(
+                grids.NO_NODE.at(
+                    where, name=host.name, address=host.address, reason=reason,
+                    hint="" if is_here(host.address) else f"start it by hand, then try again: {command}",
+                )
+            )  # fmt: skip
+
+
+def ended(grid: Grid, places: Places, application: str) -> None:
+    """Ends what the engine runs: its servers, the nodes that it started, and the registry."""
+    try:
+        grid.remove(application)
+    except GridFailed:
+        pass  # a node that does not answer: its servers are gone, or end when it comes back
+    for host in places.started_nodes():
+        if daemons.is_node_alive(places, host):
+            daemons.end(f"{places.root}/nodes/{host}")
+        grid.shut_down_node(host)
+    places.keep_started_nodes(())
+    places.keep_wanted(())
+    grid.close()
+    _end_all(places)
+
+
+def _end_all(places: Places) -> None:
+    """The daemons of this machine."""
+    nodes = f"{places.root}/nodes"
+    own = [f"{nodes}/{name}" for name in (os.listdir(nodes) if os.path.isdir(nodes) else ())]
+    for folder in (*own, places.registry_folder):
+        daemons.end(folder)
+    _until(lambda: not daemons.is_registry_alive(places), _ENDS_WITHIN)
+    for folder in own:
+        _until(lambda folder=folder: not daemons.is_node_alive(places, os.path.basename(folder)), _ENDS_WITHIN)  # type: ignore[misc]
+
+
+def _start(host: Host, script: str) -> str:
+    """Why the node of this host could not be started, or ''."""
+    return daemons.start_node_here(script) if is_here(host.address) else ssh.run(script, host)
+
+
+def _until(condition: Callable[[], bool], within: float) -> bool:
+    end = time.monotonic() + within
+    while not (holds := condition()) and time.monotonic() < end:
+        time.sleep(_LOOK)
+    return holds
+
+
+def _failed(network: Network, reason: str) -> DeployFailed:
+    return DeployFailed(grids.NO_REGISTRY.at(Span(network.path), reason=reason))

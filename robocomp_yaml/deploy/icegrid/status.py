@@ -1,0 +1,102 @@
+"""How a process is: IceGrid's state of its server, and what the `run` script tells of it on its host."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Running
+from robocomp_yaml.deploy.icegrid.grid import Grid
+from robocomp_yaml.deploy.icegrid.places import Places, is_here
+from robocomp_yaml.deploy.local import procfs
+from robocomp_yaml.deploy.spec import Spec
+
+_ALIVE = ("Active", "Activating", "Deactivating")
+_FINAL = (GIVEN_UP, ENDED)
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What `run` tells: `runner` is its own pid, `since` milliseconds since its host started, `at` the microseconds of
+    its clock."""
+
+    state: str
+    runner: int
+    pid: int
+    since: int
+    at: int
+    restarts: int
+    last_exit: str
+
+
+def of_text(text: str) -> Told | None:
+    parts = text.strip().split("|", 6)
+    try:
+        return Told(parts[0], *map(int, parts[1:6]), parts[6])  # type: ignore[call-arg, arg-type]
+    except (IndexError, ValueError):
+        return None
+
+
+def told(grid: Grid, places: Places, name: str, *, here: bool) -> Told | None:
+    """None where `run` has not said anything yet."""
+    path = places.status(name)
+    if not here:
+        return of_text("\n".join(grid.read(name, path)))
+    try:
+        with open(path, encoding="utf-8") as file:
+            return of_text(file.read())
+    except OSError:
+        return None
+
+
+def is_over(grid: Grid, places: Places, name: str, *, here: bool) -> bool:
+    """Whether a process whose server is gone ended for good, by its policy."""
+    last = told(grid, places, name, here=here)
+    return last is not None and last.state in _FINAL
+
+
+def observe(grid: Grid, places: Places, specs: Mapping[str, Spec | None], hosts: Mapping[str, str]) -> dict[str, Running]:
+    """All processes as they are now; `hosts` are the names of those whose spec cannot be read."""
+    wanted, states = places.wanted(), grid.states(specs)
+    here = {spec.address: is_here(spec.address) for spec in specs.values() if spec}
+    alive = procfs.table() if any(here.values()) else {}
+    found: dict[str, Running] = {}
+    for name, spec in specs.items():
+        state, runner = states[name]
+        host = spec.process.host if spec else hosts.get(name, "")
+        if not state:
+            found[name] = Running(name, spec, host, LOST if name in wanted else STOPPED)
+            continue
+        is_near = spec is not None and here[spec.address]
+        last = told(grid, places, name, here=is_near)
+        found[name] = _seen(name, spec, host, state, runner, last, name in wanted, alive if is_near else None)
+    return found
+
+
+def _seen(
+    name: str, spec: Spec | None, host: str, state: str, runner: int, last: Told | None, is_wanted: bool,
+    alive: dict[int, procfs.Entry] | None,
+) -> Running:  # fmt: skip
+    if state in _ALIVE and (last is None or last.runner != runner or last.state not in (RUNNING, WAITING)):
+        return Running(name, spec, host, RUNNING, runner)  # it has just been started
+    if last is None:
+        return Running(name, spec, host, WAITING if is_wanted else STOPPED)
+    if state in _ALIVE:
+        now = last.state
+    elif last.state in _FINAL and is_wanted:
+        now = last.state
+    else:  # its runner or its node was killed, and the keeper will start it
+        now = WAITING if is_wanted else STOPPED
+    members = procfs.descendants({last.pid}, alive) & set(alive) if alive is not None and now == RUNNING else set()
+    return Running(
+        name, spec, host, now, last.pid if now == RUNNING else 0, _seconds_since(last, alive is not None),
+        last.restarts, last.last_exit, procfs.memory(members), sum(alive[pid].cpu for pid in members) if alive else 0.0,
+    )  # fmt: skip
+
+
+def _seconds_since(last: Told, is_near: bool) -> float:
+    """By a clock that nobody sets, where it is that of this machine."""
+    if is_near:
+        return max(0.0, time.clock_gettime(time.CLOCK_BOOTTIME) - last.since / 1000)
+    return max(0.0, time.time() - last.at / 1e6)
