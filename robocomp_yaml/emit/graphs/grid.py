@@ -1,0 +1,122 @@
+"""Which cell of a grid each node stands in: a strip of columns for each host, rows by layers.
+
+Hosts stand side by side as long as there is room, then in another band below. In a band all strips share their rows, so
+that lines go downwards; a layer with more nodes than its strip has columns takes several rows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from robocomp_yaml.emit.graphs.layers import layers
+from robocomp_yaml.emit.graphs.picture import Line, Picture
+
+MOST_COLUMNS = 12
+_SWEEPS = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """The cells of a host, its first and last row and column; `name` is '' for what is outside."""
+
+    name: str
+    top: int
+    bottom: int
+    left: int
+    right: int
+
+
+@dataclass(slots=True)
+class Grid:
+    """`cells` are (row, column) by node."""
+
+    cells: dict[str, tuple[int, int]] = field(default_factory=dict)
+    areas: list[Area] = field(default_factory=list)
+    rows: int = 0
+    columns: int = 0
+
+
+def grid_of(picture: Picture) -> Grid:
+    needs: dict[str, list[str]] = {}
+    for line in picture.lines:
+        if line.source != line.target and line.target not in needs.setdefault(line.source, []):
+            needs[line.source].append(line.target)
+    level = layers(picture.nodes, needs)
+    strips = [name for name in [*(box.name for box in picture.boxes), ""] if picture.inside(name)]
+    columns = _columns(picture, strips)
+    grid = Grid()
+    for band in _bands(strips, columns):
+        _place(picture, band, columns, level, grid)
+    _order(picture, grid)
+    return grid
+
+
+def _columns(picture: Picture, strips: Sequence[str]) -> dict[str, int]:
+    """How many columns each strip has: by its share of the nodes."""
+    count = len(picture.nodes)
+    room = max(1, min(MOST_COLUMNS, math.ceil(math.sqrt(1.6 * count))))
+    shares = {name: len(picture.inside(name)) * room / max(count, 1) for name in strips}
+    return {name: max(1, min(round(share), MOST_COLUMNS)) for name, share in shares.items()}
+
+
+def _bands(strips: Sequence[str], columns: Mapping[str, int]) -> list[list[str]]:
+    bands: list[list[str]] = []
+    room = 0
+    for name in strips:
+        if not bands or columns[name] > room:
+            bands.append([])
+            room = MOST_COLUMNS + 1  # what is outside may stand beside
+        bands[-1].append(name)
+        room -= columns[name]
+    return bands
+
+
+def _place(
+    picture: Picture, band: Sequence[str], columns: Mapping[str, int], level: Mapping[str, int], grid: Grid
+) -> None:
+    top, left = grid.rows, 0
+    lefts: dict[str, int] = {}
+    by_layer: dict[int, dict[str, list[str]]] = {}
+    for name in band:
+        lefts[name], left = left, left + columns[name]
+        for node in picture.inside(name):
+            by_layer.setdefault(level[node.name], {}).setdefault(name, []).append(node.name)
+    row = top
+    for _, strips in sorted(by_layer.items()):
+        for name, nodes in strips.items():
+            for at, node in enumerate(nodes):
+                down, right = divmod(at, columns[name])
+                in_row = min(len(nodes) - down * columns[name], columns[name])
+                grid.cells[node] = (row + down, lefts[name] + (columns[name] - in_row) // 2 + right)
+        row += max(math.ceil(len(nodes) / columns[name]) for name, nodes in strips.items())
+    grid.rows, grid.columns = row, max(grid.columns, left)
+    grid.areas += [Area(name, top, row - 1, lefts[name], lefts[name] + columns[name] - 1) for name in band]
+
+
+def _order(picture: Picture, grid: Grid) -> None:
+    """Moves nodes within their rows, each below (and above) what it is connected to."""
+    near: dict[str, list[str]] = {}
+    for line in picture.lines:
+        _connect(near, line)
+    rows: dict[tuple[int, str], list[str]] = {}
+    for name, (row, _) in grid.cells.items():
+        rows.setdefault((row, picture.nodes[name].box), []).append(name)
+    ordered = [rows[key] for key in sorted(rows)]
+    for sweep in range(_SWEEPS):
+        for members in ordered if sweep % 2 == 0 else reversed(ordered):
+            places = sorted(grid.cells[name][1] for name in members)
+            middle = {name: _middle(grid, near.get(name, ()), grid.cells[name][1]) for name in members}
+            row = grid.cells[members[0]][0]
+            for name, place in zip(sorted(members, key=lambda name: (middle[name], name)), places, strict=True):
+                grid.cells[name] = (row, place)
+
+
+def _connect(near: dict[str, list[str]], line: Line) -> None:
+    near.setdefault(line.source, []).append(line.target)
+    near.setdefault(line.target, []).append(line.source)
+
+
+def _middle(grid: Grid, others: Sequence[str], own: int) -> float:
+    return sum(grid.cells[name][1] for name in others) / len(others) if others else own

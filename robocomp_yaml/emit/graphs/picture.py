@@ -1,0 +1,79 @@
+"""What a picture of a network shows, whatever it is drawn with: boxes of hosts, nodes in them, and lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+COMPONENT, PROGRAM, ICESTORM, TOPIC, OUTSIDE = "component", "program", "icestorm", "topic", "outside"
+USES, PUBLISHES, SUBSCRIBES, AFTER = "uses", "publishes", "subscribes", "after"
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A problem, as the diagnostics say it."""
+
+    code: str
+    is_error: bool
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A host. `title` is what stands on it."""
+
+    name: str
+    title: str
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """`box` is the name of a box, '' for what is outside. `about` are short lines below the name. `serves` are
+    interfaces with their ports, 0 where none is known."""
+
+    name: str
+    title: str
+    kind: str
+    box: str = ""
+    about: tuple[str, ...] = ()
+    serves: tuple[tuple[str, int], ...] = ()
+    groups: tuple[str, ...] = ()
+    enabled: bool = True
+    faults: tuple[Fault, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """From `source`, which needs something, to `target`, which has it: `label` says what. Of a topic both who publishes
+    and who subscribes are sources; what flows, flows to the topic (PUBLISHES) or from it (SUBSCRIBES)."""
+
+    source: str
+    target: str
+    label: str = ""
+    kind: str = USES
+    faults: tuple[Fault, ...] = ()
+
+
+@dataclass(slots=True)
+class Picture:
+    """`faults` are those that belong to nothing in the picture."""
+
+    name: str
+    boxes: list[Box] = field(default_factory=list)
+    nodes: dict[str, Node] = field(default_factory=dict)
+    lines: list[Line] = field(default_factory=list)
+    faults: tuple[Fault, ...] = ()
+
+    def inside(self, box: str) -> list[Node]:
+        return [node for node in self.nodes.values() if node.box == box]
+
+    def all_faults(self) -> Iterator[tuple[str, Fault]]:
+        """Each problem once, with the name of what has it."""
+        seen: set[Fault] = set()
+        owners = [(node.title, node.faults) for node in self.nodes.values()]
+        owners += [(line.source, line.faults) for line in self.lines]
+        for name, faults in [*owners, (self.name, self.faults)]:
+            for fault in faults:
+                if fault not in seen:
+                    seen.add(fault)
+                    yield name, fault
