@@ -37,7 +37,7 @@ CONSTRAINTS = [
 ]
 SUBJECT = """\
 types:
-  Mode: {{enum: [slow, fast]}}
+  Speed: {{enum: [slow, fast]}}
   P: {{struct: {{x: double, tag: {{type: string, optional: true}}}}}}
 parameters:
   low: int
@@ -48,7 +48,7 @@ parameters:
   names: {{map: long}}
   points: {{list: P}}
   text: string
-  mode: Mode
+  mode: Speed
   class: string
 constraints: {those}
 """

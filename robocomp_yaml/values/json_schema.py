@@ -192,6 +192,8 @@ class _Maker:
     def members(self, type_: RecordType) -> Schema:
         """What holds for a record that is a mapping."""
         made: Schema = {"properties": {member.name: self.member(member) for member in type_.members}}
+        if self.mode == DOCUMENT:
+            made["patternProperties"] = {"^x-": {}}
         made["additionalProperties"] = False
         needed = [member.name for member in type_.members if member.required] if self.mode == EFFECTIVE else []
         if self.mode == COMPLETE:

@@ -224,7 +224,8 @@ def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scal
     for name, value in node.items():
         member = members.get(name.lexeme)
         if member is None:
-            yield unknown(name, type_, path, node)
+            if complete or not name.lexeme.startswith("x-"):  # the user's own, in a document
+                yield unknown(name, type_, path, node)
         elif value.data is None and not isinstance(value, Mapping | Sequence):
             if complete:
                 yield _wrong_type(member.type, value, (*path, name.lexeme), name)

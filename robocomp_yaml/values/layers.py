@@ -91,17 +91,21 @@ def data_of(place: Place | None, type_: Type) -> Any:
 
 
 def _without_null(data: Any, type_: Type) -> Any:
-    """What stands in a list merges with nothing; null members return to their defaults there too."""
+    """What stands in a list merges with nothing; null members return to their defaults there too, and keys `x-…` of
+    records are no members."""
     if isinstance(type_, ListType) and isinstance(data, list):
         if not isinstance(type_.element, RecordType | MapType | ListType):
             return data
         return [_without_null(item, type_.element) for item in data]
     if isinstance(type_, RecordType | MapType) and isinstance(data, dict):
-        if None not in data.values() and not any(isinstance(value, dict | list) for value in data.values()):
-            return data
+        kept = data
+        if isinstance(type_, RecordType) and any(name.startswith("x-") for name in data):
+            kept = {name: value for name, value in data.items() if not name.startswith("x-")}
+        if None not in kept.values() and not any(isinstance(value, dict | list) for value in kept.values()):
+            return kept
         return {
             name: _without_null(value, _entry_type(type_, name) or type_)
-            for name, value in data.items() if value is not None
+            for name, value in kept.items() if value is not None
         }
     return data
 

@@ -16,6 +16,7 @@ from robocomp_yaml.values.effective import Effective
 from robocomp_yaml.values.write import Property, Writer
 
 CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
+_OF_PORTS = ("endpoints", "proxies", "topics")
 
 
 @dataclass(slots=True)
@@ -92,11 +93,14 @@ def _exact(made: Property, original: str | None) -> Property:
 
 
 def given(values: LinkedValues, *keys: str) -> Iterator[tuple[str, Node]]:
-    """The entries of a section over all layers: later ones replace, null removes."""
+    """The entries of a section over all layers: later ones replace, null removes. Where names are those of ports, one
+    that starts with `x-` is the user's own."""
     merged: dict[str, Node] = {}
     for layer in values.layers():
         section = layer.document.section(*keys)
         for name, node in section.items() if section is not None else ():
+            if keys[0] in _OF_PORTS and name.lexeme.startswith("x-"):
+                continue
             if node.data is None:
                 merged.pop(name.lexeme, None)
             else:
