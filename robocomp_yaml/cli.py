@@ -23,6 +23,7 @@ COMMANDS = {
     "compile": "Write Slice and components; only what changed.",
     "migrate": "Carry legacy files over to YAML, losing nothing.",
     "config": "Values of parameters: check, show, change, export.",
+    "graph": "A picture of a deployment, or of components.",
     "deploy": "A network of components: plan, up, status, logs, down.",
     "schema": "Print the JSON Schema of a kind of document.",
     "explain": "Say what a diagnostic means, with examples.",

@@ -33,7 +33,7 @@ text { font-family: Helvetica, Arial, 'Liberation Sans', sans-serif; fill: #2021
 .icestorm, .topic { fill: #f3e8fd; stroke: #8e5bbf } .outside { fill: #ffffff; stroke: #78868e; stroke-dasharray: 5 3 }
 .off { opacity: 0.5 } .line { fill: none; stroke-width: 1.4 } .tip { stroke: none }
 .c0 { stroke: #3b6fb6 } .c1 { stroke: #2e7d5b } .c2 { stroke: #a3682a } .c3 { stroke: #5b6770 } .c4 { stroke: #00808a }
-.c5 { stroke: #7a7a1f } .publishes, .subscribes { stroke: #8e5bbf } .after { stroke: #9aa0a6; stroke-dasharray: 4 3 }
+.c5 { stroke: #7a7a1f } .publishes, .subscribes { stroke: #8e5bbf } .after { stroke: #b0b6bc; stroke-width: 1.1 }
 .t0 { fill: #3b6fb6 } .t1 { fill: #2e7d5b } .t2 { fill: #a3682a } .t3 { fill: #5b6770 } .t4 { fill: #00808a }
 .t5 { fill: #7a7a1f } .tpublishes, .tsubscribes { fill: #8e5bbf } .tafter { fill: #9aa0a6 }
 .label { font-size: 10px; fill: #3c4043 }

@@ -1,0 +1,89 @@
+"""`rcyaml graph`: a picture of a deployment, or of the components of a folder."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import click
+
+from robocomp_yaml.commands import _options
+
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.graphs.picture import Picture
+    from robocomp_yaml.pipeline import Analysis
+
+FORMS = ("text", "dot", "mermaid", "json", "svg")
+
+
+@click.command(short_help="A picture of a deployment, or of components.")
+@click.argument("path", metavar="[DDSL]", default=".", type=click.Path(exists=True))
+@click.option("--as", "form", type=click.Choice(FORMS), default="text", show_default=True, help="How to draw it.")
+@click.option("-o", "--output", metavar="FILE", type=click.Path(dir_okay=False), help="Write it there.")
+@_options.include
+@_options.format_
+@click.pass_context
+def command(
+    ctx: click.Context, path: str, form: str, output: str | None, include: tuple[str, ...], format_: str
+) -> None:  # fmt: skip
+    """Show hosts, what runs on them, and what is connected to what; problems are red.
+
+    DDSL is a deployment document, or a folder. Of a folder without a deployment the components are shown, and which
+    of them implement what others require.
+    """
+    from robocomp_yaml.diag.diagnostic import has_errors
+    from robocomp_yaml.diag.render import render
+    from robocomp_yaml.emit.graphs.forms import draw
+    from robocomp_yaml.pipeline import analyse
+
+    analysis = analyse([path], include)
+    made = _picture(path, analysis)
+    if made is None:
+        _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)
+        return
+    text = draw(made, form)
+    if output is None:
+        click.echo(text, nl=False)
+    else:
+        _save(output, text)
+    told = analysis.diagnostics
+    if told and not (output is None and form in ("text", "json")):  # which tell them themselves
+        colored = format_ == "text" and _options.colored(ctx, click.get_text_stream("stderr"))
+        click.echo(render(format_, told, analysis.program.documents, colored), nl=False, err=True, color=ctx.color)
+    ctx.exit(1 if has_errors(told) else 0)
+
+
+def _picture(path: str, analysis: Analysis) -> Picture | None:
+    """None where the document, or everything in the folder, is too broken to show."""
+    from robocomp_yaml.emit.graphs import of_components, of_network
+
+    deployments = list(analysis.program.deployments)
+    if not os.path.isdir(path):
+        real = os.path.realpath(path)
+        network = analysis.networks.get(real)
+        if network is None and not path.endswith("ddsl.yaml"):
+            raise click.UsageError(f"'{path}' is no deployment document (NAME.ddsl.yaml), and no folder")
+        return of_network.picture_of(network, analysis.diagnostics) if network is not None else None
+    own = [network for network in analysis.networks.values() if not _is_included(network.path, analysis)]
+    if len(own) > 1:
+        names = ", ".join(sorted(os.path.relpath(network.path) for network in own))
+        raise click.UsageError(f"there are several deployments here, of which one is to be named: {names}")
+    if own:
+        return of_network.picture_of(own[0], analysis.diagnostics)
+    if deployments or not analysis.program.components:
+        return None
+    name = os.path.basename(os.path.abspath(path))
+    return of_components.picture_of(name, analysis.program.components.values())
+
+
+def _is_included(path: str, analysis: Analysis) -> bool:
+    return any(linked.is_included and os.path.realpath(path) == linked.real
+               for linked in analysis.program.deployments.values())  # fmt: skip
+
+
+def _save(path: str, text: str) -> None:
+    try:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+    except OSError as error:
+        raise click.ClickException(f"{path} cannot be written: {(error.strerror or str(error)).lower()}") from error
