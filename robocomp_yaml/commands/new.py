@@ -1,4 +1,4 @@
-"""`rcyaml new interface|component|parameters|deployment`: a document that already checks and compiles, where its kind belongs.
+"""`rcyaml new interface|component|parameters|deployment`: a document that already checks, where its kind belongs.
 
 An interface goes to the workspace's first folder of interfaces, a component to `components/` and a folder of its own,
 which bears its name in lower case; parameters go beside their component, a deployment to `deployments/`. Where there is

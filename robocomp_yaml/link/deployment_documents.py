@@ -125,6 +125,7 @@ def _nearby(path: str, *suffixes: str) -> str:
         names = sorted(os.listdir(folder or "."))
     except OSError:
         return f"there is no folder '{folder}'"
-    fitting = [n for n in names if n.endswith(suffixes) or os.path.isdir(os.path.join(folder, n))] if suffixes else names
-    meant = suggest(name, fitting)
+    if suffixes:
+        names = [n for n in names if n.endswith(suffixes) or os.path.isdir(os.path.join(folder, n))]
+    meant = suggest(name, names)
     return f"did you mean '{meant}'?" if meant else ""

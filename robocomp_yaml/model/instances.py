@@ -37,10 +37,11 @@ def _tree(node: Node, number: str) -> Node:
             counted = text_at(node.span, number)
             counted.data = int(number)
             return counted
-        return mapping_at(
-            node.span, {key.replace(INDEX, number): (text_at(name.span, name.lexeme.replace(INDEX, number)), _tree(value, number))
-                        for key, (name, value) in node.entries.items()}
-        )
+        entries = {}
+        for name, value in node.items():
+            key = name.lexeme.replace(INDEX, number)
+            entries[key] = text_at(name.span, key), _tree(value, number)
+        return mapping_at(node.span, entries)
     if isinstance(node, Sequence):
         return sequence_at(node.span, [_tree(item, number) for item in node.items])
     assert isinstance(node, Scalar)

@@ -21,7 +21,8 @@ DOCUMENTS = {
     ),
     "speech/bin/SpeechComp": "-> /bin/true",
     "mouth/mouth.cdsl.yaml": (
-        "component: MouthComp\nlanguage: python\nimports: [../Speech]\nimplements: [Mouth]\nparameters: mouth.pdsl.yaml\n"
+        "component: MouthComp\nlanguage: python\nimports: [../Speech]\nimplements: [Mouth]\n"
+        "parameters: mouth.pdsl.yaml\n"
     ),
     "mouth/mouth.pdsl.yaml": (
         "parameters:\n  number: {type: int, default: 0}\n  id: {type: string, optional: true}\n"
@@ -81,7 +82,8 @@ def test_a_configuration_is_looked_for_in_the_components_folder_then_beside_the_
 def test_instances_are_counted_out_in_every_text(link: Link) -> None:
     linked = link(
         "components:\n  mouth{i}:\n    component: mouth\n    instances: 3\n    args: [\"--n={i}\"]\n"
-        "    env: {N: \"{i}\"}\n    set: {number: {i}, id: \"{i}\", \"lips[0]\": {i}}\n    ready: {log: \"mouth {i} ready\"}\n"
+        "    env: {N: \"{i}\"}\n    set: {number: {i}, id: \"{i}\", \"lips[0]\": {i}}\n"
+        "    ready: {log: \"mouth {i} ready\"}\n"
         "  speech{i}: {component: speech, instances: 2, connect: {Mouth: \"mouth{i}\"}, after: [\"mouth{i}\"]}\n"
         "groups: {mouths: {components: [\"mouth{i}\"]}}\n"
     )
@@ -132,7 +134,8 @@ def test_the_one_host_is_everybodys(link: Link) -> None:
 
 def test_a_group_names_the_host_of_what_it_includes(link: Link) -> None:
     linked = link("hosts: {a: 10.0.0.2, b: {address: 10.0.0.3, user: me}}\n"
-                  "groups: {left: {include: arm.ddsl.yaml, host: a}, right: {include: arm.ddsl.yaml, host: b}}\n", arm=ARM)
+                  "groups: {left: {include: arm.ddsl.yaml, host: a}, right: {include: arm.ddsl.yaml, host: b}}\n",
+                  arm=ARM)
     assert {name: i.host.name for name, i in linked.instances.items() if i.host} == {
         "left.elbow": "a", "left.hand": "a", "right.elbow": "b", "right.hand": "b"
     }
@@ -184,7 +187,8 @@ def test_an_included_group_exposes_its_members_by_their_own_names(link: Link) ->
 
 
 def test_who_is_outside_reaches_a_closed_group_only_as_a_whole(link: Link) -> None:
-    linked = link(TWO + "  watch: {program: sleep, args: [1]}\ngroups: {face: {components: [speech, mouth], as: speech}}\n")
+    linked = link(TWO + "  watch: {program: sleep, args: [1]}\n"
+                  "groups: {face: {components: [speech, mouth], as: speech}}\n")
     watch, speech = linked.instances["watch"], linked.instances["speech"]
     face, mouth = linked.groups["face"], linked.instances["mouth"]
     assert linked.closed_around(mouth, watch) == [face]
