@@ -104,6 +104,13 @@ def test_guards_and_methods_of_interfaces_share_a_class(diagnostics: Check) -> N
     ]
 
 
+@pytest.mark.parametrize(("keys", "codes"), [("", []), ("compatibility: robocomp\n", ["RC2237"])], ids=["", "robocomp"])
+def test_what_robocomps_worker_has(diagnostics: Check, keys: str, codes: list[str]) -> None:
+    machine = "statemachine: {initial: a, transitions: {a: {to: a, event: x, if: timer}}}\n"
+    files = {"c.cdsl.yaml": f"component: C\nlanguage: cpp\n{keys}{machine}"}
+    assert [d["code"] for d in diagnostics(files)] == codes
+
+
 def test_no_script_language_in_cpp(diagnostics: Check) -> None:
     text = machine('<state id="a"/>', 'initial="a" datamodel="python"')
     assert said(diagnostics, text, "cpp") == ["1:1 RC2216 the data model 'python' is not available in C++"]

@@ -70,6 +70,22 @@ def test_the_part_that_evaluates_is_there_only_where_it_is_asked_for(tmp_path: P
         assert evaluates == ({"generated/machine/scripting.py"} if datamodel == "python" else set())
 
 
+@pytest.mark.parametrize("language", ["python", "cpp"])
+@pytest.mark.parametrize(
+    ("name", "member"),
+    [("patrol", "patrol"), ("timer", "defaultMachine"), ("", "defaultMachine"), ("a-b", "defaultMachine")],
+)
+def test_robocomps_machine_has_the_name_of_its_file(name: str, member: str, language: str, tmp_path: Path) -> None:
+    scxml = f'<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="{name}"><final id="a"/></scxml>\n'
+    document = PLAIN + "statemachine: door.scxml\ncompatibility: robocomp\n"
+    files = planned(tmp_path, document, language, **{"door.scxml": scxml})
+    path, line = {
+        "python": ("generated/robocomp/genericworker.py", f"self.{member} = _machine.StateMachine("),
+        "cpp": ("generated/genericworker.h", f"robocomp::Machine {member};"),
+    }[language]
+    assert line in files[path].text
+
+
 @pytest.mark.parametrize("text", ['"', "\\", "'''", "\n", "??/", "é\0", '*/ #include "x"', "{{ x }}", "\x1b[0m"])
 def test_texts_stay_texts(text: str) -> None:
     assert eval(python(text)) == text
