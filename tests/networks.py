@@ -84,8 +84,8 @@ def large(count: int, hosts: int = 4) -> Network:
                 after += (f"component{other}",)
                 network.connections.append(Connection(name, f"Port{other}", f"Interface{other}", f"component{other}"))
         network.processes[name] = Process(
-            name, names[i * hosts // count], (f"/fleet/bin/{name}",), "/fleet", endpoints=(served(f"Interface{i}", 10000 + i),),
-            after=after,
+            name, names[i * hosts // count], (f"/fleet/bin/{name}",), "/fleet", after=after,
+            endpoints=(served(f"Interface{i}", 10000 + i),),
         )  # fmt: skip
     depth: dict[str, int] = {}
     for process in network.processes.values():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from typing import TYPE_CHECKING
 
 import click
@@ -48,7 +49,7 @@ def command(
         _save(output, text)
     told = analysis.diagnostics
     if told and not (output is None and form in ("text", "json")):  # which tell them themselves
-        colored = format_ == "text" and _options.colored(ctx, click.get_text_stream("stderr"))
+        colored = format_ == "text" and _options.colored(ctx, sys.stderr)
         click.echo(render(format_, told, analysis.program.documents, colored), nl=False, err=True, color=ctx.color)
     ctx.exit(1 if has_errors(told) else 0)
 

@@ -55,7 +55,7 @@ SAME_PROCESS = Code(
 )  # fmt: skip
 NO_PROGRAM = Code(
     "RC5038", WARNING, "the command of '{name}' starts '{word}', which is a configuration file",
-    "RCManager's commands are `rcremote HOST TAB FOLDER PROGRAM ARGUMENTS`. Where the folder is missing, the program is "
+    "A command is `rcremote HOST TAB FOLDER PROGRAM ARGUMENTS`. Where the folder is missing, the program is "
     "taken for it, and its first argument for the program.",
     _wrong("rcremote localhost laser /opt/laser ./bin/laser etc/config",
            "rcremote localhost laser /opt/laser/bin/laser /opt/laser.conf"), _RIGHT, _MIGRATE,

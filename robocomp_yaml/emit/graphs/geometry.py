@@ -1,5 +1,7 @@
-"""Where everything of a picture stands, in pixels: nodes, hosts, and the ways of lines. Nothing overlaps by construction:
-each row and column, and each channel and gap between them, is as large as what it holds."""
+"""Where everything of a picture stands, in pixels: nodes, hosts, and the ways of lines.
+
+Nothing overlaps by construction: each row and column, and each channel and gap between, is as large as what it holds.
+"""
 
 from __future__ import annotations
 

@@ -86,10 +86,10 @@ def _place(
     row = top
     for _, strips in sorted(by_layer.items()):
         for name, nodes in strips.items():
-            for at, node in enumerate(nodes):
+            for at, member in enumerate(nodes):
                 down, right = divmod(at, columns[name])
                 in_row = min(len(nodes) - down * columns[name], columns[name])
-                grid.cells[node] = (row + down, lefts[name] + (columns[name] - in_row) // 2 + right)
+                grid.cells[member] = (row + down, lefts[name] + (columns[name] - in_row) // 2 + right)
         row += max(math.ceil(len(nodes) / columns[name]) for name, nodes in strips.items())
     grid.rows, grid.columns = row, max(grid.columns, left)
     grid.areas += [Area(name, top, row - 1, lefts[name], lefts[name] + columns[name] - 1) for name in band]

@@ -59,8 +59,8 @@ def _connect(made: Picture, network: Network, connection: Connection, faults: Se
         name = target.name if target is not None else connection.proxy or connection.target
         if target is None and name not in made.nodes:
             title = name.partition(":")[0] if connection.proxy else name
-            about = (name.partition(":")[2],) if connection.proxy else ()
-            made.nodes[name] = Node(name, title, parts.OUTSIDE, about=about)
+            address = name.partition(":")[2]
+            made.nodes[name] = Node(name, title, parts.OUTSIDE, about=(address,) if address else ())
         label = connection.interface
         if connection.port not in (label, ""):
             label = f"{connection.port}: {label}"
@@ -68,8 +68,9 @@ def _connect(made: Picture, network: Network, connection: Connection, faults: Se
         return
     topic = f"{connection.target}/{connection.topic}"
     storm = network.processes.get(connection.target)
-    made.nodes.setdefault(topic, Node(topic, connection.topic, parts.TOPIC, storm.host if storm else "",
-                                      (f"topic of {connection.target}",) if connection.target else ("topic",)))  # fmt: skip
+    about = f"topic of {connection.target}" if connection.target else "topic"
+    host = storm.host if storm is not None else ""
+    made.nodes.setdefault(topic, Node(topic, connection.topic, parts.TOPIC, host, (about,)))
     kind = parts.PUBLISHES if connection.is_out else parts.SUBSCRIBES
     label = "" if connection.interface in connection.topic else connection.interface
     made.lines.append(Line(connection.source, topic, label, kind, tuple(faults)))

@@ -1,8 +1,8 @@
-"""How lines run between the cells of a grid: along the channels between rows and the gaps between columns, so that they
+"""How lines run between the cells of a grid: in the channels between rows and the gaps between columns, so that they
 never cross a node; each on a track of its own there.
 
-All lines that want the same thing of a node are one net, with one arrow. A net leaves each source downwards, runs in the
-channel below it to a gap, in the gap to the channel above its target, and in that to the target.
+All lines that want the same thing of a node are one net, with one arrow. A net leaves each source downwards, runs in
+the channel below it to a gap, in the gap to the channel above its target, and in that to the target.
 """
 
 from __future__ import annotations

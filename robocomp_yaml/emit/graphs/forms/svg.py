@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from xml.sax.saxutils import escape
 
@@ -19,6 +20,7 @@ from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.picture import Fault, Node, Picture
 from robocomp_yaml.emit.graphs.routes import Net
 
+_IMPOSSIBLE = re.compile("[^\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _ROUND = 4.0
 _COLORS = 6
 """Lines of different targets have different colours, so that the eye can follow them."""
@@ -73,7 +75,8 @@ def draw(picture: Picture) -> str:
         *(line for way in geometry.ways for line in _tips(way, colors)),
         *(f'<text class="label" x="{x + 5:g}" y="{y - 6:g}">{_text(net.label)}</text>'
           for net, (x, y) in geometry.labels if net.label),
-        *(line for name, block in geometry.nodes.items() for line in _node(picture.nodes[name], block)), *told, "</svg>",
+        *(line for name, block in geometry.nodes.items() for line in _node(picture.nodes[name], block)),
+        *told, "</svg>",
     ]  # fmt: skip
     return "\n".join(lines) + "\n"
 
@@ -171,6 +174,6 @@ def _place(block: Block) -> str:
 
 def _text(text: str) -> str:
     """A text as XML's; what XML cannot hold is left out."""
-    return escape("".join(char for char in text if char in "\t\n" or (char >= " " and not "\ud800" <= char <= "\udfff")))
+    return escape(_IMPOSSIBLE.sub("", text))
 
 
