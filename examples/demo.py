@@ -46,6 +46,7 @@ def main() -> None:
     show((DEMO / "talkinghead/components/speech/speechcomp.cdsl.yaml").read_text().rstrip())
     rcyaml("compile", "talkinghead", "jointmotor")
     rcyaml("check")
+    rcyaml("graph", NETWORK)
     if not has_ice():
         show(
             "\nTo run the components, Ice is missing: `apt install python3-zeroc-ice` (Debian 12), or "
