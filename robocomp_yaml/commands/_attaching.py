@@ -31,7 +31,12 @@ async def attached(ctx: click.Context, opened: Opened, wanted: bool) -> AsyncIte
     more or the user has had enough, and takes down what is left; it returns what went wrong."""
     printer = asyncio.create_task(_print(ctx, opened)) if wanted and opened.format_ == "text" else None
     try:
-        yield lambda: _stay(opened)
+        yield lambda: _stay(ctx, opened)
+    except asyncio.CancelledError:
+        if wanted:  # while it came up
+            await _take_down(opened)
+            await operations.end_if_idle(opened.engine)
+        raise
     finally:
         if printer:
             await asyncio.sleep(_PERIOD)  # for what was printed last
@@ -46,21 +51,26 @@ async def _print(ctx: click.Context, opened: Opened) -> None:
         click.echo(shown.text(line), color=ctx.color)
 
 
-async def _stay(opened: Opened) -> list[Diagnostic]:
+async def _stay(ctx: click.Context, opened: Opened) -> list[Diagnostic]:
     enough = asyncio.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         asyncio.get_running_loop().add_signal_handler(number, enough.set)
+    if opened.format_ == "text" and ctx.obj.verbosity >= 0:
+        click.echo(f"{opened.network.name}: Ctrl-C takes it down")
     failed: dict[str, Diagnostic] = {}
     while not enough.is_set():
         running = await opened.engine.observe()
         for one in running.values():
             if one.state == GIVEN_UP and one.spec:
-                how = f"{one.last_exit}, after {one.restarts} restarts" if one.restarts else one.last_exit
-                failed[one.name] = deploying.GIVEN_UP.at(one.spec.process.span, name=one.name, how=how)
+                failed[one.name] = deploying.GIVEN_UP.at(one.spec.process.span, name=one.name, how=one.end)
         if not any(one.state in (RUNNING, WAITING) for one in running.values()):
             break
         with suppress(TimeoutError):
             await asyncio.wait_for(enough.wait(), _PERIOD)
+    await _take_down(opened)
+    return list(failed.values())
+
+
+async def _take_down(opened: Opened) -> None:
     running = await opened.engine.observe()
     await operations.stop_all(opened.engine, running.values(), lambda event: None)
-    return list(failed.values())

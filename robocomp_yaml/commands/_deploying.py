@@ -29,11 +29,13 @@ from robocomp_yaml.network.network import Network
 
 T = TypeVar("T")
 
+INTERRUPTED = "interrupted: what runs goes on; `rcyaml deploy down` stops it"
+
 
 @dataclass(slots=True)
 class Opened:
     """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
-    so far; `documents` were read."""
+    so far, of which some have been `shown`; `documents` were read."""
 
     path: str
     network: Network
@@ -41,6 +43,7 @@ class Opened:
     format_: str
     told: list[Diagnostic] = field(default_factory=list)
     documents: int = 0
+    shown: list[Diagnostic] = field(default_factory=list)
 
     @property
     def enabled(self) -> set[str]:
@@ -103,11 +106,11 @@ def plan(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
         opened.told += await opened.engine.obstacles(specs, {step.name for step in found.of(STOP, RESTART)})
         await opened.engine.close()
         if opened.format_ == "json":
-            _end(ctx, opened, {"plan": views.plan_data(found)})
+            end(ctx, opened, {"plan": views.plan_data(found)})
         click.echo(views.plan_text(found, _options.colored(ctx), everything=ctx.obj.verbosity > 0), color=ctx.color)
 
     _run(ctx, opened, work())
-    _end(ctx, opened)
+    end(ctx, opened)
 
 
 def up(
@@ -118,11 +121,11 @@ def up(
     is_asked = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and opened.format_ == "text"
     progress = Progress(opened.format_ == "text" and ctx.obj.verbosity >= 0, _options.colored(ctx), opened.enabled)
 
-    async def choose(outcome: operations.Outcome) -> str:
+    async def choose(result: operations.Result) -> str:
         if not is_asked:
             return operations.STOP_THEM if on_failure == "ask" else on_failure
         progress.pause()
-        click.echo(f"not ready: {', '.join(outcome.failed)}")
+        _show(ctx, opened, result.diagnostics)
         answer: str = await asyncio.to_thread(
             click.prompt, "stop what was started, roll back to what ran before, or keep it as it is?",
             type=click.Choice(["stop", "rollback", "keep"]), default="stop",
@@ -145,12 +148,13 @@ def up(
             await opened.engine.close()
         return result
 
-    result = _run(ctx, opened, work(), change=True)
+    interrupted = "interrupted: all was taken down" if attach else INTERRUPTED
+    result = _run(ctx, opened, work(), change=True, on_interrupt=interrupted)
     if opened.format_ == "json":
-        _end(ctx, opened, views.result_data(result))
+        end(ctx, opened, views.result_data(result))
     if not attach:
         click.echo(views.result_text(opened.network, result), color=ctx.color)
-    _end(ctx, opened)
+    end(ctx, opened)
 
 
 def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
@@ -166,9 +170,9 @@ def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
     opened.told = [one for one in opened.told if one.code.startswith("RC7")]
     code = 1 if any(one.is_down for one in found) else 0
     if opened.format_ == "json":
-        _end(ctx, opened, {"processes": views.status_data(opened.network, found)}, code)
+        end(ctx, opened, {"processes": views.status_data(opened.network, found)}, code)
     click.echo(views.status_text(opened.network, found, _options.colored(ctx)), color=ctx.color)
-    _end(ctx, opened, code=code)
+    end(ctx, opened, code=code)
 
 
 def logs(ctx: click.Context, opened: Opened, names: tuple[str, ...], last: int, *, follow: bool, times: bool) -> None:
@@ -199,15 +203,15 @@ def down(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
 
     stopped = _run(ctx, opened, work(), change=True)
     if opened.format_ == "json":
-        _end(ctx, opened, {"stopped": stopped})
+        end(ctx, opened, {"stopped": stopped})
     if not stopped:
         click.echo(f"{opened.network.name}: nothing ran")
-    _end(ctx, opened)
+    end(ctx, opened)
 
 
 def _run(
     ctx: click.Context, opened: Opened, work: Coroutine[Any, Any, T], *, change: bool = False,
-    on_interrupt: str = "interrupted: what runs goes on; `rcyaml deploy down` stops it",
+    on_interrupt: str = INTERRUPTED,
 ) -> T:  # fmt: skip
     """Carries out what a command does; `change` where only one may at a time. What fails it ends the command."""
     try:
@@ -220,7 +224,7 @@ def _run(
     except DeployFailed as error:
         opened.told += [*opened.engine.notes, error.diagnostic]
         opened.engine.notes = []
-        _end(ctx, opened)
+        end(ctx, opened)
         raise
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
@@ -232,25 +236,33 @@ def _run(
         work.close()
     where = shown_path(opened.network.folder)
     opened.told.append(deploying.FOLDER.at(Span(opened.network.path), path=where, reason=reason))
-    _end(ctx, opened)
+    end(ctx, opened)
     raise AssertionError("a command that failed has ended")
 
 
-def _shown(opened: Opened, told: Diagnostic) -> Diagnostic:
+def end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = None, code: int = 0) -> None:
+    """Tells what is wrong and ends the command: with 1 where one of it is an error."""
+    told = [*opened.told, *opened.engine.notes]
+    if opened.format_ == "json":
+        head: dict[str, object] = {"deployment": opened.network.name, "engine": opened.engine.name, **(data or {})}
+        click.echo(dumps({**head, "diagnostics": [as_data(_placed(opened, one)) for one in told]}), nl=False)
+    else:
+        _show(ctx, opened, told)
+    ctx.exit(1 if has_errors(told) else code)
+
+
+def _show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> None:
+    """Prints what was not printed before."""
+    new = [_placed(opened, one) for one in told if one not in opened.shown]
+    opened.shown += told
+    if new:
+        text = render("text", new, opened.documents, _options.colored(ctx, sys.stderr))
+        # Its last line counts the documents, which is not what this is about.
+        click.echo(text.rstrip("\n").rpartition("\n")[0], color=ctx.color, err=True)
+
+
+def _placed(opened: Opened, told: Diagnostic) -> Diagnostic:
     """Engines know the document by its whole path, which is not how the user named it."""
     if told.span.file != opened.network.path:
         return told
     return replace(told, span=replace(told.span, file=opened.path))
-
-
-def _end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = None, code: int = 0) -> None:
-    """Tells what is wrong and ends the command: with 1 where one of it is an error."""
-    told = [_shown(opened, one) for one in (*opened.told, *opened.engine.notes)]
-    if opened.format_ == "json":
-        head: dict[str, object] = {"deployment": opened.network.name, "engine": opened.engine.name, **(data or {})}
-        click.echo(dumps({**head, "diagnostics": [as_data(one) for one in told]}), nl=False)
-    elif told:
-        text = render("text", told, opened.documents, _options.colored(ctx, sys.stderr))
-        # Its last line counts the documents, which is not what this is about.
-        click.echo(text.rstrip("\n").rpartition("\n")[0], color=ctx.color, err=True)
-    ctx.exit(1 if has_errors(told) else code)

@@ -137,7 +137,7 @@ def probe(ctx: click.Context, ddsl: str, host: str | None, include: tuple[str, .
     libraries that they need are missing there."""
     from robocomp_yaml.commands import _deploying, _probing
 
-    _probing.probe(ctx, _deploying.open_(ctx, ddsl, include, format_, None, lenient=True), host)
+    _probing.tell(ctx, _deploying.open_(ctx, ddsl, include, format_, None, lenient=True), host)
 
 
 @command.command(short_help="The network in the words of other tools.")

@@ -54,6 +54,12 @@ class Running:
     memory: int = 0
     cpu: float = 0.0
 
+    @property
+    def end(self) -> str:
+        """How it ended, after how many tries."""
+        again = f", after {self.restarts} restart{'' if self.restarts == 1 else 's'}" if self.restarts else ""
+        return self.last_exit + again
+
 
 @dataclass(frozen=True, slots=True)
 class Line:

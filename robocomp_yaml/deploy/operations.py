@@ -20,7 +20,6 @@ STOP_THEM, ROLL_BACK, KEEP_GOING = "stop", "rollback", "keep"
 SHOWN_LINES = 10
 """Lines of a log that are shown with what failed."""
 
-Choose = Callable[[Outcome], Awaitable[str]]
 
 
 @dataclass(slots=True)
@@ -31,6 +30,9 @@ class Result:
     outcome: Outcome = field(default_factory=Outcome)
     diagnostics: list[Diagnostic] = field(default_factory=list)
     undone: str = ""
+
+
+Choose = Callable[[Result], Awaitable[str]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +74,7 @@ async def up(
     result.outcome = await carry_out(engine, result.plan, report, keep_going=keep_going)
     if failed := result.outcome.failed:
         result.diagnostics = [await _with_log(engine, name, found) for name, found in failed.items()]
-        result.undone = KEEP_GOING if keep_going else await choose(replace(result.outcome))
+        result.undone = KEEP_GOING if keep_going else await choose(result)
         await _undo(engine, result, before, report)
     return result
 

@@ -52,7 +52,8 @@ class Plan:
 def plan(
     network: Network, running: Mapping[str, Running], names: Iterable[str] = (), forced: Collection[str] = ()
 ) -> Plan:
-    """`names` are processes to which it is limited, with all that they are after; `forced` restart in any case."""
+    """`names` are processes to which it is limited, with all that they are after, and what must follow them; `forced`
+    restart in any case."""
     chosen = with_dependences(network, names) if names else {process.name for process in network.enabled()}
     steps: dict[str, Step] = {}
     for name in running:
@@ -63,10 +64,11 @@ def plan(
     digests: dict[str, str] = {}
     for wave in network.order:
         for name in wave:
-            if name in chosen:
-                process = network.processes[name]
+            process = network.processes[name]
+            follows = _restarting(process, steps)
+            if name in chosen or (follows and name in running):
                 spec = spec_of(network, process, digests)
-                steps[name] = _step(spec, running.get(name), forced, _restarting(process, steps))
+                steps[name] = _step(spec, running.get(name), forced, follows)
     return Plan(steps)
 
 

@@ -73,9 +73,7 @@ async def _until_it_ends(spec: Spec, state: Callable[[], Awaitable[Running | Non
     while True:
         running = await state()
         if running is None or running.state in (GIVEN_UP, STOPPED, LOST):
-            how = running.last_exit if running else "it is not known any more"
-            tries = running.restarts if running else 0
-            return f"{how}, after {tries} restarts" if tries else how or "it was stopped"
+            return (running.end if running else "") or "it was stopped meanwhile"
         if running.state == ENDED and _asks_for_something(spec):
             # The sign may be its last line, which those who follow the log see a little later.
             await asyncio.sleep(2 * _LONGEST if spec.process.ready.log else 0)
@@ -138,7 +136,7 @@ def _is_sign(pattern: str, text: str) -> bool:
 def _why_not(spec: Spec, running: Running | None) -> str:
     ready = spec.process.ready
     if running and running.restarts:
-        return f"it ended {running.restarts} times meanwhile, the last time with {running.last_exit}"
+        return f"it ended meanwhile: {running.end}"
     if ready.pings:
         return "no answer from " + ", ".join(proxy.partition(":")[0].split()[0] for proxy in ready.pings)
     if ready.port:

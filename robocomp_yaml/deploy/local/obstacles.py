@@ -38,13 +38,13 @@ def not_here(network: Network) -> Diagnostic | None:
     """The first process that belongs on another machine."""
     for process in network.enabled():
         host = network.hosts[process.host]
-        if not _is_here(host.address):
+        if not is_here(host.address):
             where = host.span if host.span.file else process.span
             return deploying.NOT_HERE.at(where, name=process.name, host=host.name, address=host.address)
     return None
 
 
-def _is_here(address: str) -> bool:
+def is_here(address: str) -> bool:
     """Whether an address is one of this machine's: only those can be bound. One that cannot be resolved is not."""
     if address == LOOPBACK:
         return True

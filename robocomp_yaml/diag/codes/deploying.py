@@ -126,3 +126,13 @@ GIVEN_UP = Code(
     _FINE,
     _UP,
 )
+NO_ANSWER = Code(
+    "RC7010",
+    "error",
+    "the host '{host}' ({address}) cannot be asked: {reason}",
+    "What another machine has is asked over ssh, which must let you in without a question: with a key, and a host that "
+    "it knows. `ssh ADDRESS true` shows whether it does.",
+    _one('program: "true"', "hosts:\n  arm: {address: nowhere.invalid}\n"),
+    _FINE,
+    "deploy probe robot.ddsl.yaml",
+)

@@ -1,0 +1,101 @@
+"""Which of a network's programs a host has, in which version, and what they lack there: asked by one small script, here
+or over ssh, to which names are given as data.
+
+No program is run to tell its version, as a component that is run starts to work: a version is the digest of a file and
+the day on which it was made.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from robocomp_yaml.deploy.local.obstacles import is_here
+from robocomp_yaml.network.network import Host, Network
+
+WITHIN = 60.0
+
+# One line of answer for each line of question: path, digest, day, and the libraries that are missing.
+_SCRIPT = """
+while IFS= read -r program; do
+  path=$(command -v -- "$program" 2>/dev/null) || path=
+  case $path in /*) ;; *) path= ;; esac
+  [ -f "$path" ] && [ -x "$path" ] || path=
+  digest= day= missing=
+  if [ -n "$path" ]; then
+    digest=$(sha256sum < "$path" | cut -c1-12)
+    day=$(date -u -r "$path" +%Y-%m-%d)
+    missing=$(ldd "$path" 2>/dev/null | sed -n 's/^[[:space:]]*\\([^ ]*\\) => not found.*/\\1/p' | sort -u | tr '\\n' ' ')
+  fi
+  printf '%s\\t%s\\t%s\\t%s\\n' "$path" "$digest" "$day" "$missing"
+done
+"""
+
+
+class ProbeFailed(Exception):
+    """The host cannot be asked; the text says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A program on a host. `path` is '' where the host does not have it; `missing` are libraries that it needs and the
+    host lacks. `used_by` are the processes that run it."""
+
+    program: str
+    used_by: tuple[str, ...]
+    path: str = ""
+    digest: str = ""
+    day: str = ""
+    missing: tuple[str, ...] = ()
+
+    @property
+    def can_run(self) -> bool:
+        return bool(self.path) and not self.missing
+
+
+def programs(network: Network) -> dict[str, tuple[str, ...]]:
+    """The programs of a network's processes, each with the names of those. One whose name has a line break in it
+    cannot be asked for."""
+    found: dict[str, tuple[str, ...]] = {}
+    for process in network.enabled():
+        program = process.command[0]
+        if "\n" not in program:
+            found[program] = (*found.get(program, ()), process.name)
+    return found
+
+
+async def probe(host: Host, wanted: dict[str, tuple[str, ...]]) -> list[Found]:
+    """Raises ProbeFailed."""
+    command = ["sh", "-c", _SCRIPT] if is_here(host.address) else _over_ssh(host)
+    try:
+        asked = await asyncio.create_subprocess_exec(
+            *command, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE
+        )
+    except OSError as error:
+        raise ProbeFailed(f"cannot run {command[0]}: {(error.strerror or str(error)).lower()}") from error
+    questions = "".join(f"{program}\n" for program in wanted).encode(errors="surrogateescape")
+    try:
+        answer, said = await asyncio.wait_for(asked.communicate(questions), WITHIN)
+    except TimeoutError as error:
+        asked.kill()
+        await asked.wait()
+        raise ProbeFailed(f"no answer within {WITHIN:g} s") from error
+    lines = answer.decode(errors="surrogateescape").splitlines()
+    if asked.returncode or len(lines) != len(wanted):
+        text = said.decode("utf-8", "replace").strip().splitlines()
+        raise ProbeFailed(text[-1] if text else f"the answer is not understood (exit code {asked.returncode})")
+    return [_found(program, used_by, line.split("\t")) for (program, used_by), line in zip(wanted.items(), lines,
+                                                                                            strict=True)]  # fmt: skip
+
+
+def _found(program: str, used_by: tuple[str, ...], fields: Sequence[str]) -> Found:
+    path, digest, day, missing = fields
+    return Found(program, used_by, path, digest, day, tuple(missing.split()))
+
+
+def _over_ssh(host: Host) -> list[str]:
+    """The remote shell gets the script as one word, in which nothing comes from a document."""
+    quoted = "'" + _SCRIPT.replace("'", "'\\''") + "'"
+    place = f"{host.user}@{host.address}" if host.user else host.address
+    return ["ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "--", place, f"sh -c {quoted}"]

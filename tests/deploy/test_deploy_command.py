@@ -1,0 +1,272 @@
+"""`rcyaml deploy`, as one types it."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+from processes import Ports, until
+from robocomp_yaml.deploy.local import procfs
+from small_networks import Place
+
+ROBOT = """\
+deployment: Robot
+components:
+  base:
+    program: sh
+    args: [-c, "echo hello; exec sleep 600"]
+    ready: {log: hello}
+  arm: {program: sleep, args: ["600"], after: [base]}
+"""
+FAILING = ROBOT + '  hand: {program: sh, args: [-c, "echo oh; exit 3"], after: [arm], restart: "no"}\n'
+
+Rcyaml = Callable[..., Result]
+
+
+@pytest.fixture
+def robot(place: Place, tmp_path: Path, rcyaml: Rcyaml) -> Iterator[Path]:
+    yield write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT})
+
+
+def deploy(rcyaml: Rcyaml, what: str, *args: str) -> Result:
+    return rcyaml("deploy", what, "robot.ddsl.yaml", *args)
+
+
+def test_from_nothing_to_nothing(robot: Path, rcyaml: Rcyaml) -> None:
+    assert deploy(rcyaml, "plan").stdout.endswith("2 to start\n")
+    assert deploy(rcyaml, "up").stdout == "base  ready\narm   ready\nRobot: 2 processes as wanted\n"
+    assert deploy(rcyaml, "up").stdout == "Robot: nothing to do, 2 processes as wanted\n"
+    assert deploy(rcyaml, "plan").stdout == "nothing to do\n"
+    status = deploy(rcyaml, "status")
+    assert status.exit_code == 0
+    assert [line.split()[:2] for line in status.stdout.splitlines()[1:]] == [["base", "ready"], ["arm", "ready"]]
+    assert "base | hello\n" in deploy(rcyaml, "logs").stdout
+    assert deploy(rcyaml, "restart", "arm").stdout == "arm   stopped\narm   ready\nRobot: 2 processes as wanted\n"
+    assert deploy(rcyaml, "down").stdout == "arm   stopped\nbase  stopped\n"
+    assert deploy(rcyaml, "down").stdout == "Robot: nothing ran\n"
+
+
+def test_all_that_is_told_is_data_too(robot: Path, rcyaml: Rcyaml) -> None:
+    def data(what: str, *args: str) -> dict[str, object]:
+        return json.loads(deploy(rcyaml, what, *args, "--format", "json").stdout)
+
+    plan = data("plan")["plan"]
+    assert [(step["name"], step["action"]) for step in plan] == [("base", "start"), ("arm", "start")]
+    assert data("up")["result"] == {"ready": ["base", "arm"], "failed": [], "skipped": [], "undone": ""}
+    processes = data("status")["processes"]
+    assert all(one["ready"] and one["pid"] > 1 and one["memory"] > 0 for one in processes)
+    lines = deploy(rcyaml, "logs", "base", "--format", "json").stdout.splitlines()
+    assert [json.loads(line)["text"] for line in lines][-1] == "hello"
+    assert set(data("down")["stopped"]) == {"base", "arm"}
+
+
+def test_a_plan_says_field_by_field(robot: Path, rcyaml: Rcyaml) -> None:
+    deploy(rcyaml, "up")
+    write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("[base]}", '[base], env: {SPEED: "2"}, restart: always}')})
+    said = deploy(rcyaml, "plan").stdout
+    assert said.splitlines()[0] == "~ arm   restart: env SPEED: 2 (new), and 1 more"
+    assert said.splitlines()[-1] == "1 to restart, 1 to keep"
+    (step,) = (
+        step
+        for step in json.loads(deploy(rcyaml, "plan", "--format", "json").stdout)["plan"]
+        if step["name"] == "arm"
+    )
+    assert step["changes"][0] == {"field": "env SPEED", "old": "", "new": "2", "needs_restart": True}
+
+
+def test_failure_is_told_with_the_log(robot: Path, rcyaml: Rcyaml) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": FAILING})
+    result = deploy(rcyaml, "up")
+    assert result.exit_code == 1
+    assert result.stdout.endswith("Robot: failed; what was started was stopped\n")
+    assert "error[RC7004]: 'hand' ended before it was ready: exit code 3" in result.stderr
+    assert "robot.ddsl.yaml:8:3" in result.stderr and "hand | oh\n" in result.stderr
+    assert deploy(rcyaml, "status").stdout.count("not started") == 3
+
+
+def test_status_fails_where_one_does_not_run(robot: Path, rcyaml: Rcyaml) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": FAILING})
+    assert deploy(rcyaml, "up", "--on-failure", "keep").exit_code == 1
+    status = deploy(rcyaml, "status")
+    assert status.exit_code == 1 and "given up: exit code 3" in status.stdout
+    deploy(rcyaml, "down")
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (("up", "."), "it has none"),
+        (("up", "robot.ddsl.yaml", "amr"), "has no process or group 'amr'; did you mean 'arm'?"),
+        (("probe", "robot.ddsl.yaml", "moon"), "has no host 'moon'"),
+        (("up", "nowhere.ddsl.yaml"), "does not exist"),
+    ],
+)
+def test_wrong_usage(robot: Path, rcyaml: Rcyaml, args: tuple[str, ...], said: str) -> None:
+    if args[1] == ".":
+        (robot / "robot.ddsl.yaml").unlink()
+    result = rcyaml("deploy", *args)
+    assert result.exit_code == 2 and said in result.stderr
+
+
+def test_a_document_with_errors_starts_nothing(robot: Path, rcyaml: Rcyaml) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("[base]", "[bsae]")})
+    result = deploy(rcyaml, "up")
+    assert result.exit_code == 1 and "did you mean 'base'" in result.stdout
+    assert not (robot / ".rcyaml").exists()
+
+
+def test_a_second_name_means_the_same_process(robot: Path, rcyaml: Rcyaml, free_port: Ports) -> None:
+    more = f"  hand: {{process: arm, endpoints: {{Hand: tcp -p {free_port()}}}}}\n"
+    write_tree(robot, {"robot.ddsl.yaml": ROBOT + more})
+    result = deploy(rcyaml, "plan", "hand")
+    assert result.stdout.endswith("2 to start\n"), result.output
+
+
+def test_what_a_process_prints_cannot_command_the_terminal(robot: Path, rcyaml: Rcyaml) -> None:
+    script = r"printf '\033[31mred\033[0m \033]0;title\007 \033[2Jgone\n'; exec sleep 600"
+    document = {"deployment": "Robot", "components": {"base": {"program": "sh", "args": ["-c", script]}}}
+    write_tree(robot, {"robot.ddsl.yaml": json.dumps(document)})
+    deploy(rcyaml, "up")
+    until(lambda: "gone" in deploy(rcyaml, "logs").stdout, "the line")
+    assert "\x1b" not in deploy(rcyaml, "logs").stdout
+    colored = rcyaml("--color", "always", "deploy", "logs", "robot.ddsl.yaml").stdout
+    assert "\x1b[31mred" in colored and "\x1b[2J" not in colored and "\x1b]" not in colored
+    deploy(rcyaml, "down")
+
+
+def start(folder: Path, *args: str, **more: object) -> subprocess.Popen[bytes]:
+    return subprocess.Popen([sys.executable, "-m", "robocomp_yaml", "deploy", *args], cwd=folder, **more)  # type: ignore[call-overload, no-any-return]
+
+
+def test_attached_it_ends_with_ctrl_c(robot: Path, place: Place) -> None:
+    attached = start(robot, "up", "robot.ddsl.yaml", "--attach", stdout=subprocess.PIPE)
+    assert attached.stdout
+    seen = b""
+    while b"Ctrl-C takes it down" not in seen or b"base | hello" not in seen:
+        seen += os.read(attached.stdout.fileno(), 1000)
+    attached.send_signal(signal.SIGINT)
+    with attached.stdout as rest:
+        rest.read()
+    assert attached.wait(20) == 0
+    place.wait_gone()
+
+
+def test_attached_and_interrupted_while_it_comes_up(robot: Path, place: Place) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("ready: {log: hello}", "ready: {log: never, within: 60 s}")})
+    attached = start(robot, "up", "robot.ddsl.yaml", "--attach", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    assert attached.stdout
+    seen = b""
+    while b"base | hello" not in seen:
+        seen += os.read(attached.stdout.fileno(), 1000)
+    attached.send_signal(signal.SIGINT)
+    with attached.stdout as rest:
+        assert b"interrupted: all was taken down" in rest.read()
+    assert attached.wait(20) == 130
+    place.wait_gone()
+
+
+def test_attached_it_ends_when_all_have_ended(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": 'deployment: Robot\ncomponents:\n  a: {program: echo, args: [done]}\n'})
+    result = deploy(rcyaml, "up", "--attach")
+    assert result.exit_code == 0 and "a | done" in result.stdout
+    place.wait_gone()
+
+
+def test_logs_are_followed(robot: Path, rcyaml: Rcyaml) -> None:
+    deploy(rcyaml, "up")
+    following = start(robot, "logs", "robot.ddsl.yaml", "-f", "-n", "0", stdout=subprocess.PIPE)
+    assert following.stdout
+    os.set_blocking(following.stdout.fileno(), False)
+    seen = b""
+
+    def printed() -> bool:
+        nonlocal seen
+        deploy(rcyaml, "restart", "base")
+        seen += following.stdout.read() or b""
+        return b"base | hello" in seen
+
+    until(printed, lambda: f"what the restarted one prints, in {seen!r}")
+    following.send_signal(signal.SIGINT)
+    following.stdout.close()
+    following.wait(20)
+    deploy(rcyaml, "down")
+
+
+def test_on_a_terminal_the_user_is_asked(robot: Path, place: Place) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": FAILING})
+    ours, theirs = pty.openpty()
+    up = start(robot, "up", "robot.ddsl.yaml", stdin=theirs, stdout=theirs, stderr=theirs)
+    os.close(theirs)
+    seen = b""
+    while b"[stop]: " not in seen:
+        seen += os.read(ours, 1000)
+    text = seen.decode()
+    assert "hand | oh" in text, "the log is shown before the question"
+    assert re.search(r"arm +starting", text)
+    os.write(ours, b"keep\n")
+    try:
+        while chunk := os.read(ours, 1000):
+            seen += chunk
+    except OSError:
+        pass  # the other end is closed
+    os.close(ours)
+    assert up.wait(20) == 1
+    assert b"what was started was kept" in seen and seen.count(b"RC7004") == 1
+    assert place.observe()["arm"].state == "running"
+    place.down()
+
+
+def test_a_killed_supervisor_is_reported_once(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
+    deploy(rcyaml, "up")
+    os.kill(place.keeper_and_supervisor()[1], signal.SIGKILL)
+    place.wait_gone()
+    assert "RC7007" in deploy(rcyaml, "status").stderr
+    assert "RC7007" not in deploy(rcyaml, "status").stderr
+    assert deploy(rcyaml, "up").exit_code == 0
+    deploy(rcyaml, "down")
+
+
+def test_only_one_changes_it_at_a_time(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
+    from robocomp_yaml.deploy import folder
+
+    with folder.locked(place.folder):
+        result = deploy(rcyaml, "up")
+    assert result.exit_code == 1 and "another rcyaml is changing this deployment" in result.stderr
+    assert procfs.marked(place.folder) == []
+
+
+def test_a_host_is_asked_over_ssh(robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An `ssh` that runs here what it is to run there."""
+    document = ROBOT.replace("components:", "hosts:\n  arm: {address: 192.0.2.7, user: robot}\ncomponents:")
+    fake = '#!/bin/sh\nfor last; do :; done\necho "$@" | head -1 > ssh.log\nexec sh -c "$last"\n'
+    write_tree(robot, {"robot.ddsl.yaml": document, "bin/ssh": fake})
+    (robot / "bin/ssh").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{robot}/bin:{os.environ['PATH']}")
+    found = json.loads(deploy(rcyaml, "probe", "arm", "--format", "json").stdout)["hosts"]["arm"]
+    assert [(one["program"], one["used_by"], bool(one["path"])) for one in found] == [
+        ("sh", ["base"], True), ("sleep", ["arm"], True),
+    ]  # fmt: skip
+    assert "-- robot@192.0.2.7" in (robot / "ssh.log").read_text(encoding="utf-8")
+
+
+def test_a_program_that_a_host_lacks(robot: Path, rcyaml: Rcyaml) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("program: sleep", "program: no-such-sleep")})
+    result = deploy(rcyaml, "probe")
+    assert result.exit_code == 1 and "no-such-sleep  not there, for arm" in result.stdout
+
+
+def test_it_is_exported(robot: Path, rcyaml: Rcyaml) -> None:
+    assert 'server id="arm"' in deploy(rcyaml, "export", "--as", "icegrid").stdout
+    assert "wrote out/Robot-arm.service" in deploy(rcyaml, "export", "--as", "systemd", "-o", "out").stdout
+    assert (robot / "out/Robot-arm.service").stat().st_mode & 0o077 == 0
