@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.program import LinkedComponent, Port
+    from robocomp_yaml.model.parameters import RecordType
 
 _SUFFIX = "comp"
 
@@ -69,10 +70,34 @@ def _entry(
     document = Path(os.path.relpath(linked.component.path, path.parent)).as_posix()
     yield f"  {names[id(linked)]}:"
     yield f"    component: {document}"
+    missing = {} if _has_values(linked) else _required(linked.parameters.parameters.root)
+    if missing:
+        from robocomp_yaml.values.spell_yaml import flow
+
+        yield f"    set: {flow(missing)}  # examples: these have no default"
     connect = list(_connections(linked, names, components))
     if connect:
         yield "    connect:"
         yield from connect
+
+
+def _has_values(linked: LinkedComponent) -> bool:
+    return os.path.isfile(os.path.join(os.path.dirname(linked.component.path), "etc", "config.yaml"))
+
+
+def _required(record: RecordType) -> dict[str, object]:
+    """A value, for example, of each parameter that needs one."""
+    from robocomp_yaml.model.parameters import RecordType
+    from robocomp_yaml.values.json_schema import example
+
+    found: dict[str, object] = {}
+    for member in record.members:
+        if member.is_group and isinstance(member.type, RecordType):
+            inner = _required(member.type)
+            found |= {member.name: inner} if inner else {}
+        elif member.required:
+            found[member.name] = example(member)
+    return found
 
 
 def _connections(

@@ -179,10 +179,14 @@ class Program:
     documents: int = 0
 
     def asked_components(self) -> set[str]:
-        """The components that the user named, be it by their parameters or values."""
+        """The components that the user named, be it by their parameters, their values or a deployment of them."""
         documents = {real: linked.component for real, linked in self.parameters.items()}
         documents |= {real: linked.parameters.component for real, linked in self.values.items() if linked.parameters}
         wanted = {id(documents[real]) for real in self.asked & documents.keys()}
+        wanted |= {
+            id(instance.component) for real in self.asked & self.deployments.keys()
+            for instance in self.deployments[real].instances.values()
+        }
         named = {real for real, linked in self.components.items() if id(linked) in wanted}
         return (self.asked & self.components.keys()) | named
 

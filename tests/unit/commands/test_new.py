@@ -141,6 +141,26 @@ def test_a_new_deployment_asks_where_is_what_nobody_implements(rcyaml: Run, work
     assert errors(rcyaml("check")) == []
 
 
+def test_a_new_deployment_gives_what_has_no_default(rcyaml: Run, workspace: Path) -> None:
+    rcyaml("new", "component", "TalkComp")
+    write_tree(workspace, {"components/talkcomp/talkcomp.pdsl.yaml": (
+        "component: talkcomp.cdsl.yaml\nparameters:\n  device: string\n  speed: {type: int, default: 3}\n"
+        "  Yolo: {group: {size: {type: int, range: [2, 4]}, on: {type: bool, optional: true}}}\n"
+    )})  # fmt: skip
+    rcyaml("new", "deployment", "Head")
+    assert "    set: {device: text, Yolo: {size: 2}}  # examples" in components_of(workspace)
+    assert errors(rcyaml("check")) == []
+
+
+def test_a_deployment_stands_for_its_components_to_the_compiler(rcyaml: Run, workspace: Path) -> None:
+    rcyaml("new", "component", "TalkComp", "--implements", "Speech")
+    rcyaml("new", "deployment", "Head")
+    rcyaml("new", "component", "OtherComp")
+    assert rcyaml("compile", "deployments/head.ddsl.yaml").exit_code == 0
+    assert (workspace / "components/talkcomp/bin/TalkComp").is_file()
+    assert not (workspace / "components/othercomp/bin").exists()
+
+
 def test_a_new_deployment_of_nothing_checks(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("new", "deployment", "Head").exit_code == 0
     assert rcyaml("check").stdout == "1 document: nothing wrong\n"
