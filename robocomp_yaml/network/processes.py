@@ -135,7 +135,7 @@ def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
     }
     text = "".join(f"{entry_line(key, value)}\n" for key, value in settings.items())
     return Process(
-        storm.name, storm.host.name, ("icebox", f"--Ice.Config={CONFIG}"), folder, ICESTORM,
+        storm.name, storm.host.name, ("icebox", f"--Ice.Config={CONFIG}"), "/", ICESTORM,  # its paths are absolute
         config=ConfigFile(f"config/{storm.name}", text),
         endpoints=(manager, publish),
         ready=Readiness(pings=(storm.proxy,)),
