@@ -16,6 +16,7 @@ from robocomp_yaml.model.deployment import Pair
 from robocomp_yaml.network.contents import Contents, name_of
 from robocomp_yaml.network.draft import Draft, Given, Offer
 from robocomp_yaml.network.drafts import Drafts
+from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
 
@@ -28,6 +29,7 @@ class Connections:
 
     drafts: Drafts
     contents: Contents
+    gates: Gates
     found: list[Connection] = field(default_factory=list)
     needs: list[Need] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
@@ -35,7 +37,7 @@ class Connections:
 
     def resolve(self) -> None:
         for draft in self.drafts.drafts.values():
-            for offer in draft.offers:
+            for offer in draft.offers if not self.gates.is_gate(draft) else ():
                 self._by_name.setdefault(offer.interface, []).append(offer)
         for draft in self.drafts.drafts.values():
             component, given = draft.instance.component, {pair.name: pair for pair in draft.instance.entry.connect}
@@ -153,6 +155,7 @@ class Connections:
     def _connect(
         self, draft: Draft, name: str, interface: str, offer: Offer, span: Span, port: Port | None
     ) -> None:
+        offer = self.gates.through(offer, draft.instance)
         target = offer.owner
         if offer.endpoint is None:  # the document's endpoint is none, which has been said
             return

@@ -16,9 +16,9 @@ from robocomp_yaml.network.contents import Contents
 from robocomp_yaml.network.draft import Draft
 from robocomp_yaml.network.drafts import Drafts, drafts_of
 from robocomp_yaml.network.endpoints import endpoint_faults
+from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import Network
 from robocomp_yaml.network.order import AFTER, Need, ordered
-from robocomp_yaml.network.rules import rule_faults
 from robocomp_yaml.network.topics import Topics
 
 FOLDER = ".rcyaml/deployments"
@@ -31,6 +31,8 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
     drafts = drafts_of(linked)
     network = Network(deployment.name, os.path.abspath(deployment.path), folder, drafts.hosts, extra=deployment.extra)
+    gates = Gates(drafts)
+    gates.place()
     ports.assign(drafts)
     bases: dict[Draft, Base] = {}
 
@@ -40,21 +42,26 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
         return bases[draft]
 
     contents = Contents()
-    connections, topics = Connections(drafts, contents), Topics(drafts, contents, base)
+    connections, topics = Connections(drafts, contents, gates), Topics(drafts, contents, base)
     connections.resolve()
+    gates.connect()
     topics.resolve()
-    network.connections = [*connections.found, *topics.found]
-    diagnostics = [*endpoint_faults(drafts), *rule_faults(linked), *connections.diagnostics, *topics.diagnostics]
-    needs = [*_said(drafts), *connections.needs, *topics.needs]
+    network.connections = [*connections.found, *gates.found, *topics.found]
+    diagnostics = [*endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
+    needs = [*_said(drafts), *connections.needs, *gates.needs, *topics.needs]
     wanted = {need.target for need in needs}
     for storm in drafts.storms.values():
         network.processes[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in wanted)
     known: dict[str, tuple[str, ...]] = {}
     for draft in drafts.drafts.values():
-        configuration = Configuration(draft, base(draft))
-        configuration.make()
-        diagnostics += configuration.diagnostics
-        network.processes[draft.name] = processes.of_draft(draft, configuration.text, known)
+        if gates.is_gate(draft):
+            text: str | None = gates.program(draft)
+        else:
+            configuration = Configuration(draft, base(draft))
+            configuration.make()
+            diagnostics += configuration.diagnostics
+            text = configuration.text
+        network.processes[draft.name] = processes.of_draft(draft, text, known)
     diagnostics += _put_in_order(network, needs)
     return network, diagnostics
 

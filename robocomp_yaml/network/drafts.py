@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from robocomp_yaml.link import deployments
-from robocomp_yaml.link.deployments import LinkedDeployment, LinkedInstance
+from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.network.draft import Draft, Offer, StormDraft
@@ -32,7 +32,7 @@ class Drafts:
 
 def drafts_of(linked: LinkedDeployment) -> Drafts:
     result = Drafts(linked, {name: _host(host) for name, host in linked.hosts.items()})
-    result.complete = not (linked.broken or any(group.broken for group in linked.groups.values()))
+    result.complete = not (linked.broken or any(map(_lacks_something, linked.groups.values())))
     for storm in linked.storms.values():
         result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host))
         result.complete &= not storm.broken
@@ -49,6 +49,10 @@ def drafts_of(linked: LinkedDeployment) -> Drafts:
             owner.aliases.append(instance)
             owner.offers += _endpoints(owner, instance)
     return result
+
+
+def _lacks_something(group: LinkedGroup) -> bool:
+    return group.broken or len(group.serves) < len(group.group.exposed)
 
 
 def _host(host: model.Host) -> Host:

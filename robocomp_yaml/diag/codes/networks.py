@@ -146,16 +146,6 @@ TOPIC_MISMATCH = Code(
     ),
     _CHECK,
 )
-NO_RULES = Code(
-    "RC4212",
-    "error",
-    "'{name}' of the group '{group}' has a rate or access rule, which cannot be kept yet",
-    "Such a rule asks for a proxy component between the group and those outside, which this version cannot generate. "
-    "A rule that would not hold is refused.",
-    deployed(_BOTH + "groups:\n  face: {components: [mouth], expose: {Mouth: {member: mouth, rate: 10}}}\n"),
-    deployed(_BOTH + "groups:\n  face: {components: [mouth], expose: {Mouth: mouth}}\n"),
-    _CHECK,
-)
 BAD_ENDPOINT = Code(
     "RC4301",
     "error",

@@ -152,6 +152,28 @@ def test_the_inside_of_a_closed_group_is_out_of_reach() -> None:
     assert said(found) == ("RC4206", "robot.ddsl.yaml", 3, 48)
 
 
+def test_a_rule_puts_a_gate_between() -> None:
+    found = network(group("{components: [inner, other], expose: {Lips: {member: other, rate: 10}}}",
+                          ", connect: {Mouth: face}"))
+    gate = found.processes["face.gate"]
+    assert proxies(found)["speech.Mouth"] == ("face.gate", f"mouth:tcp -h localhost -p {gate.endpoints[0].port}")
+    assert proxies(found)["face.gate.Lips"][0] == "other" and proxies(found)["inner.Mouth"][0] == "other"
+    assert (gate.groups, gate.after, gate.ready.port) == (("face",), ("other",), gate.endpoints[0].port)
+    assert found.processes["speech"].after == ("face.gate",)
+
+
+def test_gates_of_groups_in_groups_stand_behind_each_other() -> None:
+    found = network(deployed(
+        "components:\n  speech: {component: speech}\n  mouth: {component: mouth, port: 10002}\ngroups:\n"
+        "  lips: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo]}}}\n"
+        "  face: {components: [lips], expose: {Mouth: {member: mouth, rate: 5}}}\n"
+    ))
+    assert [(line.source, line.target) for line in found.connections] == [
+        ("speech", "face.gate"), ("lips.gate", "mouth"), ("face.gate", "lips.gate")
+    ]
+    assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
+
+
 def test_an_include_is_connected_inside_first() -> None:
     arm = "deployment: Arm\ncomponents:\n  speech: {component: speech}\n  mouth: {component: mouth}\n"
     found = network(deployed(
