@@ -1,0 +1,248 @@
+"""A network on three hosts, run by IceGrid: components that call each other, and each part of it killed in turn."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from conftest import ROOT, write_tree
+from processes import until
+from three_hosts import Deployment, three_hosts
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(shutil.which("icegridnode") is None, reason="IceGrid is not installed (Debian: zeroc-icegrid)"),
+]
+
+WORDS = "module: RoboCompWords\ntopics:\n  Words: {methods: {word: {in: {number: int}}}}\n"
+TELLER = """\
+from generated.genericworker import GenericWorker
+
+
+class SpecificWorker(GenericWorker):
+    def initialize(self):
+        self.number = 0
+
+    def compute(self):
+        self.number += 1
+        self.words_proxy.word(self.number)
+"""
+HEARER = """\
+from generated.genericworker import GenericWorker
+
+
+class SpecificWorker(GenericWorker):
+    def initialize(self):
+        pass
+
+    def compute(self):
+        pass
+
+    def Words_word(self, number):
+        self.log.info("heard word %d", number)
+"""
+NETWORK = """\
+deployment: Talk
+hosts:
+  onboard: {{address: {onboard}}}
+  head: {{address: {head}}}
+  arm: {{address: {arm}}}
+services:
+  storm: {{icestorm: {{host: onboard}}}}
+components:
+  mouth: {{component: talkinghead/components/mouth, host: arm, ready: 20 s}}
+  speech: {{component: talkinghead/components/speech, host: head, ready: 20 s}}
+  hearer: {{component: words/hearer, host: arm, ready: 20 s}}
+  teller: {{component: words/teller, host: head, after: [hearer], ready: 20 s}}
+"""
+
+
+@pytest.fixture(scope="module")
+def talk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
+    """The network, up on three hosts; two of the nodes were started by hand where that is needed."""
+    pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
+    root = tmp_path_factory.mktemp("talk")
+    with three_hosts() as hosts:
+        deployment = Deployment(hosts, root)
+        shutil.copytree(ROOT / "examples" / "talkinghead", root / "talkinghead")
+        write_tree(root, {
+            "talk.ddsl.yaml": NETWORK.format(**hosts.addresses),
+            "words/rcyaml.yaml": "interfaces: [interfaces/]\n",
+            "words/interfaces/Words.idsl.yaml": WORDS,
+            **{
+                f"words/{name}/{name}.cdsl.yaml": (
+                    f"component: {name.title()}\nlanguage: python\nimports: [Words]\n{key}: [Words]\nperiod: 20 ms\n"
+                )
+                for name, key in (("teller", "publishes"), ("hearer", "subscribes"))
+            },
+            "words/teller/src/specificworker.py": TELLER,
+            "words/hearer/src/specificworker.py": HEARER,
+        })  # fmt: skip
+        try:
+            deployment.rcyaml("migrate", "talkinghead")
+            deployment.rcyaml("compile", "talkinghead", "words")
+            if hosts.prefix:
+                _start_by_hand(deployment)
+            deployment.deploy("up")
+            yield deployment
+        finally:
+            deployment.clean_up()
+
+
+def _start_by_hand(deployment: Deployment) -> None:
+    """Without SSH, `up` says what to do, and starts nothing else."""
+    said = deployment.deploy("up", code=1)
+    assert "error[RC7021]" in said and "'head'" in said
+    assert re.search(r"ssh 10\.99\.0\.2 bash -s < \S*hosts/head\.sh", said)
+    assert not any((deployment.state / "status").glob("*"))
+    for host in ("head", "arm"):
+        deployment.start_node(host)
+
+
+@pytest.fixture(autouse=True)
+def ready(talk: Deployment) -> dict[str, int]:
+    """The pids when a test begins: everything is ready."""
+    return {name: one["pid"] for name, one in talk.until_ready().items()}
+
+
+def test_components_on_different_hosts_call_each_other(talk: Deployment, ready: dict[str, int]) -> None:
+    until(lambda: "says 'Shelly' with the mouth" in talk.logs("speech"), lambda: talk.logs())
+    assert {name: one["host"] for name, one in talk.status().items()} == {
+        "storm": "onboard", "mouth": "arm", "speech": "head", "hearer": "arm", "teller": "head",
+    }  # fmt: skip
+    if talk.hosts.prefix:
+        networks = {name: os.readlink(f"/proc/{pid}/ns/net") for name, pid in ready.items()}
+        assert networks["mouth"] == networks["hearer"] != networks["speech"] == networks["teller"] != networks["storm"]
+
+
+def test_a_topic_crosses_hosts(talk: Deployment) -> None:
+    def heard() -> list[int]:
+        return [int(number) for number in re.findall(r"heard word (\d+)", talk.logs("hearer"))]
+
+    first = until(heard, lambda: talk.logs())[-1]
+    until(lambda: heard()[-1] > first, lambda: talk.logs())
+
+
+def test_a_second_up_touches_nothing(talk: Deployment, ready: dict[str, int]) -> None:
+    assert "nothing to do" in talk.deploy("up")
+    assert talk.pids() == ready
+
+
+def test_a_killed_component_is_back(talk: Deployment, ready: dict[str, int]) -> None:
+    before = talk.status()["mouth"]["restarts"]
+    os.kill(ready["mouth"], signal.SIGKILL)
+    until(lambda: talk.pids()["mouth"] not in (0, ready["mouth"]), lambda: talk.logs())
+    now = talk.until_ready()
+    assert now["mouth"]["restarts"] == before + 1
+    assert {name: one["pid"] for name, one in now.items() if name != "mouth"} == _without(ready, "mouth")
+    assert "ended by itself: SIGKILL; starting again" in talk.logs("mouth")
+    assert talk.copies("mouth") == 1
+
+
+def test_a_killed_runner_takes_its_component_with_it_and_both_are_back(
+    talk: Deployment, ready: dict[str, int]
+) -> None:
+    runner = int((talk.state / "status" / "speech").read_text().split("|")[1])
+    os.kill(runner, signal.SIGKILL)
+    until(lambda: talk.pids()["speech"] not in (0, ready["speech"]), lambda: talk.logs())
+    assert talk.copies("speech") == 1
+    assert _without(talk.pids(), "speech") == _without(ready, "speech")
+
+
+def test_a_host_that_is_gone_is_reported_and_comes_back(talk: Deployment, ready: dict[str, int]) -> None:
+    """Its processes end with its node; nothing of them is doubled when it returns."""
+    talk.kill_daemon("nodes/arm", for_good=True)
+    until(lambda: talk.copies("mouth") == 0 == talk.copies("hearer"), "the processes of a dead node end")
+    status = talk.status()
+    assert {name for name, one in status.items() if one["state"] == "lost"} == {"mouth", "hearer"}
+    assert "lost" in talk.deploy("status", code=1)
+    talk.start_node("arm")
+    pids = {name: one["pid"] for name, one in talk.until_ready().items()}
+    assert _without(pids, "mouth", "hearer") == _without(ready, "mouth", "hearer")
+    assert talk.copies("mouth") == 1 == talk.copies("hearer")
+
+
+def test_a_killed_node_is_started_again_on_its_host(talk: Deployment, ready: dict[str, int]) -> None:
+    talk.kill_daemon("nodes/head", for_good=False)
+    until(lambda: talk.pids()["teller"] not in (0, ready["teller"]), lambda: talk.logs())
+    talk.until_ready()
+    assert talk.copies("teller") == 1 == talk.copies("speech")
+
+
+@pytest.mark.parametrize("for_good", [False, True], ids=["started again by its guard", "with its guard"])
+def test_without_the_registry_everything_runs_on(talk: Deployment, ready: dict[str, int], for_good: bool) -> None:
+    """A component that is killed meanwhile is back all the same: its own host sees to that."""
+    talk.kill_daemon("registry", for_good=for_good)
+    os.kill(ready["mouth"], signal.SIGKILL)
+
+    def mouth() -> int:
+        return int((talk.state / "status" / "mouth").read_text().split("|")[2])
+
+    until(lambda: mouth() not in (0, ready["mouth"]), lambda: talk.logs())
+    pids = {name: one["pid"] for name, one in talk.until_ready().items()}
+    assert _without(pids, "mouth") == _without(ready, "mouth")
+    assert talk.copies("mouth") == 1
+
+
+def test_a_killed_keeper_is_back_and_keeps(talk: Deployment, ready: dict[str, int]) -> None:
+    def keepers() -> list[int]:
+        return [int(path.parent.name) for path in Path("/proc").glob("[0-9]*/cmdline") if _is_keeper(path, talk.folder)]
+
+    (old,) = keepers()
+    os.kill(old, signal.SIGKILL)
+    until(lambda: len(keepers()) == 1 and keepers() != [old], "IceGrid restarts the keeper")
+    test_a_killed_runner_takes_its_component_with_it_and_both_are_back(talk, ready)
+
+
+def _is_keeper(path: Path, folder: str) -> bool:
+    try:
+        words = path.read_bytes().split(b"\0")
+    except OSError:
+        return False
+    return b"robocomp_yaml.deploy.icegrid.keeper" in words and folder.encode() in words
+
+
+def test_a_changed_component_alone_restarts(talk: Deployment, ready: dict[str, int]) -> None:
+    document = talk.root / "talk.ddsl.yaml"
+    text = document.read_text()
+    document.write_text(text.replace("host: arm, ready: 20 s}\n  speech", "host: arm, ready: 20 s, args: [--N=1]}\n  speech"))
+    talk.deploy("up")
+    pids = talk.pids()
+    assert pids["mouth"] != ready["mouth"]
+    assert pids["hearer"] == ready["hearer"] and pids["storm"] == ready["storm"]
+    document.write_text(text)
+    talk.deploy("up")
+
+
+def test_only_its_owner_can_read_what_it_holds(talk: Deployment) -> None:
+    for folder, _, files in os.walk(talk.folder):
+        for path in (Path(folder), *(Path(folder, name) for name in files)):
+            assert path.stat().st_mode & 0o077 == 0, path
+
+
+def test_nobody_without_the_key_is_let_in(talk: Deployment) -> None:
+    import json
+
+    place = json.loads((talk.state / "registry.json").read_text())
+    said = talk.hosts.run("arm", [
+        "icegridadmin", f"--Ice.Default.Locator=rcyaml/Locator:ssl -h {place['address']} -p {place['port']}",
+        "--Ice.Plugin.IceSSL=IceSSL:createIceSSL", "--IceSSL.VerifyPeer=0", "-u", "x", "-p", "y", "-e", "node list",
+    ])  # fmt: skip
+    assert said.returncode != 0 and "head" not in said.stdout
+
+
+def test_down_leaves_nothing_and_up_begins_again(talk: Deployment) -> None:
+    talk.deploy("down")
+    assert [name for name in ("mouth", "speech", "teller", "hearer", "storm") if talk.copies(name)] == []
+    talk.deploy("up")
+    assert all(one["restarts"] == 0 for one in talk.until_ready().values())
+
+
+def _without(pids: dict[str, int], *names: str) -> dict[str, int]:
+    return {name: pid for name, pid in pids.items() if name not in names}

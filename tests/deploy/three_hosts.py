@@ -1,0 +1,158 @@
+"""Three hosts for a test: network namespaces joined by a bridge, else three loopback addresses of this machine.
+
+In namespaces, all hosts have the processes and files of this machine, but a network of their own: what one serves, the
+others reach only over its address.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import shlex
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from processes import until
+from robocomp_yaml.deploy.local import procfs
+
+NAMES = ("onboard", "head", "arm")
+NAME = "Talk"
+
+
+@dataclass(frozen=True)
+class Hosts:
+    """`addresses` by the host's name; `prefix` is that of the namespaces, '' where there are none."""
+
+    addresses: dict[str, str]
+    prefix: str = ""
+
+    def run(self, host: str, command: list[str], **how: Any) -> subprocess.CompletedProcess[str]:
+        """A command's outcome on a host; this Python comes first there, since components start with it."""
+        path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+        how["env"] = {**os.environ, "PATH": path}
+        inside = ["ip", "netns", "exec", self.prefix + host] if self.prefix else []
+        return subprocess.run([*inside, *command], capture_output=True, text=True, check=False, timeout=60, **how)
+
+    def link(self, host: str, state: str) -> None:
+        """Plugs the host's cable in or out: `up` or `down`."""
+        _ip("-n", f"{self.prefix}net", "link", "set", f"port{NAMES.index(host)}", state)
+
+
+@contextmanager
+def three_hosts() -> Iterator[Hosts]:
+    prefix = f"rc{os.getpid()}x{random.SystemRandom().randrange(1000)}-"
+    if not _can_make(f"{prefix}net"):
+        print("network namespaces are not permitted here: three loopback addresses stand for three hosts")
+        yield Hosts({name: f"127.0.0.{number}" for number, name in enumerate(NAMES, 1)})
+        return
+    try:
+        _ip("-n", f"{prefix}net", "link", "add", "bridge", "type", "bridge")
+        _ip("-n", f"{prefix}net", "link", "set", "bridge", "up")
+        addresses = {name: f"10.99.0.{number}" for number, name in enumerate(NAMES, 1)}
+        for number, (name, address) in enumerate(addresses.items()):
+            space = prefix + name
+            _ip("netns", "add", space)
+            _ip("-n", space, "link", "add", "eth0", "type", "veth", "peer", f"port{number}", "netns", f"{prefix}net")
+            _ip("-n", f"{prefix}net", "link", "set", f"port{number}", "master", "bridge", "up")
+            _ip("-n", space, "address", "add", f"{address}/24", "dev", "eth0")
+            _ip("-n", space, "link", "set", "eth0", "up")
+            _ip("-n", space, "link", "set", "lo", "up")
+        yield Hosts(addresses, prefix)
+    finally:
+        for name in (*NAMES, "net"):
+            subprocess.run(["ip", "netns", "del", prefix + name], capture_output=True, check=False)
+
+
+def _can_make(space: str) -> bool:
+    try:
+        return subprocess.run(["ip", "netns", "add", space], capture_output=True, check=False).returncode == 0
+    except OSError:
+        return False
+
+
+def _ip(*words: str) -> None:
+    done = subprocess.run(["ip", *words], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, f"ip {shlex.join(words)}: {done.stderr}"
+
+
+@dataclass
+class Deployment:
+    """The deployment `Talk`, brought up from the first of three hosts."""
+
+    hosts: Hosts
+    root: Path
+
+    @property
+    def folder(self) -> str:
+        return f"{self.root}/.rcyaml/deployments/{NAME}"
+
+    @property
+    def state(self) -> Path:
+        return Path(self.folder) / "state" / "icegrid"
+
+    def rcyaml(self, *words: str, code: int | None = 0) -> str:
+        """What a command prints, run on the first host; its exit code must be `code`, if that is not None."""
+        done = self.hosts.run("onboard", [sys.executable, "-m", "robocomp_yaml", *words], cwd=self.root)
+        assert code in (None, done.returncode), done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    def deploy(self, what: str, *words: str, code: int | None = 0) -> str:
+        return self.rcyaml("deploy", what, "talk.ddsl.yaml", *words, code=code)
+
+    def status(self) -> dict[str, Any]:
+        """What `status` says of each process, by its name."""
+        said = json.loads(self.deploy("status", "--format", "json", code=None))
+        return {one["name"]: one for one in said["processes"]}
+
+    def pids(self) -> dict[str, int]:
+        return {name: one["pid"] for name, one in self.status().items()}
+
+    def until_ready(self) -> dict[str, Any]:
+        """The status when everything is ready."""
+        status: dict[str, Any] = {}
+
+        def is_ready() -> bool:
+            status.update(self.status())
+            return all(one["ready"] for one in status.values())
+
+        until(is_ready, lambda: f"{status}\n{self.logs()}")
+        return status
+
+    def logs(self, *names: str) -> str:
+        return self.deploy("logs", *names, "-n", "1000")
+
+    def start_node(self, host: str) -> None:
+        """By hand, as the hint says: the script goes to bash on that host."""
+        with open(self.state / "hosts" / f"{host}.sh", encoding="utf-8") as script:
+            done = self.hosts.run(host, ["bash", "-s"], stdin=script)
+        assert done.returncode == 0, done.stderr
+
+    def kill_daemon(self, which: str, *, for_good: bool) -> None:
+        """Kills the registry (`registry`) or a node (`nodes/HOST`); for good: also what would start it again."""
+        for file in ("pid", "program") if for_good else ("program",):
+            os.kill(int((self.state / which / file).read_text()), signal.SIGKILL)
+
+    def copies(self, name: str) -> int:
+        """How many processes are the program of this name, without its runner and its log."""
+        mark = f"{self.folder}:{name}"
+        roots = [pid for pid in procfs.pids() if procfs.mark_of(pid) == mark]
+        return sum(1 for pid in roots if (entry := procfs.entry(pid)) and entry.session == pid and not entry.is_dead)
+
+    def clean_up(self) -> None:
+        """Kills whatever is left."""
+        for _ in range(100):
+            left = procfs.marked(self.folder)
+            for pid in left:
+                try:
+                    os.kill(pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    continue
+            if not left:
+                return
