@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from robocomp_yaml.emit.property_text import property_text
+from robocomp_yaml.values.property_text import property_text
 from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties
