@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -31,6 +32,12 @@ def test_a_module_is_small_and_says_its_subject(path: Path) -> None:
     assert text.count("\n") <= 400
     assert ast.get_docstring(ast.parse(text)), "a module starts with a docstring"
     assert max(map(len, text.splitlines()), default=0) <= 120
+
+
+def test_modules_of_tests_have_names_of_their_own() -> None:
+    """pytest imports them by these."""
+    names = Counter(path.name for path in (ROOT / "tests").rglob("test_*.py"))
+    assert [name for name, count in names.items() if count > 1] == []
 
 
 def test_help_imports_nothing_heavy() -> None:
