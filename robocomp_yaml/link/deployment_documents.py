@@ -12,6 +12,7 @@ from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link import deployment_groups
 from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.link.deployment_names import Names
+from robocomp_yaml.link.deployment_sizes import too_large
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.expand_deployments import Expansion
@@ -98,11 +99,14 @@ class DeploymentDocuments:
 
     def join(self) -> None:
         """After all documents are linked: each deployment with what it includes."""
-        for real, model in self._deployments.items():
+        large = too_large(self._deployments)
+        self.diagnostics += [found for found in large.values() if found is not None]
+        usable = {real: model for real, model in self._deployments.items() if real not in large}
+        for real, model in usable.items():
             linked = self.program.deployments[real] = LinkedDeployment(model, real)
-            expansion = Expansion(linked, self.program, self._deployments)
+            expansion = Expansion(linked, self.program, usable)
             expansion.run()
-            names = Names(linked, expansion.placed)
+            names = Names(linked, expansion.placed, expansion.included)
             names.resolve()
             self.diagnostics += expansion.diagnostics + names.diagnostics
             self.diagnostics += deployment_groups.resolve(linked, expansion.placed)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import ddsl as codes
@@ -15,10 +16,11 @@ from robocomp_yaml.model.deployment import INDEX, PROCESS, Number, Pair, Text
 
 @dataclass(slots=True)
 class Names:
-    """Resolves what the documents of a deployment name."""
+    """Resolves what the documents of a deployment name. `included` are the members that groups have by an include."""
 
     root: LinkedDeployment
     placed: Iterable[Placed]
+    included: Mapping[LinkedGroup, Iterable[LinkedInstance]]
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     def resolve(self) -> None:
@@ -45,15 +47,13 @@ class Names:
                     self._unknown(here, named, f"the group '{group.group.name}'", "a service belongs to no group")
                 else:
                     yield target
-        if group.group.include is not None:
-            scope = f"{group.name}."
-            yield from (i for i in self.root.instances.values() if i.scope.startswith(scope))
+        yield from self.included.get(group, ())
 
     def _fill(self, here: Placed, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
         """All instances in a group, those of its inner groups too."""
-        todo, seen = list(inside[group]), {id(group)}
+        todo, seen = deque(inside[group]), {id(group)}
         while todo:
-            target = todo.pop(0)
+            target = todo.popleft()
             if target is group:
                 if here.is_own:
                     self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))

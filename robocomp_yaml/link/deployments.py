@@ -149,12 +149,13 @@ class LinkedDeployment:
 
     def closed_around(self, target: Target, source: LinkedInstance) -> list[LinkedGroup]:
         """The closed groups that hold the target but not `source`, the outermost first."""
-        held = set(map(id, _instances(target)))
-        return [
-            group for group in sorted(self.groups.values(), key=lambda g: -len(g.members))
-            if group is not target and group.is_closed and source not in group.members
-            and held and held <= set(map(id, group.members))
+        held = _instances(target)
+        around = [
+            group for group in (held[0].groups if held else ())
+            if group is not target and group.is_closed and group not in source.groups
+            and all(group in member.groups for member in held)
         ]
+        return sorted(around, key=lambda group: -len(group.members))
 
     def rings(self, source: LinkedInstance) -> Iterator[list[LinkedInstance | LinkedGroup]]:
         """What `source` may be connected to without a word: first what stands in its own scope, then further out.

@@ -48,13 +48,15 @@ class Placed:
 @dataclass(slots=True)
 class Expansion:
     """Puts documents in their places. `deployments` are those that could be read, by real path; `placed` are those
-    that this one consists of."""
+    that this one consists of, and `included` is what groups have from the documents that they include."""
 
     root: LinkedDeployment
     program: Program
     deployments: Mapping[str, Deployment]
     placed: list[Placed] = field(default_factory=list)
+    included: dict[LinkedGroup, list[LinkedInstance]] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    _in_order: list[LinkedInstance] = field(default_factory=list)
 
     def run(self) -> None:
         self._place(Placed(self.root.deployment))
@@ -101,6 +103,7 @@ class Expansion:
             if self._name(here, one.name, linked, entry.span):
                 every.append(linked)
                 self.root.instances[linked.name] = linked
+                self._in_order.append(linked)
                 here.instances.append(linked)
                 if entry.kind != PROCESS:
                     linked.host, linked.broken = self._host(here, one.host, one.name, one.span)
@@ -138,11 +141,13 @@ class Expansion:
         linked.values = values
         if values is None:
             linked.broken = True
-        elif values.parameters is None:  # a document that names no component is that of whoever takes it
+            return
+        values.is_extended |= linked.entry.settings is not None  # `set:` completes what it lacks
+        if values.parameters is None:  # a document that names no component is that of whoever takes it
             values.parameters = component.parameters
         elif values.parameters is component.parameters:
             pass
-        elif values.parameters.document is not None and values.parameters.document is component.parameters.document:
+        elif _is_for(values, component):
             linked.values = LinkedValues(
                 values.document, values.extends, component.parameters, values.is_extended, values.broken
             )
@@ -169,9 +174,10 @@ class Expansion:
             linked.facade = self.program.components.get(os.path.realpath(found[0])) if len(found) == 1 else None
             linked.broken |= linked.facade is None
         if group.include is not None:
-            whole = here.is_whole
+            whole, before = here.is_whole, len(self._in_order)
             linked.broken |= not self._place_include(here, group.include, f"{linked.name}.", host, set())
             here.is_whole = whole
+            self.included[linked] = self._in_order[before:]
 
     def _place_include(
         self, here: Placed, include: Text, scope: str, host: Host | None, seen: set[str]
@@ -240,6 +246,14 @@ class Expansion:
     def _say(self, here: Placed, code: Code, span: Span, *, hint: str = "", **facts: str) -> None:
         if here.is_own:
             self.diagnostics.append(code.at(span, hint=hint, related=(), more="", **facts))
+
+
+def _is_for(values: LinkedValues, component: LinkedComponent) -> bool:
+    """Whether values of another component are as good for this one: it has the same document of parameters, or they
+    name no component."""
+    document = values.parameters.document if values.parameters else None
+    is_shared = document is not None and document is component.parameters.document
+    return is_shared or not any(layer.document.component for layer in values.layers())
 
 
 def span_of(target: Target) -> Span:

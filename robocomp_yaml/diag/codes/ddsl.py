@@ -238,3 +238,13 @@ INCLUDED_TWICE = Code(
     deployed(_BOTH + "include: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}\n", arm="deployment: Arm\n"),
     _CHECK,
 )
+TOO_LARGE = Code(
+    "RC4108",
+    "error",
+    "this deployment {problem}",
+    "Instances and includes multiply: two includes of a document that has two of its own, and so on, soon ask for more "
+    "processes than there are machines for. Such a document is not looked at further.",
+    deployed(_BOTH + "  mouth{i}: {component: mouth, instances: 10000}\n"),
+    _RIGHT,
+    _CHECK,
+)

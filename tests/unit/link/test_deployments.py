@@ -209,3 +209,38 @@ def test_what_is_included_is_marked(link: Link, tmp_path: Path) -> None:
     link("include: {arm: arm.ddsl.yaml}\n", arm=ARM)
     program = analyse([str(tmp_path)]).program
     assert {d.deployment.name: d.is_included for d in program.deployments.values()} == {"Head": False, "Arm": True}
+
+
+def test_values_that_name_no_component_are_good_for_several(link: Link, tmp_path: Path) -> None:
+    write_tree(tmp_path, {
+        "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\nparameters: other.pdsl.yaml\n",
+        "other/other.pdsl.yaml": "parameters:\n  number: {type: int, default: 1}\n",
+        "other/bin/OtherComp": "-> /bin/true",
+        "both.config.yaml": "parameters: {number: 5}\n",
+    })  # fmt: skip
+    linked = link("components:\n  a: {component: mouth, config: both.config.yaml}\n"
+                  "  b: {component: other, config: both.config.yaml}\n")
+    for instance in linked.instances.values():
+        assert instance.values is not None and instance.component is not None
+        assert instance.values.parameters is instance.component.parameters
+
+
+def test_what_is_set_completes_a_configuration(link: Link, tmp_path: Path) -> None:
+    write_tree(tmp_path, {
+        "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\nparameters: other.pdsl.yaml\n",
+        "other/other.pdsl.yaml": "parameters: {number: int, id: string}\n", "other/bin/OtherComp": "-> /bin/true",
+        "other/some.config.yaml": "component: other.cdsl.yaml\nparameters: {number: 5}\n",
+    })  # fmt: skip
+    link("components:\n  a: {component: other, config: some.config.yaml, set: {id: x}}\n")
+
+
+@pytest.mark.parametrize("documents", [
+    {f"l{n}": f"deployment: L{n}\ninclude: {{a: l{n + 1}.ddsl.yaml, b: l{n + 1}.ddsl.yaml}}\n" for n in range(40)},
+    {f"l{n}": f"deployment: L{n}\ninclude: [l{n + 1}.ddsl.yaml]\n" for n in range(1500)},
+], ids=["by two", "one by one"])
+def test_includes_that_grow_without_end_are_refused(tmp_path: Path, documents: dict[str, str]) -> None:
+    last = f"deployment: Last\ncomponents:\n  x{{i}}: {{program: sleep, instances: 3}}\n"
+    files = {f"{name}.ddsl.yaml": text for name, text in documents.items()}
+    write_tree(tmp_path, {**files, f"l{len(documents)}.ddsl.yaml": last})
+    said = analyse([str(tmp_path / "l0.ddsl.yaml")]).diagnostics
+    assert [d.code for d in said] == ["RC4108"]
