@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -211,7 +212,7 @@ def _is_keeper(path: Path, folder: str) -> bool:
 def test_a_changed_component_alone_restarts(talk: Deployment, ready: dict[str, int]) -> None:
     document = talk.root / "talk.ddsl.yaml"
     text = document.read_text()
-    document.write_text(text.replace("host: arm, ready: 20 s}\n  speech", "host: arm, ready: 20 s, args: [--N=1]}\n  speech"))
+    document.write_text(text.replace("components/mouth, host: arm", "components/mouth, args: [--N=1], host: arm"))
     talk.deploy("up")
     pids = talk.pids()
     assert pids["mouth"] != ready["mouth"]
@@ -227,8 +228,6 @@ def test_only_its_owner_can_read_what_it_holds(talk: Deployment) -> None:
 
 
 def test_nobody_without_the_key_is_let_in(talk: Deployment) -> None:
-    import json
-
     place = json.loads((talk.state / "registry.json").read_text())
     said = talk.hosts.run("arm", [
         "icegridadmin", f"--Ice.Default.Locator=rcyaml/Locator:ssl -h {place['address']} -p {place['port']}",

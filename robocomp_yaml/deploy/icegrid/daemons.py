@@ -30,7 +30,8 @@ def as_text(properties: Mapping[str, str]) -> str:
 def start_registry(places: Places, registry: Registry) -> None:
     """Starts the registry, and what starts it again after a crash. Raises OSError."""
     own = places.registry_folder
-    os.makedirs(f"{own}/data", mode=0o700, exist_ok=True)
+    for path in (own, f"{own}/data"):
+        os.makedirs(path, mode=0o700, exist_ok=True)
     own_folder.write(places.folder, "state/icegrid/registry/settings", as_text(settings.of_registry(places, registry)))
     own_folder.write(places.folder, "state/icegrid/registry/guard", resources.text("templates/icegrid/guard"))
     command = ["bash", f"{own}/guard", own, "icegridregistry", f"--Ice.Config={own}/settings"]
@@ -39,15 +40,6 @@ def start_registry(places: Places, registry: Registry) -> None:
         stderr=subprocess.DEVNULL, start_new_session=True, cwd="/",
     )  # fmt: skip
     started.returncode = 0  # it stays when this process ends, and nobody waits for it
-
-
-def is_registry_alive(places: Places) -> bool:
-    """Whether the registry, or what starts it again, runs on this machine."""
-    return _is_locked(places.registry_folder)
-
-
-def is_node_alive(places: Places, host: str) -> bool:
-    return _is_locked(f"{places.root}/nodes/{host}")
 
 
 def end(folder: str) -> None:
@@ -106,7 +98,8 @@ def _text(path: str) -> str:
         return file.read()
 
 
-def _is_locked(folder: str) -> bool:
+def is_alive(folder: str) -> bool:
+    """Whether the daemon of this folder, or what starts it again, runs on this machine."""
     try:
         lock = os.open(f"{folder}/lock", os.O_RDONLY | os.O_CLOEXEC)
     except OSError:

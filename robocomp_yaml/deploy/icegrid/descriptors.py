@@ -13,6 +13,7 @@ from __future__ import annotations
 import os
 import re
 import sys
+import time
 from collections.abc import Iterable
 from typing import Any
 
@@ -38,7 +39,7 @@ def server(places: Places, spec: Spec, user: str, *, is_here: bool) -> Any:
     is_storm = process.kind == ICESTORM and process.config is not None
     words = [process.name, places.folder, *(f"f{path}" for path in process.folders)]
     words += [f"s{v.name}={v.source}" if v.source else f"e{v.name}={v.value}" for v in process.env]
-    environment = [f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}"]
+    environment = [f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}", f"RCYAML_RESTART={restart_rule(process)}"]
     command = spec.command
     if is_storm:
         words.append("k")  # IceGrid writes the configuration of an IceBox and its services itself
@@ -52,7 +53,7 @@ def server(places: Places, spec: Spec, user: str, *, is_here: bool) -> Any:
         pwd=_literal(process.cwd), envs=environment, user=user, activation="manual",
         logs=[_literal(places.log(process.name)), _literal(places.status(process.name))],
         deactivationTimeout=f"{STOP_WITHIN + _AFTER_KILL:g}",
-        propertySet=_property_set({"Rcyaml.Restart": _restart(process), **_QUIET}),
+        propertySet=_property_set(_QUIET),
     )  # fmt: skip
     if is_storm:
         assert process.config
@@ -64,8 +65,8 @@ def keeper(places: Places, user: str) -> Any:
     """The server that brings processes back when their node has come back; IceGrid itself restarts it."""
     return IceGrid.ServerDescriptor(
         **_facts(
-            KEEPER, sys.executable,
-            [_literal(word) for word in ("-m", "robocomp_yaml.deploy.icegrid.keeper", places.folder)],
+            KEEPER, "setpriv",
+            [_literal(word) for word in ("--pdeathsig", "KILL", "--", sys.executable, "-m", "robocomp_yaml.deploy.icegrid.keeper", places.folder)],
             pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
             envs=[f"PYTHONPATH={package_path()}", f"{MARK}={places.folder}:"], logs=[],
         )  # fmt: skip
@@ -92,6 +93,13 @@ def application(name: str, servers: Iterable[tuple[str, Any]]) -> Any:
     )  # fmt: skip
 
 
+def restart_rule(process: Process) -> str:
+    """What `run` reads: a number that grows with each new rule, the policy, and times in milliseconds."""
+    rule = process.restart
+    times = f"{rule.delay * 1000:.0f} {rule.longest * 1000:.0f} {rule.tries} {rule.window * 1000:.0f}"
+    return f"{time.time_ns()} {rule.policy} {times}"
+
+
 def encoded(text: str) -> str:
     """For `printf %b`: without the dollars that IceGrid would replace."""
     return text.replace("\\", "\\\\").replace("$", "\\0044")
@@ -104,12 +112,6 @@ _QUIET = {"Ice.Admin.Enabled": "0", "Ice.Plugin.IceSSL": "IceSSL:createIceSSL"}
 def _literal(text: str) -> str:
     """With what IceGrid would take for a variable escaped."""
     return re.sub(r"(\$+)\{", lambda found: found[1] * 2 + "{", text)
-
-
-def _restart(process: Process) -> str:
-    """What `run` reads: the policy, and times in milliseconds."""
-    rule = process.restart
-    return f"{rule.policy} {rule.delay * 1000:.0f} {rule.longest * 1000:.0f} {rule.tries} {rule.window * 1000:.0f}"
 
 
 def _services(text: str) -> Iterable[Any]:

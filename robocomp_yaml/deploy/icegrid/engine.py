@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 _TOO_LONG = "its configuration is longer than the 100,000 bytes that IceGrid carries to another host"
+_RULE_WITHIN = 10.0
 _CALLS = 32  # at once: each waits, and costs next to nothing
 
 
@@ -102,21 +103,36 @@ class IceGridEngine:
         from robocomp_yaml.deploy.icegrid import descriptors
 
         grid = self._reached()
+        states = grid.states([spec.name for spec in specs])
+        running = [spec for spec in specs if states[spec.name][0] not in ("", "Inactive")]
+        starting = [spec for spec in specs if spec not in running]
         for spec in specs:
-            if is_here(spec.address):
-                if config := spec.process.config:
-                    own_folder.write(self._places.folder, config.path, config.text)
+            if spec.process.config and is_here(spec.address):
+                own_folder.write(self._places.folder, spec.process.config.path, spec.process.config.text)
         with self._lock:
             self._specs.update({spec.name: spec for spec in specs})
             self._places.keep_specs(self._specs)
-            users = {host: grid.user_of(host) for host in {spec.process.host for spec in specs}}
+            users = {host: grid.user_of(host) for host in {spec.process.host for spec in starting}}
             servers = [
                 (spec.process.host, descriptors.server(
                     self._places, spec, users[spec.process.host], is_here=is_here(spec.address)
                 ))
-                for spec in specs
+                for spec in starting
             ]  # fmt: skip
-            self._deploy({spec.name for spec in specs}, servers)
+            if servers:
+                self._deploy({spec.name for spec in starting}, servers)
+        for spec in running:
+            self._pass_rule(grid, spec)
+
+    def _pass_rule(self, grid: Grid, spec: Spec) -> None:
+        """Tells `run` how it is to restart a process that goes on."""
+        from robocomp_yaml.deploy.icegrid.beside import run_beside
+        from robocomp_yaml.deploy.icegrid.descriptors import restart_rule
+
+        path = self._places.rule(spec.name)
+        script = 'mkdir -p -- "${2%/*}" && printf "%s\\n" "$1" >"$2.new" && mv -- "$2.new" "$2"'
+        command = ("bash", "-c", script, "bash", restart_rule(spec.process), path)
+        run_beside(grid, self._places, spec, command, _RULE_WITHIN, self._lock, self._deploy)
 
     def _deploy(self, replaced: Collection[str], servers: list[tuple[str, Any]]) -> None:
         """Deploys these servers, and those that were deployed before except the replaced."""

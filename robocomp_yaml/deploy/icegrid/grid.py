@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import time
 from collections.abc import Callable, Iterable
@@ -34,17 +35,22 @@ class Grid:
             data.properties.setProperty(key, value)
         data.logger = _Silent()
         self.communicator = Ice.initialize(data)
+        atexit.register(self.communicator.destroy)  # also where a command fails before it closes this
         try:
             proxy = self.communicator.stringToProxy(settings.registry_proxy(registry))
             self.session = IceGrid.RegistryPrx.uncheckedCast(proxy).createAdminSession("rcyaml", "")
             self.admin = self.session.getAdmin()
         except Ice.Exception as error:
-            self.communicator.destroy()
+            self._destroy()
             raise Unreachable(in_words(error)) from error
 
     def close(self) -> None:
         with contextlib.suppress(Ice.Exception):
             self.session.destroy()
+        self._destroy()
+
+    def _destroy(self) -> None:
+        atexit.unregister(self.communicator.destroy)
         self.communicator.destroy()
 
     def has_node(self, host: str) -> bool:
@@ -72,11 +78,11 @@ class Grid:
             raise GridFailed(in_words(error)) from error
 
     def deploy(self, descriptor: Any, *, is_new: bool) -> None:
-        """Nothing that runs is restarted by this."""
+        """Restarts those of the servers that run whose descriptors differ from before, and leaves all others alone."""
         if is_new:
             self._call(self.admin.addApplication, descriptor)
         else:
-            self._call(self.admin.syncApplicationWithoutRestart, descriptor)
+            self._call(self.admin.syncApplication, descriptor)
 
     def remove(self, application: str) -> None:
         with contextlib.suppress(IceGrid.ApplicationNotExistException):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import socket
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -56,6 +56,10 @@ class Places:
     def status(self, name: str) -> str:
         return f"{self.root}/status/{name}"
 
+    def rule(self, name: str) -> str:
+        """Where `run` finds a newer rule for restarts than that of its start."""
+        return f"{self.root}/rules/{name}"
+
     def log(self, name: str) -> str:
         return f"{self.folder}/logs/{name}.log"
 
@@ -77,12 +81,13 @@ class Places:
     def keep_wanted(self, names: Iterable[str]) -> None:
         self._write(_WANTED, sorted(names))
 
-    def started_nodes(self) -> set[str]:
-        """The hosts whose nodes rcyaml started, and ends: not those that were started by hand."""
-        return set(self._read(_NODES, []))
+    def nodes(self) -> dict[str, bool]:
+        """The hosts that had a node when the network was last brought up; whether rcyaml started it, and ends it: not
+        where it was started by hand."""
+        return dict(self._read(_NODES, {}))
 
-    def keep_started_nodes(self, hosts: Iterable[str]) -> None:
-        self._write(_NODES, sorted(hosts))
+    def keep_nodes(self, nodes: Mapping[str, bool]) -> None:
+        self._write(_NODES, dict(nodes))
 
     def specs(self) -> dict[str, Spec | None]:
         """What the processes were given; None where another version of rcyaml wrote it."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Iterable
 
@@ -18,6 +17,7 @@ from robocomp_yaml.network.network import Host, Network
 
 _PATIENCE = 20.0  # seconds: far more than is needed, also where a machine is busy
 _ENDS_WITHIN = 15.0
+_RECONNECTS_WITHIN = 15.0  # seconds in which a node finds a registry that has come back
 _LOOK = 0.02
 
 
@@ -25,7 +25,7 @@ def reached(places: Places, network: Network) -> Grid | None:
     """A session with the registry that there is; None where none runs and nothing is to. One that was killed, with all
     that would start it again, is started again."""
     registry = places.registry()
-    if registry is None or not (places.wanted() or daemons.is_registry_alive(places)):
+    if registry is None or not (places.wanted() or daemons.is_alive(places.registry_folder)):
         return None
     return _session(places, registry, network)
 
@@ -35,7 +35,7 @@ def created(places: Places, network: Network) -> Grid:
     address = registry_address(network.hosts.values())
     registry = places.registry()
     if registry is None or registry.address != address:
-        _end_all(places)
+        _end_here(places)
         try:
             own_folder.make(network.folder)
             settings.make_key(places)
@@ -47,7 +47,7 @@ def created(places: Places, network: Network) -> Grid:
 
 
 def _session(places: Places, registry: Registry, network: Network) -> Grid:
-    if not daemons.is_registry_alive(places):
+    if not daemons.is_alive(places.registry_folder):
         try:
             daemons.start_registry(places, registry)
         except OSError as error:
@@ -64,10 +64,15 @@ def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[H
     that has none."""
     registry = places.registry()
     assert registry
+    known = places.nodes()
     missing = [host for host in hosts if not grid.has_node(host.name)]
+    if any(not known.get(host.name, True) for host in missing):
+        _until(lambda: all(grid.has_node(host.name) for host in missing), _RECONNECTS_WITHIN)
+        missing = [host for host in missing if not grid.has_node(host.name)]
     scripts = {host.name: daemons.write_script(places, host, registry) for host in missing}
     tried = {host.name: _start(host, scripts[host.name]) for host in missing}
-    places.keep_started_nodes(places.started_nodes() | {name for name, reason in tried.items() if not reason})
+    found = {host.name: known.get(host.name, False) for host in hosts}
+    places.keep_nodes({**known, **found, **{name: not reason for name, reason in tried.items()}})
     for host in missing:
         reason = tried[host.name]
         if not reason and not _until(lambda host=host: grid.has_node(host.name), _PATIENCE):  # type: ignore[misc]
@@ -89,25 +94,22 @@ def ended(grid: Grid, places: Places, application: str) -> None:
         grid.remove(application)
     except GridFailed:
         pass  # a node that does not answer: its servers are gone, or end when it comes back
-    for host in places.started_nodes():
-        if daemons.is_node_alive(places, host):
-            daemons.end(f"{places.root}/nodes/{host}")
-        grid.shut_down_node(host)
-    places.keep_started_nodes(())
+    nodes = places.nodes()
+    for host, is_ours in nodes.items():
+        if is_ours:
+            grid.shut_down_node(host)
     places.keep_wanted(())
     grid.close()
-    _end_all(places)
+    _end_here(places)
+    places.keep_nodes({host: is_ours for host, is_ours in nodes.items() if not is_ours})
 
 
-def _end_all(places: Places) -> None:
-    """The daemons of this machine."""
-    nodes = f"{places.root}/nodes"
-    own = [f"{nodes}/{name}" for name in (os.listdir(nodes) if os.path.isdir(nodes) else ())]
-    for folder in (*own, places.registry_folder):
+def _end_here(places: Places) -> None:
+    """Ends the registry, and the nodes of this machine that rcyaml started."""
+    nodes = [f"{places.root}/nodes/{host}" for host, is_ours in places.nodes().items() if is_ours]
+    for folder in (*nodes, places.registry_folder):
         daemons.end(folder)
-    _until(lambda: not daemons.is_registry_alive(places), _ENDS_WITHIN)
-    for folder in own:
-        _until(lambda folder=folder: not daemons.is_node_alive(places, os.path.basename(folder)), _ENDS_WITHIN)  # type: ignore[misc]
+    _until(lambda: not any(map(daemons.is_alive, (*nodes, places.registry_folder))), _ENDS_WITHIN)
 
 
 def _start(host: Host, script: str) -> str:
