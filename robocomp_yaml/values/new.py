@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.model.parameters import EnumType, Member, Parameters, RecordType
 from robocomp_yaml.values.json_schema import example, in_words
-from robocomp_yaml.values.spell_yaml import flow, scalar
+from robocomp_yaml.values.spell_yaml import comment, flow, scalar
 
 
 def new_document(
@@ -46,9 +46,9 @@ def _record(record: RecordType, indent: str) -> Iterator[str]:
 def _about(member: Member, indent: str) -> Iterator[str]:
     doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
     for line in doc.strip().splitlines():
-        yield f"{indent}# {line}".rstrip()
+        yield indent + comment(line)
     if not member.is_group:
         facts = [in_words(member.type)]
         facts += ["may be left out"] if member.optional else []
         facts += ["may change while running"] if member.editable else []
-        yield f"{indent}# {'; '.join(facts)}"
+        yield indent + comment("; ".join(facts))

@@ -7,6 +7,7 @@ import re
 from typing import Any
 
 _PLAIN = re.compile(r"(?:[A-Za-z_/]|\.\.?/)[A-Za-z0-9_./ -]*[A-Za-z0-9_./-]\Z|[A-Za-z_/]\Z")
+_UNREADABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]")
 _NOT_TEXT = frozenset(("true", "false", "null", "yes", "no", "on", "off", "y", "n"))
 
 
@@ -28,8 +29,16 @@ def _number(data: int | float) -> str:
 
 def quoted(text: str) -> str:
     """In double quotes. JSON's escapes are YAML's, but for DEL and the C1 controls, which YAML cannot hold bare."""
-    escaped = json.dumps(text, ensure_ascii=False)
-    return re.sub("[\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]", lambda c: f"\\u{ord(c[0]):04x}", escaped)
+    return _UNREADABLE.sub(_escape, json.dumps(text, ensure_ascii=False))
+
+
+def comment(text: str) -> str:
+    """Text as a comment of one line can hold it."""
+    return f"# {_UNREADABLE.sub(_escape, text)}".rstrip()
+
+
+def _escape(found: re.Match[str]) -> str:
+    return {"\n": "\\n", "\t": "\\t"}.get(found[0], f"\\u{ord(found[0]):04x}")
 
 
 def single_quoted(text: str) -> str:
