@@ -153,7 +153,7 @@ def test_the_inside_of_a_closed_group_is_out_of_reach() -> None:
 
 
 def test_a_rule_puts_a_gate_between() -> None:
-    found = network(group("{components: [inner, other], expose: {Lips: {member: other, rate: 10}}}",
+    found = network(group("{components: [inner, other], expose: {Lips: {member: other.Mouth, rate: 10}}}",
                           ", connect: {Mouth: face}"))
     gate = found.processes["face.gate"]
     assert proxies(found)["speech.Mouth"] == ("face.gate", f"mouth:tcp -h localhost -p {gate.endpoints[0].port}")
