@@ -157,7 +157,8 @@ UNKNOWN_METHOD = Code(
     "`allow:` lists methods of the exposed interface: those that may be called from outside of the group.",
     deployed(_BOTH + "groups:\n  face: {components: [speech, mouth], "
              "expose: {Speech: {member: speech, allow: [tell]}}}\n"),
-    deployed(_BOTH + "groups:\n  face: {components: [speech, mouth], expose: {Speech: speech}}\n"),
+    deployed(_BOTH + "groups:\n  face: {components: [speech, mouth], "
+             "expose: {Speech: {member: speech, allow: [say]}}}\n"),
     _CHECK,
 )
 GROUP_CYCLE = Code(
