@@ -248,7 +248,7 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
                 node.span, problem=f"the component's 'period:' says {period} ms", hint="leave one of the two out"
             ))
     emergency = by_name.get("emergency") or _period(
-        "emergency", "How often compute() runs when something is wrong.", DEFAULT_EMERGENCY
+        "emergency", "The period of RoboComp's emergency(); in other components, for their own code.", DEFAULT_EMERGENCY
     )
     others = [member for member in own if member.name not in ("compute", "emergency")]
     group = RecordType("", (compute, emergency, *others), "How often the component works.")

@@ -62,7 +62,7 @@ class PeriodGroup(composite.Record):
     """
 
     emergency: int = composite.member(plain.whole("int", at_least=1, unit="ms"), default=500, editable=True)
-    """How often compute() runs when something is wrong.
+    """The period of RoboComp's emergency(); in other components, for their own code.
 
     At least 1 ms; default: 500; may change while the component runs.
     """

@@ -20,7 +20,7 @@ struct PeriodGroup
     /// How often compute() runs.
     /// At least 1 ms; default: 50; may change while the component runs.
     int compute = 50;
-    /// How often compute() runs when something is wrong.
+    /// The period of RoboComp's emergency(); in other components, for their own code.
     /// At least 1 ms; default: 500; may change while the component runs.
     int emergency = 500;
 };
