@@ -258,7 +258,7 @@ def _show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> Non
     if new:
         text = render("text", new, opened.documents, _options.colored(ctx, sys.stderr))
         # Its last line counts the documents, which is not what this is about.
-        click.echo(text.rstrip("\n").rpartition("\n")[0], color=ctx.color, err=True)
+        click.echo(text.rstrip("\n").rpartition("\n")[0].rstrip("\n"), color=ctx.color, err=True)
 
 
 def _placed(opened: Opened, told: Diagnostic) -> Diagnostic:

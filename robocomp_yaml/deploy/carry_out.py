@@ -93,10 +93,12 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
     async def stop(name: str, users: list[asyncio.Task[None]]) -> None:
         if users:
             await asyncio.wait(users)
-        began = time.monotonic()
-        report(Event(name, STOPPING))
+        began, is_told = time.monotonic(), leaving[name].state in (RUNNING, WAITING)
+        if is_told:
+            report(Event(name, STOPPING))
         await engine.stop(name)
-        report(Event(name, GONE, seconds=time.monotonic() - began))
+        if is_told:
+            report(Event(name, GONE, seconds=time.monotonic() - began))
 
     for name in reversed(in_order(after)):
         users = [task for user, task in tasks.items() if name in after[user]]

@@ -116,7 +116,7 @@ async def down(engine: Engine, names: Collection[str], report: Report) -> list[s
     running = await engine.observe()
     after = {name: one.spec.process.after if one.spec else () for name, one in running.items()}
     leaving = with_dependents(after, names) & set(running) if names else set(running)
-    alive = [one.name for one in running.values() if one.name in leaving and one.state != STOPPED]
+    alive = [one.name for one in running.values() if one.name in leaving and one.state in (RUNNING, WAITING)]
     await stop_all(engine, [running[name] for name in leaving], report)
     await engine.forget(leaving)
     await engine.close(end=len(leaving) == len(running))
