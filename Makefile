@@ -6,7 +6,7 @@ PYTHON ?= $(shell test -x /usr/bin/python3 && echo /usr/bin/python3 || echo pyth
 JOBS ?= 2
 ICE := zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 python3-zeroc-ice
 QT := qt6-base-dev
-TOOLS := python3-venv cmake g++ make nodejs npm git
+TOOLS := python3-venv cmake g++ make ninja-build nodejs npm git
 
 .PHONY: help demo test fast lint bench clean
 
