@@ -6,6 +6,7 @@ What a migrated document keeps under `x-rcmanager:` is written as it was, as far
 from __future__ import annotations
 
 import os
+import re
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -29,6 +30,7 @@ _GENERAL = {
     "simulation": {"hookes": "0.07", "springlength": "0.5", "friction": "0.4", "step": "0.5", "fieldforce": "20000.0"},
 }
 _SPACE = 100
+_PORT = re.compile(r"-p\s+([0-9]+)")
 _LOCAL = (LOOPBACK, "127.0.0.1", "::1")
 
 Kept = Mapping[str, object]
@@ -90,20 +92,22 @@ class _Exporter:
 
     def endpoint(self, process: Process, kept: Kept, number: int) -> str:
         given = _text(kept.get("endpoint"))
-        ports = [str(endpoint.port) for endpoint in process.endpoints]
-        if "endpoint" in kept and (not ports or any(given.rstrip().endswith(port) for port in ports)):
+        said = _PORT.search(given)
+        ports = [endpoint.port for endpoint in process.endpoints]
+        if "endpoint" in kept and (said is None or int(said[1]) in ports):
             return given
         found = [endpoint for endpoint in process.endpoints if endpoint.identity][number : number + 1]
         address = self.network.address(process)
         return "".join(f"{one.identity}:{one.protocol} -h {address} -p {one.port}" for one in found)
 
     def dependences(self, process: Process, name: str, kept: Kept) -> list[str]:
-        """Those that the file had, names and all, while the process still waits for them."""
+        """Those that the file had, names and all, where they are kept; and whatever else the process waits for."""
         given = _texts(kept)
-        meant = {self.owners[self.by_alias[alias]] for alias in given if alias in self.by_alias} - {process.name}
-        if "dependence" in kept and meant <= set(process.after):
+        if name != process.name:
             return given
-        return [self.aliases[other] for other in process.after] if name == process.name else []
+        listed = [alias for other in (name, *process.aliases) for alias in _texts(self.of(other))]
+        meant = {self.owners[self.by_alias[alias]] for alias in listed if alias in self.by_alias}
+        return [*given, *(self.aliases[other] for other in process.after if other not in meant)]
 
     def command(self, process: Process, name: str) -> str:
         told = shlex.join(words(process, self.network.config_path(process)))

@@ -34,6 +34,8 @@ class _Builder:
     by_alias: dict[str, Node] = field(default_factory=dict)
     owners: dict[str, Node] = field(default_factory=dict)
     """By the name of a node, the node whose process it is too."""
+    waits: dict[str, set[str]] = field(default_factory=dict)
+    """By the name of a process's first node, those that it waits for."""
 
     def document(self) -> Map:
         nodes = self.network.nodes
@@ -43,6 +45,7 @@ class _Builder:
             node.interface = spelled.get(node.interface.lower(), node.interface)
         running = [node for node in nodes if self.is_started(node)]
         self.find_owners(running)
+        self.find_waits()
         hosts = self.hosts(running)
         notes = self.network.notes
         document, services, components = Map(block=True), Map(block=True), Map(block=True)
@@ -86,6 +89,13 @@ class _Builder:
                 self.owners[node.name] = owner
                 owner.is_shared = node.is_shared = True
                 self.said.append(codes.SAME_PROCESS.at(node.span, name=node.alias, other=owner.alias))
+
+    def find_waits(self) -> None:
+        for node in self.network.nodes:
+            owner = self.owners.get(node.name, node).name
+            targets = [self.by_alias[alias] for alias, _, _ in node.after if alias in self.by_alias]
+            names = {self.owners.get(target.name, target).name for target in targets} - {owner}
+            self.waits.setdefault(owner, set()).update(names)
 
     def hosts(self, running: Sequence[Node]) -> dict[str, str]:
         """The name of each host by its address; none where everything runs here."""
@@ -176,9 +186,21 @@ class _Builder:
                 is_plain = is_plain and at is node and target.name == alias and target.name not in self.owners
                 if all(item.value != target.name for item in listed.items):
                     listed.put(target.name, notes)
-        if not is_plain:
+        if not is_plain or self.is_in_circle(node):
             self.keep_dependences(node)
         return listed
+
+    def is_in_circle(self, node: Node) -> bool:
+        """Whether it waits, by way of others, for itself: a deployment passes over one of these dependences."""
+        todo, seen = list(self.waits.get(node.name, ())), set[str]()
+        while todo:
+            name = todo.pop()
+            if name == node.name:
+                return True
+            if name not in seen:
+                seen.add(name)
+                todo += self.waits.get(name, ())
+        return False
 
     def keep_dependences(self, node: Node) -> None:
         """The dependences as the file has them, where `after:` does not say the same."""
