@@ -32,8 +32,8 @@ def component(name: str, lists: str, interfaces: str = "Face") -> str:
 
 
 def deployed(text: str, **others: str) -> Tree:
-    """The deployment `robot`, beside the components `speech` (which requires Mouth) and `mouth`. Other names are folders
-    of components (their lists), or documents by their full names."""
+    """The deployment `robot`, beside the components `speech` (which requires Mouth) and `mouth`. Other names are
+    folders of components (their lists), or documents by their full names."""
     folders = {"speech": SPEECH, "mouth": MOUTH} | {name: text for name, text in others.items() if name.isalpha()}
     return {
         "robot.ddsl.yaml": f"deployment: Robot\n{text}",

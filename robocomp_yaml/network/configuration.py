@@ -50,10 +50,13 @@ class Configuration:
             sections = [Section(_TITLE, self._connections(CLASSIC))]
         if sections is None or any(fault.severity == "error" for fault in self.diagnostics):
             return
+        sections = [section for section in sections if section.properties]
         document = os.path.basename(self.draft.instance.document.path)
         head = f"# Configuration of {self.draft.name}, derived by rcyaml from {document}: change it there.\n"
         if self.base.flat is None:
             self.text = head + section_text(sections)
+        elif not sections:
+            self.text = self.base.flat  # which need not be Ice's, then
         else:
             flat = self.base.flat if self.base.flat.endswith("\n") else f"{self.base.flat}\n"
             self.text = f"{flat}\n{head}{section_text(sections)}"

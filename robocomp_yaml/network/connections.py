@@ -89,7 +89,7 @@ class Connections:
                 offers += self._of_group(target, draft)
             elif isinstance(target, LinkedInstance):
                 owner = self.drafts.of(target)
-                if owner is None or target.broken:
+                if owner is None or target.broken or (target.component and target.component.broken):
                     return None, behind
                 own = {pair.name for pair in target.entry.endpoints}
                 offers += [o for o in owner.offers if target.process is None or o.adapter in own] or owner.offers

@@ -71,10 +71,12 @@ def program_of(draft: Draft) -> str:
 
 
 def _command(draft: Draft, program: str) -> Iterator[str]:
-    """Its configuration is the first argument, or as `config-as:` says; a program that names neither gets none."""
+    """The path of the configuration is the first argument, or stands as `config-as:` or an argument says; a program
+    that has none gets none."""
     entry = draft.instance.entry
-    is_given = draft.instance.component is not None or entry.config is not None
-    how = entry.config_as.text if entry.config_as else model.ARGUMENT if is_given else ""
+    has_one = draft.instance.component is not None or entry.config is not None
+    stands = any(CONFIG in argument.text for argument in entry.args)
+    how = entry.config_as.text if entry.config_as else model.ARGUMENT if has_one and not stands else ""
     yield program
     if how == model.ARGUMENT:
         yield CONFIG

@@ -65,7 +65,8 @@ def test_the_same_machine_under_two_names(found: Check) -> None:
 
 def test_a_port_of_icestorm(found: Check) -> None:
     files = deployed(
-        "services: {storm: {icestorm: {port: 10001}}}\ncomponents: {a: {component: mouth, port: 10001, after: [storm]}}\n"
+        "services: {storm: {icestorm: {port: 10001}}}\n"
+        "components: {a: {component: mouth, port: 10001, after: [storm]}}\n"
     )
     (fault,) = found(files)
     assert fault == ("RC4303", "error", "robot.ddsl.yaml", 3, 42)

@@ -163,8 +163,8 @@ def test_a_flat_file_is_part_of_what_was_read() -> None:
 ])
 def test_a_program(how: str, command: tuple[str, ...]) -> None:
     found = network(deployed(
-        f"components:\n  laser: {{program: rcis, {how}args: [-f, 100], cwd: sim, env: {{DISPLAY: ':0', KEY: {{env: K}}}},"
-        " endpoints: {Laser: tcp -p 10003}}\n  base: {process: laser, endpoints: {Base: tcp -p 10004}}\n"
+        f"components:\n  laser: {{program: rcis, {how}args: [-f, 100], cwd: sim, "
+        "env: {DISPLAY: ':0', KEY: {env: K}}, endpoints: {Laser: tcp -p 10003}}\n  base: {process: laser, endpoints: {Base: tcp -p 10004}}\n"
     )).processes["laser"]
     assert found.command == command and found.cwd == str(Path("sim").absolute()) and found.aliases == ("base",)
     assert [(one.name, one.value, one.source) for one in found.env] == [("DISPLAY", ":0", ""), ("KEY", "", "K")]
@@ -173,6 +173,15 @@ def test_a_program(how: str, command: tuple[str, ...]) -> None:
         assert config(found) == {"Laser.Endpoints": "tcp -p 10003", "Base.Endpoints": "tcp -p 10004"}
     else:
         assert found.config is None
+
+
+def test_a_program_with_a_file_of_its_own_gets_it_as_it_is() -> None:
+    found = network(deployed(
+        "components: {view: {program: viewer, config: view.json, args: [--all, '-c{config}']}}\n",
+        **{"view.json": '{"size": 3}'},
+    )).processes["view"]
+    assert found.command == ("viewer", "--all", "-c{config}") and not found.is_ice
+    assert found.config is not None and found.config.text == '{"size": 3}'
 
 
 def test_a_component_takes_its_configuration_first() -> None:

@@ -115,6 +115,13 @@ def test_a_broken_document_hides_what_it_may_serve() -> None:
     assert {fault.span.file for fault in found} == {"mouth/mouth.cdsl.yaml"}
 
 
+@pytest.mark.parametrize("connect", ["", ", connect: {Mouth: mouth}"])
+def test_a_broken_interface_hides_who_serves_it(connect: str) -> None:
+    files = deployed(f"components:\n  speech: {{component: speech{connect}}}\n  mouth: {{component: mouth}}\n")
+    found = faults({**files, "Face.idsl.yaml": "module: [\n"})
+    assert {fault.span.file for fault in found} == {"Face.idsl.yaml"}
+
+
 @pytest.mark.parametrize(("connect", "code", "hint"), [
     ("speech", "RC4204", "it serves Speech, CommonBehavior"),
     ("mouth.Speech", "RC4204", "it serves Mouth, CommonBehavior"),
