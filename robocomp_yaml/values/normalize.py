@@ -1,6 +1,6 @@
 """Effective values made complete: defaults filled in at every level, by Cerberus where something is missing.
 
-What lacks nothing is left alone, parameter by parameter and entry by entry, since Cerberus is a hundred times slower
+What lacks nothing, or is not given at all, needs none of it, parameter by parameter and entry by entry, since Cerberus is a hundred times slower
 than the compiled schema that tells.
 """
 
@@ -21,6 +21,7 @@ from robocomp_yaml.model.parameters import (
     RecordType,
     Type,
 )
+from robocomp_yaml.values.defaults import defaults
 from robocomp_yaml.values.json_schema import (
     COMPLETE,
     DOCUMENT,
@@ -68,8 +69,10 @@ def _has_default(member: Member) -> bool:
 
 def _member(linked: LinkedParameters, member: Member, data: Data) -> tuple[Any] | None:
     """A parameter's normalized value, in a tuple."""
-    if member.name in data and _entry_gate(linked, member.name, member).is_valid(data[member.name]):
-        return (data[member.name],)
+    gate = _entry_gate(linked, member.name, member)
+    value = data[member.name] if member.name in data else defaults(RecordType("", (member,))).get(member.name)
+    if gate.is_valid(value):
+        return (value,)
     element = member.type.element if isinstance(member.type, ListType) else None
     if isinstance(element, RecordType) and isinstance(data.get(member.name), list):
         return _records(linked, member, element, data[member.name])
