@@ -1,0 +1,86 @@
+"""Launchers as deployments: order, comments, and what is none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+
+Run = Callable[..., Result]
+SUB = """# The simulation.
+[[components]]
+name = "bridge"
+cwd = "~/robocomp/bridge"   # from git
+cmd = "bin/Bridge etc/config"
+ice_name = "Bridge:tcp -h localhost -p 10006"
+
+#[[components]]
+#name = "camera"
+#ice_name = "Camera:tcp -p 1
+
+[[components]]
+name = "helios"
+cwd = "/opt/lidar"
+cmd = "bin/lidar.py"
+ice_name = "Lidar3D:tcp -h localhost -p 10098"
+"""
+
+
+def test_a_launcher(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"sub.toml": SUB})
+    result = rcyaml("-q", "migrate", "sub.toml")
+    assert result.output == ""
+    assert (tmp_path / "sub.ddsl.yaml").read_text(encoding="utf-8").split("\n", 1)[1] == """
+# The simulation.
+deployment: sub
+components:
+  bridge:
+    program: bin/Bridge
+    cwd: ~/robocomp/bridge  # from git
+    args: [etc/config]
+    endpoints: {Bridge: tcp -p 10006}
+
+  # [[components]]
+  # name = "camera"
+  # ice_name = "Camera:tcp -p 1
+
+  helios:
+    program: bin/lidar.py
+    cwd: /opt/lidar
+    endpoints: {Lidar3D: tcp -p 10098}
+"""
+
+
+def test_home_is_found(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path / "me"))
+    write_tree(tmp_path, {"sub.toml": SUB, "me/robocomp/bridge/bin/Bridge": "x"})
+    rcyaml("migrate", "sub.toml")
+    said = rcyaml("check", "sub.ddsl.yaml").output
+    assert "/opt/lidar/bin/lidar.py" in said and "no " + str(tmp_path / "me/robocomp/bridge/bin/Bridge") not in said
+
+
+def test_the_content_says_what_a_toml_file_is(rcyaml: Run, tmp_path: Path) -> None:
+    config = "[Endpoints]\nLaser = 'tcp'\n"
+    write_tree(tmp_path, {"etc/config.toml": config, "etc/sub.toml": SUB, "config2.toml": SUB, "x.toml": "[a]\nb = 1\n"})
+    assert rcyaml("migrate", ".").exit_code == 0
+    made = {path.name for path in tmp_path.rglob("*.yaml") if not path.name.endswith("pdsl.yaml")}
+    assert made == {"rcyaml.yaml", "config.toml.config.yaml", "sub.ddsl.yaml", "config2.ddsl.yaml"}
+
+
+@pytest.mark.parametrize(("text", "code"), [
+    (SUB + '[[components]]\nname = "bridge"\ncmd = "x"\n', "RC5013"),
+    (SUB + '[[components]]\ncmd = "x"\n', "RC5004"),
+    (SUB + "[[components]]\nname = 3\n", "RC5004"),
+    (SUB + "[other]\na = 1\n", "RC5004"),
+    (SUB + "[[components]]\nname = 'a'\ncolour = 'red'\n", "RC5004"),
+    (SUB + "[[components]]\nname = 'a'\nname = 'b'\n", "RC5003"),
+])  # fmt: skip
+def test_what_is_refused(rcyaml: Run, tmp_path: Path, text: str, code: str) -> None:
+    write_tree(tmp_path, {"sub.toml": text})
+    result = rcyaml("migrate", "sub.toml")
+    assert result.exit_code == 1 and f"error[{code}]" in result.output, result.output
+    assert not (tmp_path / "sub.ddsl.yaml").exists()
