@@ -134,14 +134,13 @@ class Configuration:
         return mapping_at(settings.span, {"parameters": (key, laid.root)})
 
     def _endpoints(self) -> Iterator[tuple[str, Given]]:
-        draft, entry = self.draft, self.draft.instance.entry
-        for offer in draft.offers:
-            yield offer.adapter.rpartition(".")[2], Given(offer.text, offer.span)
-        component = draft.instance.component
-        said = {pair.name: Given(pair.text, pair.span) for pair in entry.endpoints}
-        said |= {port.name: Given(listening(draft.host, port.number), port.span) for port in entry.ports}
+        draft = self.draft
+        for adapter in draft.adapters:
+            yield adapter.adapter.rpartition(".")[2], Given(adapter.text, adapter.span)
+        component, given = draft.instance.component, {adapter.adapter for adapter in draft.hears}
         for port in component.subscribes if component else ():
-            yield f"{port.name}Topic", said.get(port.name, Given(listening(draft.host, 0), draft.span))
+            if f"{port.name}Topic" not in given:
+                yield f"{port.name}Topic", Given(listening(draft.host, 0), draft.span)
 
     def _proxy(self, name: str, given: Given) -> tuple[Scalar, Node]:
         """Under the property that the configuration has for it."""

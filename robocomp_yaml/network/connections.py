@@ -118,7 +118,7 @@ class Connections:
     def _of_group(self, group: LinkedGroup, draft: Draft) -> list[Offer]:
         """What a group serves to those outside of it; to its own members, everything."""
         if group.is_closed and draft.instance not in group.members:
-            exposed = {(served.instance, served.adapter) for served in group.serves}
+            exposed = {(served.instance.process or served.instance, served.adapter) for served in group.serves}
             return [o for o in self._of_members(group) if (o.owner.instance, o.adapter) in exposed]
         return [offer for offer in self._of_members(group) if offer.port or offer.given]
 
@@ -229,7 +229,8 @@ def _reaches(draft: Draft, offer: Offer) -> bool:
     """Whether every closed group around the offer that the draft is outside of exposes it."""
     source, target = draft.instance, offer.owner.instance
     return all(
-        any(served.instance is target and served.adapter == offer.adapter for served in group.serves)
+        any((served.instance.process or served.instance) is target and served.adapter == offer.adapter
+            for served in group.serves)
         for group in target.groups
         if group.is_closed and not group.broken and group not in source.groups
     )

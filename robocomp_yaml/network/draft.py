@@ -81,7 +81,8 @@ class Given:
 
 @dataclass(eq=False, slots=True)
 class Draft:
-    """An instance on its way to become a process. `aliases` are the entries that are a second name of it. `proxies` by
+    """An instance on its way to become a process. `aliases` are the entries that are a second name of it. `hears` are
+    the adapters for events of topics that the document gives ports to; nobody else needs to know them. `proxies` by
     proxy name, `topics` (full names by the port's name) and `manager` (the proxy of its IceStorm) are what its
     configuration gets."""
 
@@ -89,6 +90,7 @@ class Draft:
     host: Host
     aliases: list[LinkedInstance] = field(default_factory=list)
     offers: list[Offer] = field(default_factory=list)
+    hears: list[Offer] = field(default_factory=list)
     proxies: dict[str, Given] = field(default_factory=dict)
     topics: dict[str, Given] = field(default_factory=dict)
     manager: Given | None = None
@@ -100,6 +102,10 @@ class Draft:
     @property
     def span(self) -> Span:
         return self.instance.entry.span
+
+    @property
+    def adapters(self) -> list[Offer]:
+        return [*self.offers, *self.hears]
 
 
 @dataclass(eq=False, slots=True)

@@ -41,7 +41,7 @@ def drafts_of(linked: LinkedDeployment) -> Drafts:
         result.complete &= is_known and not instance.broken
         if is_known and instance.entry.kind != model.PROCESS:
             draft = result.drafts[instance] = Draft(instance, _placed(result.hosts, instance.host))
-            draft.offers = list(_offers(draft))
+            draft.offers, draft.hears = list(_offers(draft)), list(_hears(draft))
             result.complete &= instance.component is None or not instance.component.broken
     for instance in linked.instances.values():
         owner = result.drafts.get(instance.process) if instance.process else None
@@ -77,6 +77,17 @@ def _offers(draft: Draft) -> Iterator[Offer]:
     for name, interface, port in served:
         pair = given.get(name)
         yield Offer(draft, name, interface, pair.span if pair else draft.span, port, given=pair.text if pair else "")
+
+
+def _hears(draft: Draft) -> Iterator[Offer]:
+    entry, component = draft.instance.entry, draft.instance.component
+    given = {pair.name: pair for pair in entry.endpoints}
+    fixed = {number.name: number for number in entry.ports}
+    for port in component.subscribes if component else ():
+        where = given.get(port.name) or fixed.get(port.name)
+        if where is not None:
+            text = given[port.name].text if port.name in given else ""
+            yield Offer(draft, f"{port.name}Topic", port.interface.name, where.span, port, given=text)
 
 
 def _endpoints(owner: Draft, instance: LinkedInstance) -> Iterator[Offer]:

@@ -13,7 +13,7 @@ _LAST = 65535
 
 def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
     for draft in drafts.drafts.values():
-        for offer in draft.offers:
+        for offer in draft.adapters:
             if offer.endpoint is None:
                 yield codes.BAD_ENDPOINT.at(
                     offer.span, name=offer.adapter, text=offer.given,

@@ -20,7 +20,7 @@ def assign(drafts: Drafts) -> None:
         storm.manager = storm.linked.storm.port or STORM_PORT
         taken[storm.host.address].add(storm.manager)
     for draft in drafts.drafts.values():
-        for offer in draft.offers:
+        for offer in draft.adapters:
             _fix(draft, offer)
             if offer.endpoint is not None and (offer.given or offer.number):
                 taken[draft.host.address].add(offer.endpoint.port)
@@ -47,7 +47,8 @@ def _open(drafts: Drafts) -> Iterator[tuple[tuple[str, str], Offer | StormDraft]
 def _fix(draft: Draft, offer: Offer) -> None:
     """The number that the document gives. `port:` is that of the first interface; instances count all up."""
     entry = draft.instance.entry
-    fixed = next((number for number in entry.ports if number.name == offer.adapter), None)
+    name = offer.adapter.removesuffix("Topic") if offer in draft.hears else offer.adapter
+    fixed = next((number for number in entry.ports if number.name == name), None)
     if fixed is None and entry.port is not None and offer is draft.offers[0] and not offer.given:
         fixed = entry.port
     if fixed is not None:

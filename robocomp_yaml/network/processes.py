@@ -39,7 +39,7 @@ def of_draft(draft: Draft, text: str | None, known: dict[str, tuple[str, ...]]) 
         draft.name, draft.host.name, command, folder, PROGRAM if component is None else COMPONENT,
         env=tuple(Variable(one.name, one.value, one.source) for one in entry.env),
         config=ConfigFile(f"config/{draft.name}", text) if text is not None and is_told else None,
-        endpoints=tuple(offer.resolved() for offer in draft.offers),
+        endpoints=tuple(adapter.resolved() for adapter in draft.adapters),
         ready=_ready(draft),
         restart=_restart(entry.restart),
         watched=(program, *_code(instance.folder, component, known)) if os.path.isabs(program) else (),

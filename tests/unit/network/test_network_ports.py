@@ -100,3 +100,15 @@ def test_a_port_that_is_counted_too_high() -> None:
     (found,) = faults(deployed('components: {"m{i}": {component: mouth, instances: 9, port: 65530}}\n'))
     assert said(found) == ("RC4302", "robot.ddsl.yaml", 2, 61)
     assert "'m6' would have port 65536" in found.message
+
+
+def test_a_port_for_the_events_of_a_topic() -> None:
+    found = network(deployed(
+        "services: {storm: {icestorm: {}}}\ncomponents:\n  ears: {component: ears}\n"
+        '  "mind{i}": {component: mind, instances: 2, ports: {Heard: 10010}}\n',
+        ears="publishes: [Heard]\n", mind="subscribes: [Heard]\n",
+    ))
+    assert [texts(found)[f"mind{number}.HeardTopic"] for number in range(2)] == [
+        "tcp -h 127.0.0.1 -p 10010", "tcp -h 127.0.0.1 -p 10011"
+    ]
+    assert all("heard" not in ping for ping in found.processes["mind0"].ready.pings)
