@@ -65,7 +65,8 @@ def test_home_is_found(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 def test_the_content_says_what_a_toml_file_is(rcyaml: Run, tmp_path: Path) -> None:
     config = "[Endpoints]\nLaser = 'tcp'\n"
-    write_tree(tmp_path, {"etc/config.toml": config, "etc/sub.toml": SUB, "config2.toml": SUB, "x.toml": "[a]\nb = 1\n"})
+    other = "[a]\nb = 1\n"
+    write_tree(tmp_path, {"etc/config.toml": config, "etc/sub.toml": SUB, "config2.toml": SUB, "x.toml": other})
     assert rcyaml("migrate", ".").exit_code == 0
     made = {path.name for path in tmp_path.rglob("*.yaml") if not path.name.endswith("pdsl.yaml")}
     assert made == {"rcyaml.yaml", "config.toml.config.yaml", "sub.ddsl.yaml", "config2.ddsl.yaml"}

@@ -53,7 +53,7 @@ def test_commands(text: str, words: tuple[str, ...], config: str, stem: str) -> 
     assert (found.host, found.folder) == (("host", "/d") if remote else ("localhost", "/w"))
 
 
-@pytest.mark.parametrize("text", ["", "  ", "rcremote", "rcremote host tab", "rcremote host tab /d", "rcremote h t /d  "])
+@pytest.mark.parametrize("text", ["", "  ", "rcremote", "rcremote host tab", "rcremote host tab /d", "rcremote h t / "])
 def test_nothing_to_run(text: str) -> None:
     assert command.parse(text, "/w") is None
 
@@ -209,9 +209,7 @@ components:
     program: js
     cwd: /d
     endpoints: {js: tcp -p 10005}
-    x-rcmanager:
-      endpoint: js:tcp -p 10005
-      upCommand: rcremote localhost js /d js
+    x-rcmanager: {endpoint: "js:tcp -p 10005", upCommand: rcremote localhost js /d js}
 # The end.
 """
 
