@@ -22,7 +22,10 @@ def components_at(deployment: Deployment, text: str) -> list[str]:
     """The component's document at a path, or those in a folder; none where there is nothing of the kind."""
     path = joined(folder_of(deployment), text)
     if os.path.isdir(path):
-        names = sorted(name for name in os.listdir(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
+        try:
+            names = sorted(name for name in os.listdir(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
+        except OSError:
+            names = []
         return [os.path.join(path, name) for name in names]
     is_component = f"{os.sep}{path}".endswith(COMPONENT_SUFFIXES) and os.path.isfile(path)
     return [path] if is_component else []

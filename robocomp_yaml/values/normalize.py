@@ -1,7 +1,7 @@
 """Effective values made complete: defaults filled in at every level, by Cerberus where something is missing.
 
-What lacks nothing, or is not given at all, needs none of it, parameter by parameter and entry by entry, since Cerberus is a hundred times slower
-than the compiled schema that tells.
+What lacks nothing, or is not given at all, needs none of it, parameter by parameter and entry by entry, since Cerberus
+is a hundred times slower than the compiled schema that tells.
 """
 
 from __future__ import annotations
