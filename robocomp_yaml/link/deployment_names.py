@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -11,7 +12,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.expand_deployments import Placed
-from robocomp_yaml.model.deployment import INDEX, PROCESS, Number, Pair, Text
+from robocomp_yaml.model.deployment import INDEX, PROCESS, Entry, Number, Pair, Text
 
 
 @dataclass(slots=True)
@@ -37,8 +38,9 @@ class Names:
                 for named in instance.entry.after:
                     for target in self._find(here, named, "`after:`", instance) or ():
                         instance.after += target.members if isinstance(target, LinkedGroup) else [target]
-                if here.is_own:
+                if here.is_own and not instance.number:  # what one instance says, all of them do
                     self.diagnostics += _ports(instance)
+                    self.diagnostics += _patterns(instance.entry)
 
     def _direct(self, here: Placed, group: LinkedGroup) -> Iterator[Target]:
         for named in group.group.members:
@@ -133,6 +135,14 @@ def _ports(instance: LinkedInstance) -> Iterator[Diagnostic]:
                     key.name_span, component=linked.component.name, what=what, name=key.name,
                     hint=_meant(key.name, names), related=[Related("the component", linked.component.span)],
                 )
+
+
+def _patterns(entry: Entry) -> Iterator[Diagnostic]:
+    if entry.ready is not None and entry.ready.log:
+        try:
+            re.compile(entry.ready.log)
+        except (re.error, OverflowError, RecursionError) as error:
+            yield codes.BAD_PATTERN.at(entry.ready.span, pattern=entry.ready.log, problem=error)
 
 
 def _meant(name: str, names: list[str]) -> str:

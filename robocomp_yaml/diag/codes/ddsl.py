@@ -170,6 +170,16 @@ GROUP_CYCLE = Code(
     deployed(_BOTH + "groups:\n  face: {components: [speech]}\n  head: {components: [face, mouth]}\n"),
     _CHECK,
 )
+BAD_PATTERN = Code(
+    "RC4014",
+    "error",
+    "'{pattern}' is no regular expression: {problem}",
+    "`ready: {log: …}` is a regular expression of Python: brackets and signs such as `( [ { * + ? . | ^ $` have a "
+    "meaning of their own, and stand for themselves behind a backslash.",
+    deployed("components:\n" + _MOVES + "  laser: {program: sleep, args: [1], ready: {log: \"ready (\"}}\n"),
+    deployed("components:\n" + _MOVES + "  laser: {program: sleep, args: [1], ready: {log: 'ready \\('}}\n"),
+    _CHECK,
+)
 NO_COMPONENT = Code(
     "RC4101",
     "error",
