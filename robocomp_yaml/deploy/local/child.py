@@ -50,7 +50,7 @@ class Child:
         self.restarts, self.last_exit = 0, ""
         self._spawn()
 
-    async def stop(self, within: float, roots: Collection[int]) -> None:
+    async def stop(self, within: float, roots: Collection[int], alive: procfs.RecentTable) -> None:
         """Asks it and its group to end; kills what of its family is left after so many seconds. Raises TimeoutError
         where even that does not end them."""
         self._cancel_timer()
@@ -59,13 +59,13 @@ class Child:
             return
         root, self._is_stopping = self.pid, True
         try:
-            self._ask_to_end(root, roots)
+            self._ask_to_end(root, roots, alive())
             deadline = self._loop.time() + within
             try:
                 await asyncio.wait_for(self._exited.wait(), within)
             except TimeoutError:
                 self.log.say(f"did not end within {within:g} s: killed")
-            while members := self.members(root, roots):
+            while members := self.members(root, roots, alive()):
                 if self._loop.time() > deadline + _AFTER_KILL:
                     raise TimeoutError
                 if self._loop.time() > deadline:
@@ -76,17 +76,16 @@ class Child:
             self._is_stopping = False
         self._turn(STOPPED)
 
-    def _ask_to_end(self, root: int, roots: Collection[int]) -> None:
+    def _ask_to_end(self, root: int, roots: Collection[int], alive: dict[int, procfs.Entry]) -> None:
         """Its group, and what has left that; one that was halted goes on, so that it can end."""
-        alive = procfs.table()
-        family = procfs.family(root, self.mark, os.getpid(), alive, roots)
+        family = self.members(root, roots, alive)
         for number in (signal.SIGTERM, signal.SIGCONT):
             with suppress(ProcessLookupError):
                 os.killpg(root, number)
             _signal([pid for pid in family if alive[pid].group != root], number)
 
-    def members(self, root: int, roots: Collection[int]) -> set[int]:
-        return procfs.family(root, self.mark, os.getpid(), procfs.table(), roots)
+    def members(self, root: int, roots: Collection[int], alive: dict[int, procfs.Entry]) -> set[int]:
+        return procfs.family(root, self.mark, os.getpid(), alive, roots)
 
     def on_exit(self, status: int, roots: Collection[int]) -> None:
         """The process ended. What else it had started ends with it, so that nothing of it stands in the way."""
@@ -98,7 +97,7 @@ class Child:
         if self._is_stopping:
             self.log.say(f"stopped: {self.last_exit}")
             return
-        _signal(self.members(root, roots), signal.SIGKILL)
+        _signal(self.members(root, roots, procfs.table()), signal.SIGKILL)
         self._after_end(is_failure=code != 0)
 
     def _after_end(self, *, is_failure: bool) -> None:

@@ -6,6 +6,7 @@ Processes come and go while it is read: what is gone is passed over.
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
@@ -15,6 +16,7 @@ MARK = "RCYAML_PROCESS"
 _TICKS = os.sysconf("SC_CLK_TCK")
 _PAGE = os.sysconf("SC_PAGE_SIZE")
 _LISTEN = "0A"
+_MOMENT = 0.02  # seconds
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +52,20 @@ def table() -> dict[int, Entry]:
     """All processes that are alive."""
     found = (entry(pid) for pid in pids())
     return {one.pid: one for one in found if one and not one.is_dead}
+
+
+class RecentTable:
+    """All processes that were alive a moment ago: for many who wait for families to be gone. From a family of which
+    nothing was alive, nothing comes."""
+
+    def __init__(self) -> None:
+        self._taken, self._table = 0.0, table()
+
+    def __call__(self) -> dict[int, Entry]:
+        if time.monotonic() > self._taken + _MOMENT:
+            self._table = table()
+            self._taken = time.monotonic()
+        return self._table
 
 
 def mark_of(pid: int) -> str:
@@ -103,7 +119,7 @@ def listeners(ports: Collection[int]) -> dict[int, list[int]]:
     """Of these TCP ports, those on which something listens, each with the processes that do, as far as one may see
     them."""
     inodes: dict[str, int] = {}
-    for file in ("/proc/net/tcp", "/proc/net/tcp6"):
+    for file in ("/proc/net/tcp", "/proc/net/tcp6") if ports else ():
         for line in _read(file).decode().splitlines()[1:]:
             fields = line.split()
             port = int(fields[1].rpartition(":")[2], 16)

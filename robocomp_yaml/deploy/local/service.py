@@ -39,6 +39,7 @@ class _Service:
         self._files = OpenFiles()
         self._limit = int(os.environ.get("RCYAML_LOG_LIMIT") or LIMIT)
         self._over = asyncio.Event()
+        self._alive = procfs.RecentTable()
 
     async def run(self) -> None:
         self._files.raise_limit()
@@ -150,7 +151,7 @@ class _Service:
 
     async def _stop(self, child: Child, within: float) -> None:
         async with child.lock:
-            await child.stop(within, self._roots())
+            await child.stop(within, self._roots(), self._alive)
 
     async def _forget(self, request: Request) -> Request:
         for name in request["names"]:
