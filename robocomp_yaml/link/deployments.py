@@ -143,10 +143,6 @@ class LinkedDeployment:
             found = self.names.get(f"{scope}{inner}.", {}).get(last)
         return found or []
 
-    def is_reachable(self, target: Target, source: LinkedInstance) -> bool:
-        """Whether no closed group that `source` is outside of owns the target."""
-        return not self.closed_around(target, source)
-
     def closed_around(self, target: Target, source: LinkedInstance) -> list[LinkedGroup]:
         """The closed groups that hold the target but not `source`, the outermost first."""
         held = _instances(target)
@@ -156,25 +152,6 @@ class LinkedDeployment:
             and all(group in member.groups for member in held)
         ]
         return sorted(around, key=lambda group: -len(group.members))
-
-    def rings(self, source: LinkedInstance) -> Iterator[list[LinkedInstance | LinkedGroup]]:
-        """What `source` may be connected to without a word: first what stands in its own scope, then further out.
-        A closed group stands for its members. The first ring that has an interface decides."""
-        seen: set[int] = {id(source)}
-        scope = source.scope
-        while True:
-            around: list[LinkedInstance | LinkedGroup] = [
-                group for group in self.groups.values()
-                if f"{group.name}.".startswith(scope) and group.is_closed and source not in group.members
-            ]
-            around += [i for i in self.instances.values() if i.scope.startswith(scope) and i.process is None]
-            ring = [x for x in around if id(x) not in seen and self.is_reachable(x, source)]
-            seen.update(map(id, ring))
-            yield ring
-            if not scope:
-                return
-            scope = scope[:-1].rpartition(".")[0]
-            scope = f"{scope}." if scope else ""
 
     def storms_for(self, source: LinkedInstance) -> list[LinkedStorm]:
         """The IceStorms whose scope `source` stands in, the nearest scope first."""

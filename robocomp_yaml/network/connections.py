@@ -8,17 +8,17 @@ from dataclasses import dataclass, field
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model.component import IGNORE
 from robocomp_yaml.model.deployment import Pair
 from robocomp_yaml.network.contents import Contents, name_of
 from robocomp_yaml.network.draft import Draft, Given, Offer
-from robocomp_yaml.network.drafts import Drafts
+from robocomp_yaml.network.drafts import Drafts, is_broken
 from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
+from robocomp_yaml.network.targets import Targets
 
 _MANY = 6
 
@@ -30,6 +30,7 @@ class Connections:
     drafts: Drafts
     contents: Contents
     gates: Gates
+    targets: Targets
     found: list[Connection] = field(default_factory=list)
     needs: list[Need] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
@@ -57,11 +58,13 @@ class Connections:
             draft.proxies[pair.name] = Given(pair.text, pair.span)
             self.found.append(Connection(draft.name, pair.name, interface, "", proxy=pair.text, span=pair.span))
             return
-        offers, behind = self._named(draft, pair)
-        if offers is None:
+        target = self.targets.named(draft, pair)
+        if target is None:
             return
-        named = [offer for offer in offers if not behind or behind in (offer.adapter, offer.interface)]
-        fitting = [offer for offer in named if offer.interface == interface or (port is None and behind)]
+        behind = target.interface
+        fitting = [
+            offer for offer in target.chosen() if offer.interface == interface or (port is None and behind)
+        ]
         equal = [offer for offer in fitting if port is None or self._is_equal(port, offer)]
         exact = [offer for offer in equal if offer.adapter in (behind, pair.name)]
         if len(equal) > 1 and len(exact) == 1:
@@ -73,58 +76,11 @@ class Connections:
         elif fitting and port is not None:
             self._mismatch(draft, port, fitting[0], pair.span)
         else:
-            served = ", ".join(dict.fromkeys(offer.adapter for offer in offers))
+            served = ", ".join(dict.fromkeys(name for name, _ in target.served))
             self.diagnostics.append(codes.NOT_SERVED.at(
                 pair.span, target=pair.text, interface=interface,
                 hint=f"it serves {served}" if served else "it serves nothing",
             ))
-
-    def _named(self, draft: Draft, pair: Pair) -> tuple[list[Offer] | None, str]:
-        """What the entry, group or member that `connect` names serves, and the interface that it names behind it."""
-        linked, instance = self.drafts.linked, draft.instance
-        targets, behind = linked.find(pair.text, instance.scope)
-        offers: list[Offer] = []
-        for target in targets:
-            if isinstance(target, LinkedGroup):
-                offers += self._of_group(target, draft)
-            elif isinstance(target, LinkedInstance):
-                owner = self.drafts.of(target)
-                if owner is None or target.broken or (target.component and target.component.broken):
-                    return None, behind
-                own = {pair.name for pair in target.entry.endpoints}
-                offers += [o for o in owner.offers if target.process is None or o.adapter in own] or owner.offers
-            else:
-                self.diagnostics.append(codes.NOT_SERVED.at(
-                    pair.span, target=pair.text, interface=pair.name, hint="it is an IceStorm, which carries topics"
-                ))
-                return None, behind
-            around = linked.closed_around(target, instance)
-            if around:
-                self.diagnostics.append(codes.CLOSED_GROUP.at(
-                    pair.span, target=pair.text, group=around[0].name, hint=f"connect to '{around[0].name}', which "
-                    "serves what it exposes",
-                ))
-                return None, behind
-        if not targets and not instance.broken:
-            names = linked.names.get(instance.scope, {})
-            meant = suggest(pair.text, names)
-            self.diagnostics.append(codes.NO_TARGET.at(
-                pair.span, name=pair.text,
-                hint=f"did you mean '{meant}'?" if meant else "what is outside is named by its proxy, in quotes: "
-                f'"{pair.name.lower()}:tcp -h HOST -p PORT"',
-            ))
-        return (offers if targets else None), behind
-
-    def _of_group(self, group: LinkedGroup, draft: Draft) -> list[Offer]:
-        """What a group serves to those outside of it; to its own members, everything."""
-        if group.is_closed and draft.instance not in group.members:
-            exposed = {(served.instance.process or served.instance, served.adapter) for served in group.serves}
-            return [o for o in self._of_members(group) if (o.owner.instance, o.adapter) in exposed]
-        return [offer for offer in self._of_members(group) if offer.port or offer.given]
-
-    def _of_members(self, group: LinkedGroup) -> list[Offer]:
-        owners = dict.fromkeys(owner for member in group.members if (owner := self.drafts.of(member)))
-        return [offer for owner in owners for offer in owner.offers]
 
     def _look_for(self, draft: Draft, port: Port) -> None:
         """Connects a port that nothing is said of: the nearest that serve an equal interface decide."""
@@ -232,7 +188,7 @@ def _reaches(draft: Draft, offer: Offer) -> bool:
         any((served.instance.process or served.instance) is target and served.adapter == offer.adapter
             for served in group.serves)
         for group in target.groups
-        if group.is_closed and not group.broken and group not in source.groups
+        if group.is_closed and not is_broken(group) and group not in source.groups
     )
 
 

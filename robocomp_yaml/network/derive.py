@@ -19,6 +19,7 @@ from robocomp_yaml.network.endpoints import endpoint_faults
 from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import Network
 from robocomp_yaml.network.order import AFTER, Need, ordered
+from robocomp_yaml.network.targets import Targets
 from robocomp_yaml.network.topics import Topics
 
 FOLDER = ".rcyaml/deployments"
@@ -42,12 +43,15 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
         return bases[draft]
 
     contents = Contents()
-    connections, topics = Connections(drafts, contents, gates), Topics(drafts, contents, base)
+    targets = Targets(drafts)
+    connections, topics = Connections(drafts, contents, gates, targets), Topics(drafts, contents, base)
     connections.resolve()
     gates.connect()
     topics.resolve()
     network.connections = [*connections.found, *gates.found, *topics.found]
-    diagnostics = [*endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
+    diagnostics = [
+        *endpoint_faults(drafts), *targets.diagnostics, *connections.diagnostics, *topics.diagnostics
+    ]
     needs = [*_said(drafts), *connections.needs, *gates.needs, *topics.needs]
     wanted = {need.target for need in needs}
     for storm in drafts.storms.values():

@@ -32,7 +32,7 @@ class Drafts:
 
 def drafts_of(linked: LinkedDeployment) -> Drafts:
     result = Drafts(linked, {name: _host(host) for name, host in linked.hosts.items()})
-    result.complete = not (linked.broken or any(map(_lacks_something, linked.groups.values())))
+    result.complete = not (linked.broken or any(map(is_broken, linked.groups.values())))
     for storm in linked.storms.values():
         result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host))
         result.complete &= not storm.broken
@@ -51,7 +51,8 @@ def drafts_of(linked: LinkedDeployment) -> Drafts:
     return result
 
 
-def _lacks_something(group: LinkedGroup) -> bool:
+def is_broken(group: LinkedGroup) -> bool:
+    """Whether something about a group has been reported, so that what it serves is not known."""
     return group.broken or len(group.serves) < len(group.group.exposed)
 
 

@@ -154,6 +154,18 @@ def test_a_group_is_connected_to_the_member_that_serves() -> None:
     assert line_of(found, "speech").target == "other"
 
 
+@pytest.mark.parametrize("connect", ["face.Lips", "face.Mouth"])
+def test_what_a_group_serves_has_a_name_of_its_own(connect: str) -> None:
+    found = network(group("{components: [inner, other], expose: {Lips: other.Mouth, Speech: inner}}",
+                          f", connect: {{Mouth: {connect}}}"))
+    assert line_of(found, "speech").target == "other"
+
+
+def test_what_a_group_does_not_serve() -> None:
+    (found,) = faults(group("{components: [inner, other], expose: {Speech: inner}}", ", connect: {Mouth: face.Mouth}"))
+    assert said(found) == ("RC4204", "robot.ddsl.yaml", 3, 48) and found.hint == "it serves Speech"
+
+
 def test_the_inside_of_a_closed_group_is_out_of_reach() -> None:
     (found,) = faults(group("{components: [inner, other], expose: {Speech: inner}}", ", connect: {Mouth: other}"))
     assert said(found) == ("RC4206", "robot.ddsl.yaml", 3, 48)
