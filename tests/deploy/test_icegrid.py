@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-
 from conftest import ROOT, write_tree
 from processes import until
 from three_hosts import Deployment, three_hosts
@@ -174,6 +173,19 @@ def test_a_killed_node_is_started_again_on_its_host(talk: Deployment, ready: dic
     until(lambda: talk.pids()["teller"] not in (0, ready["teller"]), lambda: talk.logs())
     talk.until_ready()
     assert talk.copies("teller") == 1 == talk.copies("speech")
+
+
+def test_a_host_that_is_cut_off_works_on(talk: Deployment, ready: dict[str, int]) -> None:
+    """Nobody knows how it is meanwhile; when it is back, it is found as it was, and nothing is doubled."""
+    if not talk.hosts.prefix:
+        pytest.skip("network namespaces are not permitted here: there is no cable to pull")
+    talk.hosts.link("arm", "down")
+    try:
+        until(lambda: talk.status()["hearer"]["state"] == "lost", "the host does not answer")
+        assert talk.copies("hearer") == 1
+    finally:
+        talk.hosts.link("arm", "up")
+    assert {name: one["pid"] for name, one in talk.until_ready().items()} == ready
 
 
 @pytest.mark.parametrize("for_good", [False, True], ids=["started again by its guard", "with its guard"])

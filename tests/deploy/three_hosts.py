@@ -15,11 +15,12 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from processes import until
+
 from robocomp_yaml.deploy.local import procfs
 
 NAMES = ("onboard", "head", "arm")
@@ -36,7 +37,7 @@ class Hosts:
     def run(self, host: str, command: list[str], **how: Any) -> subprocess.CompletedProcess[str]:
         """A command's outcome on a host; this Python comes first there, since components start with it."""
         path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-        how["env"] = {**os.environ, "PATH": path}
+        how["env"] = {**os.environ, "PATH": path, **how.get("env", {})}
         inside = ["ip", "netns", "exec", self.prefix + host] if self.prefix else []
         return subprocess.run([*inside, *command], capture_output=True, text=True, check=False, timeout=60, **how)
 
@@ -88,6 +89,7 @@ class Deployment:
 
     hosts: Hosts
     root: Path
+    environment: dict[str, str] = field(default_factory=dict)
 
     @property
     def folder(self) -> str:
@@ -99,7 +101,7 @@ class Deployment:
 
     def rcyaml(self, *words: str, code: int | None = 0) -> str:
         """What a command prints, run on the first host; its exit code must be `code`, if that is not None."""
-        done = self.hosts.run("onboard", [sys.executable, "-m", "robocomp_yaml", *words], cwd=self.root)
+        done = self.hosts.run("onboard", [sys.executable, "-m", "robocomp_yaml", *words], cwd=self.root, env=self.environment)
         assert code in (None, done.returncode), done.stdout + done.stderr
         return done.stdout + done.stderr
 

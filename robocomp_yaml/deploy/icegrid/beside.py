@@ -10,8 +10,9 @@ from typing import Any
 
 from robocomp_yaml.deploy.icegrid import descriptors
 from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed
-from robocomp_yaml.deploy.icegrid.places import Places, is_here
+from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.icegrid.status import told
+from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.network.network import NEVER, PROGRAM, Restart
 

@@ -22,7 +22,6 @@ from robocomp_yaml.network.network import LOOPBACK, Host
 from robocomp_yaml.source.properties import entry_line
 
 
-
 def as_text(properties: Mapping[str, str]) -> str:
     return "".join(entry_line(key, value) + "\n" for key, value in properties.items())
 
@@ -32,7 +31,8 @@ def start_registry(places: Places, registry: Registry) -> None:
     own = places.registry_folder
     for path in (own, f"{own}/data"):
         os.makedirs(path, mode=0o700, exist_ok=True)
-    own_folder.write(places.folder, "state/icegrid/registry/settings", as_text(settings.of_registry(places, registry)))
+    text = as_text(settings.of_registry(places, registry))
+    own_folder.write(places.folder, "state/icegrid/registry/settings", text)
     own_folder.write(places.folder, "state/icegrid/registry/guard", resources.text("templates/icegrid/guard"))
     command = ["bash", f"{own}/guard", own, "icegridregistry", f"--Ice.Config={own}/settings"]
     started = subprocess.Popen(
@@ -76,8 +76,9 @@ def write_script(places: Places, host: Host, registry: Registry) -> str:
         "guard": resources.text("templates/icegrid/guard"),
     }
     head = "".join(f"{name}={shlex.quote(text.rstrip())}\n" for name, text in facts.items())
-    own_folder.write(places.folder, f"state/icegrid/hosts/{host.name}.sh", head + resources.text("templates/icegrid/node"))
-    return places.script(host.name)
+    path = f"state/icegrid/hosts/{host.name}.sh"
+    own_folder.write(places.folder, path, head + resources.text("templates/icegrid/node"))
+    return f"{places.folder}/{path}"
 
 
 def start_node_here(script: str) -> str:

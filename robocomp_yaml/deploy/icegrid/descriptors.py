@@ -29,6 +29,7 @@ from robocomp_yaml.source import properties
 LONGEST_CONFIG = 100_000
 """Bytes of a configuration that can be sent to another host: Linux limits a variable to 128 KiB."""
 
+_KEEPER_MODULE = "robocomp_yaml.deploy.icegrid.keeper"
 _SERVICE = "IceBox.Service."
 _AFTER_KILL = 10  # seconds that IceGrid itself waits, after what `run` waits
 
@@ -63,14 +64,13 @@ def server(places: Places, spec: Spec, user: str, *, is_here: bool) -> Any:
 
 def keeper(places: Places, user: str) -> Any:
     """The server that brings processes back when their node has come back; IceGrid itself restarts it."""
-    return IceGrid.ServerDescriptor(
-        **_facts(
-            KEEPER, "setpriv",
-            [_literal(word) for word in ("--pdeathsig", "KILL", "--", sys.executable, "-m", "robocomp_yaml.deploy.icegrid.keeper", places.folder)],
-            pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
-            envs=[f"PYTHONPATH={package_path()}", f"{MARK}={places.folder}:"], logs=[],
-        )  # fmt: skip
-    )
+    facts = _facts(
+        KEEPER, "setpriv",
+        ["--pdeathsig", "KILL", "--", *map(_literal, (sys.executable, "-m", _KEEPER_MODULE, places.folder))],
+        pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
+        envs=[f"PYTHONPATH={package_path()}", f"{MARK}={places.folder}:"], logs=[],
+    )  # fmt: skip
+    return IceGrid.ServerDescriptor(**facts)
 
 
 def package_path() -> str:

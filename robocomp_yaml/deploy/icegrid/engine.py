@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
-from robocomp_yaml.deploy.icegrid.places import KEEPER, Places, is_here
+from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LogReader
 from robocomp_yaml.deploy.local.log_reader import merged as merged_here
-from robocomp_yaml.deploy.local.obstacles import obstacles
+from robocomp_yaml.deploy.local.obstacles import is_here, obstacles
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying, grids
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -53,7 +53,7 @@ class IceGridEngine:
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network, self._places = network, Places(network.folder)
         if missing := _missing():
-            raise DeployFailed(grids.NOT_INSTALLED.at(Span(network.path), what=missing))
+            raise DeployFailed(grids.NO_REGISTRY.at(Span(network.path), reason=missing))
         return await self._beside("", "reached", self._open, create)
 
     def _open(self, create: bool) -> bool:
@@ -251,14 +251,14 @@ def _is_too_long(spec: Spec) -> bool:
 
 
 def _missing() -> str:
-    """What the engine needs and this machine lacks, or ''."""
+    """What the engine needs and this machine lacks, in words, or ''."""
     try:
         import Ice  # noqa: F401
         import IceGrid  # noqa: F401
     except ImportError:
-        return "Ice for Python (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
+        return "Ice for Python is not installed (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
     for program, package in (("icegridregistry", "zeroc-icegrid"), ("icegridnode", "zeroc-icegrid"),
                              ("openssl", "openssl"), ("setpriv", "util-linux")):  # fmt: skip
         if shutil.which(program) is None:
-            return f"{program} (Debian: {package})"
+            return f"{program} is not installed (Debian: {package})"
     return ""

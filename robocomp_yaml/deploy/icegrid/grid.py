@@ -15,6 +15,7 @@ from robocomp_yaml.deploy.icegrid import settings
 from robocomp_yaml.deploy.icegrid.places import Places, Registry
 
 _RETRY = 0.05
+_LOOK_WITHIN = 4000  # milliseconds
 
 
 class GridFailed(Exception):
@@ -40,6 +41,9 @@ class Grid:
             proxy = self.communicator.stringToProxy(settings.registry_proxy(registry))
             self.session = IceGrid.RegistryPrx.uncheckedCast(proxy).createAdminSession("rcyaml", "")
             self.admin = self.session.getAdmin()
+            # What only looks is soon over, or its host does not answer.
+            self._looks = IceGrid.AdminPrx.uncheckedCast(self.admin.ice_invocationTimeout(_LOOK_WITHIN))
+            self._reads = IceGrid.AdminSessionPrx.uncheckedCast(self.session.ice_invocationTimeout(_LOOK_WITHIN))
         except Ice.Exception as error:
             self._destroy()
             raise Unreachable(in_words(error)) from error
@@ -55,8 +59,8 @@ class Grid:
 
     def has_node(self, host: str) -> bool:
         try:
-            answer: bool = self.admin.pingNode(host)
-        except IceGrid.NodeNotExistException:
+            answer: bool = self._looks.pingNode(host)
+        except (IceGrid.NodeNotExistException, Ice.InvocationTimeoutException):
             return False
         except Ice.Exception as error:
             raise Unreachable(in_words(error)) from error
@@ -90,12 +94,12 @@ class Grid:
 
     def states(self, names: Iterable[str]) -> dict[str, tuple[str, int]]:
         """State and pid of each server; '' for one whose node does not answer, and one that there is not."""
-        asked = [(name, self.admin.getServerStateAsync(name), self.admin.getServerPidAsync(name)) for name in names]
+        asked = [(name, self._looks.getServerStateAsync(name), self._looks.getServerPidAsync(name)) for name in names]
         found: dict[str, tuple[str, int]] = {}
         for name, state, pid in asked:
             try:
                 found[name] = (str(state.result()), pid.result())
-            except (IceGrid.NodeUnreachableException, IceGrid.ServerNotExistException):
+            except (IceGrid.NodeUnreachableException, IceGrid.ServerNotExistException, Ice.InvocationTimeoutException):
                 found[name] = ("", 0)
             except Ice.Exception as error:
                 raise Unreachable(in_words(error)) from error
@@ -119,7 +123,7 @@ class Grid:
     def read(self, name: str, path: str) -> list[str]:
         """The lines of one of a process's files, on its host; none where it is not there."""
         try:
-            iterator = self.session.openServerLog(name, path, -1)
+            iterator = self._reads.openServerLog(name, path, -1)
         except IceGrid.FileNotAvailableException:
             return []
         except Ice.Exception as error:
@@ -131,6 +135,8 @@ class Grid:
                 lines += more
                 if is_end:
                     return lines
+        except Ice.Exception as error:
+            raise Unreachable(in_words(error)) from error
         finally:
             with contextlib.suppress(Ice.Exception):
                 iterator.destroy()

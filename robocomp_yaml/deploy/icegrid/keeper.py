@@ -17,8 +17,9 @@ import Ice
 import IceGrid
 
 from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed, Unreachable
-from robocomp_yaml.deploy.icegrid.places import Places, is_here
+from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.icegrid.status import is_over
+from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.plan import in_order
 
 _PERIOD = 2.0  # seconds between two looks without an event

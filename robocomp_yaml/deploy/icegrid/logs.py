@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import heapq
-from collections.abc import AsyncGenerator, Sequence
+from collections.abc import AsyncGenerator, Iterable, Sequence
 from typing import Protocol
 
 from robocomp_yaml.deploy.engine import Line
@@ -19,7 +19,7 @@ class Reader(Protocol):
 
     def last(self, count: int) -> list[Line]: ...
 
-    def new(self) -> Sequence[Line]: ...
+    def new(self) -> Iterable[Line]: ...
 
 
 class GridReader:

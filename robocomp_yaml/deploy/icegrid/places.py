@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from robocomp_yaml.deploy import folder as own_folder
+from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.network.network import LOOPBACK, Host
 
@@ -63,10 +64,6 @@ class Places:
     def log(self, name: str) -> str:
         return f"{self.folder}/logs/{name}.log"
 
-    def script(self, host: str) -> str:
-        """What starts the host's node, given to bash there."""
-        return f"{self.root}/hosts/{host}.sh"
-
     def registry(self) -> Registry | None:
         data = self._read(_REGISTRY, None)
         return Registry(**data) if data else None
@@ -113,19 +110,6 @@ def _spec(data: dict[str, Any]) -> Spec | None:
         return Spec.of_data(data)
     except (KeyError, TypeError, ValueError):
         return None
-
-
-def is_here(address: str) -> bool:
-    """Whether an address is one of this machine's: only those can be bound. One that cannot be resolved is not."""
-    if address == LOOPBACK:
-        return True
-    try:
-        family, kind, protocol, _, place = socket.getaddrinfo(address, 0, type=socket.SOCK_STREAM)[0]
-        with socket.socket(family, kind, protocol) as probe:
-            probe.bind(place)
-    except OSError:
-        return False
-    return True
 
 
 def registry_address(hosts: Iterable[Host]) -> str:

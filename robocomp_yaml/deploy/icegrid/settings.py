@@ -17,6 +17,11 @@ _VALID_DAYS = "36500"
 _SESSION_TIMEOUT = "10"  # seconds after which a host that says nothing counts as lost
 
 
+# A host that is cut off says nothing: calls to it fail after some seconds, and not after TCP's quarter of an hour. One
+# that works on a call sends heartbeats all the while.
+_PATIENCE = {"Ice.ACM.Timeout": "4", "Ice.Override.ConnectTimeout": "3000"}
+
+
 def make_key(places: Places) -> None:
     """The deployment's key and certificate, made once. Raises OSError where openssl is not there or fails."""
     if os.path.exists(places.key) and os.path.exists(places.certificate):
@@ -50,6 +55,8 @@ def of_registry(places: Places, registry: Registry) -> dict[str, str]:
     own = f"ssl -h {registry.address}"
     return {
         **secured(places.key, places.certificate),
+        **_PATIENCE,
+        "IceGrid.Registry.Client.ThreadPool.SizeMax": "64",
         "IceGrid.InstanceName": INSTANCE,
         "IceGrid.Registry.Client.Endpoints": f"{own} -p {registry.port}",
         # No server registers: all proxies of a deployment are direct.
@@ -67,6 +74,7 @@ def of_node(places: Places, host: str, address: str, registry: Registry) -> dict
     own = f"{places.root}/nodes/{host}"
     return {
         **secured(f"{own}/key.pem", f"{own}/certificate.pem"),
+        **_PATIENCE,
         "Ice.Default.Locator": f"{INSTANCE}/Locator:{_endpoint(registry)}",
         "IceGrid.Node.Name": host,
         "IceGrid.Node.Endpoints": f"ssl -h {address}",
@@ -80,11 +88,11 @@ def of_node(places: Places, host: str, address: str, registry: Registry) -> dict
 def of_client(places: Places) -> dict[str, str]:
     return {
         **secured(places.key, places.certificate),
-        "Ice.Override.ConnectTimeout": "3000",
+        **_PATIENCE,
         "Ice.Default.InvocationTimeout": "30000",
         "Ice.RetryIntervals": "-1",
-        "Ice.ACM.Close": "0",
-        "Ice.ACM.Heartbeat": "3",
+        "Ice.ACM.Close": "2",  # only where an answer is awaited
+        "Ice.ACM.Heartbeat": "3",  # always: the session lives as long as its connection
         "Ice.Warn.Connections": "0",
     }
 

@@ -17,14 +17,16 @@ def run(script: str, host: Host) -> str:
     except ImportError:
         return "asyncssh is not installed (`pip install 'rcyaml[ssh]'`), and no node was started by hand"
 
+    with open(script, encoding="utf-8") as file:
+        text = file.read()
+
     async def work() -> str:
         options = {"username": host.user} if host.user else {}
         async with asyncssh.connect(host.address, connect_timeout=_CONNECT_WITHIN, **options) as connection:
-            with open(script, encoding="utf-8") as file:
-                done = await asyncio.wait_for(connection.run("bash -s", input=file.read(), check=False), _RUN_WITHIN)
+            done = await asyncio.wait_for(connection.run("bash -s", input=text, check=False), _RUN_WITHIN)
         return (str(done.stderr).strip() or "the script that starts it failed") if done.exit_status else ""
 
     try:
         return asyncio.run(work())
     except (OSError, asyncssh.Error, TimeoutError) as error:
-        return f"ssh: {str(error).strip() or type(error).__name__}"
+        return f"ssh: {str(error).strip() or 'no answer'}"

@@ -10,7 +10,13 @@ from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.icegrid import daemons, settings, ssh
 from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed, Unreachable, reach
-from robocomp_yaml.deploy.icegrid.places import Places, Registry, free_port, is_here, registry_address
+from robocomp_yaml.deploy.icegrid.places import (
+    Places,
+    Registry,
+    free_port,
+    registry_address,
+)
+from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.diag.codes import grids
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Host, Network

@@ -6,10 +6,19 @@ import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Running
+from robocomp_yaml.deploy.engine import (
+    ENDED,
+    GIVEN_UP,
+    LOST,
+    RUNNING,
+    STOPPED,
+    WAITING,
+    Running,
+)
 from robocomp_yaml.deploy.icegrid.grid import Grid
-from robocomp_yaml.deploy.icegrid.places import Places, is_here
+from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.local import procfs
+from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.spec import Spec
 
 _ALIVE = ("Active", "Activating", "Deactivating")
@@ -56,7 +65,9 @@ def is_over(grid: Grid, places: Places, name: str, *, here: bool) -> bool:
     return last is not None and last.state in _FINAL
 
 
-def observe(grid: Grid, places: Places, specs: Mapping[str, Spec | None], hosts: Mapping[str, str]) -> dict[str, Running]:
+def observe(
+    grid: Grid, places: Places, specs: Mapping[str, Spec | None], hosts: Mapping[str, str]
+) -> dict[str, Running]:  # fmt: skip
     """All processes as they are now; `hosts` are the names of those whose spec cannot be read."""
     wanted, states = places.wanted(), grid.states(specs)
     here = {spec.address: is_here(spec.address) for spec in specs.values() if spec}
@@ -82,9 +93,7 @@ def _seen(
         return Running(name, spec, host, RUNNING, runner)  # it has just been started
     if last is None:
         return Running(name, spec, host, WAITING if is_wanted else STOPPED)
-    if state in _ALIVE:
-        now = last.state
-    elif last.state in _FINAL and is_wanted:
+    if state in _ALIVE or last.state in _FINAL and is_wanted:
         now = last.state
     else:  # its runner or its node was killed, and the keeper will start it
         now = WAITING if is_wanted else STOPPED
