@@ -57,7 +57,7 @@ class Names:
         while todo:
             target = todo.popleft()
             if target is group:
-                if here.is_own:
+                if here.is_own and not any(other.broken for other in self.root.groups.values() if id(other) in seen):
                     self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))
                 group.broken = True
             elif id(target) not in seen and isinstance(target, LinkedGroup):
