@@ -14,6 +14,7 @@ from robocomp_machines import EXPECTED, HEADER, MACHINE, PYTHON, SOURCE
 from scenario import INTERFACES, cdsl
 
 Behavior = Callable[[int], Any]
+OFFSCREEN = {"QT_QPA_PLATFORM": "offscreen"}
 
 
 def documents(language: str, **keys: object) -> dict[str, str]:
@@ -80,3 +81,25 @@ def test_cpp(build: Build, start: Start, free_port: Ports, behavior: Behavior, t
     checking = start([*robot.command, "--startup-check"], cwd=robot.root)
     assert checking.exit_code() == 0
     assert "Startup check\n" in checking.output
+
+
+@needs_cpp
+@needs_qt
+@pytest.mark.slow
+def test_the_skeleton_in_cpp(build: Build, start: Start, free_port: Ports, behavior: Behavior) -> None:
+    """With all that a machine may have, and with a window; the machine starts by itself."""
+    port = free_port()
+    guarded = '<transition event="t_initialize_to_compute" cond="ready" target="compute"><script>greet</script>'
+    files = documents("cpp", gui={"toolkit": "qt", "base": "QDialog"})
+    files["robot/patrol.scxml"] = MACHINE.replace('<transition event="t_initialize_to_compute" target="compute"/>',
+                                                  f"{guarded}</transition>")  # fmt: skip
+    robot = configured(build(files)["Robot"], port)
+    worker = robot.root / "src" / "specificworker.cpp"
+    worker.write_text(worker.read_text().replace("SpecificWorker::compute()\n{", """SpecificWorker::compute()
+{
+    events.t_initialize_to_compute();"""))
+    cmake(robot.root, "-DCMAKE_BUILD_TYPE=Plain")
+    running = start(robot.command, cwd=robot.root, env=OFFSCREEN)
+    running.wait_for("sm_initialize() is still to be written").wait_for("ready() is still to be written")
+    assert behavior(port).getParameterList()["statemachine.state"].value == "initialize", "ready() says no"
+    assert running.stop() == 0
