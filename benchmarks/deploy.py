@@ -2,8 +2,8 @@
 
     python benchmarks/deploy.py [RUNS]
 
-Times of the clock, in seconds, as a user waits for them: median (min–max). The floor of an `up` is a Python process that
-only starts the same 50 programs, one after the other. Every process counts as ready after a tenth of a second.
+Times of the clock, in seconds, as a user waits for them: median (min–max). The floor of an `up` is a Python process
+that only starts the same 50 programs, one after the other. Every process counts as ready after a tenth of a second.
 """
 
 from __future__ import annotations

@@ -13,6 +13,7 @@ import click
 from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options
 from robocomp_yaml.deploy import operations
+from robocomp_yaml.deploy.carry_out import stop_all
 from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, WAITING
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -73,4 +74,4 @@ async def _stay(ctx: click.Context, opened: Opened) -> list[Diagnostic]:
 
 async def _take_down(opened: Opened) -> None:
     running = await opened.engine.observe()
-    await operations.stop_all(opened.engine, running.values(), lambda event: None)
+    await stop_all(opened.engine, running.values(), lambda event: None)

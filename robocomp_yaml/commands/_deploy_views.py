@@ -70,24 +70,25 @@ def result_data(result: Result) -> dict[str, object]:
 
 def status_text(network: Network, found: Sequence[Status], color: bool) -> str:
     rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "SERVES")]
-    for one in found:
-        running = one.running
+    for status in found:
+        running = status.running
         alive = running if running and running.pid else None
         rows.append(
             (
-                one.name,
-                _state(one),
+                status.name,
+                _state(status),
                 str(alive.pid) if alive else "-",
-                one.host,
+                status.host,
                 _duration(alive.uptime) if alive else "-",
                 str(running.restarts) if running else "-",
                 f"{alive.memory / (1 << 20):.0f} MiB" if alive else "-",
-                _endpoints(network, one.name),
+                _endpoints(network, status.name),
             )
         )
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     lines = []
-    for row, one in zip(rows, [None, *found], strict=True):
+    states: list[Status | None] = [None, *found]
+    for row, one in zip(rows, states, strict=True):
         cells = [f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)]
         if one:
             tint = "31" if one.is_down else "32" if one.is_ready else "33" if one.running else "2"

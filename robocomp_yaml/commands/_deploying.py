@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import sys
-from collections.abc import Callable, Collection, Coroutine, Iterable
+from collections.abc import Collection, Coroutine, Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
@@ -167,7 +167,6 @@ def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
         return found
 
     found = _run(ctx, opened, work())
-    opened.told = [one for one in opened.told if one.code.startswith("RC7")]
     code = 1 if any(one.is_down for one in found) else 0
     if opened.format_ == "json":
         end(ctx, opened, {"processes": views.status_data(opened.network, found)}, code)
@@ -187,7 +186,6 @@ def logs(ctx: click.Context, opened: Opened, names: tuple[str, ...], last: int, 
             click.echo(text, color=ctx.color)
         await opened.engine.close()
 
-    opened.told = []
     _run(ctx, opened, work(), on_interrupt="")
 
 

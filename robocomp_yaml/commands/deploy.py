@@ -78,7 +78,7 @@ def status(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | 
     code is 1 where one that should run does not."""
     from robocomp_yaml.commands import _deploying
 
-    _deploying.status(ctx, _deploying.open_(ctx, ddsl, include, format_, engine), names)
+    _deploying.status(ctx, _deploying.open_(ctx, ddsl, include, format_, engine, lenient=True), names)
 
 
 @command.command(short_help="What the processes print, merged.")
@@ -94,7 +94,7 @@ def logs(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | No
     """Print the last lines of the processes' logs, in the order in which they were written."""
     from robocomp_yaml.commands import _deploying
 
-    opened = _deploying.open_(ctx, ddsl, include, format_, engine)
+    opened = _deploying.open_(ctx, ddsl, include, format_, engine, lenient=True)
     _deploying.logs(ctx, opened, names, last, follow=follow, times=times)
 
 

@@ -8,8 +8,8 @@ from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping
 from contextlib import aclosing
 from dataclasses import dataclass, field, replace
 
-from robocomp_yaml.deploy.carry_out import Event, Outcome, Report, carry_out, stop_all, undo
-from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
+from robocomp_yaml.deploy.carry_out import Outcome, Report, carry_out, stop_all, undo
+from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Engine, Running
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds
 from robocomp_yaml.diag.diagnostic import Diagnostic

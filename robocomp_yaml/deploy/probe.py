@@ -26,7 +26,8 @@ while IFS= read -r program; do
   if [ -n "$path" ]; then
     digest=$(sha256sum < "$path" | cut -c1-12)
     day=$(date -u -r "$path" +%Y-%m-%d)
-    missing=$(ldd "$path" 2>/dev/null | sed -n 's/^[[:space:]]*\\([^ ]*\\) => not found.*/\\1/p' | sort -u | tr '\\n' ' ')
+    missing=$(ldd "$path" 2>/dev/null | sed -n 's/^[[:space:]]*\\([^ ]*\\) => not found.*/\\1/p' | sort -u)
+    missing=$(printf '%s' "$missing" | tr '\\n' ' ')
   fi
   printf '%s\\t%s\\t%s\\t%s\\n' "$path" "$digest" "$day" "$missing"
 done

@@ -9,7 +9,17 @@ from contextlib import aclosing, suppress
 
 from robocomp_yaml.deploy import ice_ping
 from robocomp_yaml.deploy.engine import (
-    ENDED, GIVEN_UP, LOST, OWN, RUNNING, STARTED, STOPPED, DeployFailed, Engine, Line, Running,
+    ENDED,
+    GIVEN_UP,
+    LOST,
+    OWN,
+    RUNNING,
+    STARTED,
+    STOPPED,
+    DeployFailed,
+    Engine,
+    Line,
+    Running,
 )  # fmt: skip
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying

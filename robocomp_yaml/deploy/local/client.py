@@ -41,7 +41,7 @@ class Client:
             await self._writer.drain()
             if self._listener.done():
                 raise SupervisorGone
-            data = await answer
+            data: dict[str, Any] = await answer
         except ConnectionError as error:
             raise SupervisorGone from error
         finally:
