@@ -84,7 +84,10 @@ class Attachments:
             except OSError:
                 continue
             if found and os.path.normpath(found[1].decode(errors="replace")) == os.path.basename(document.path):
-                yield self.documents.get(path)
+                target = self.documents.get(path)
+                if target.model is None:  # it will not name the component itself
+                    self._parameters_of.setdefault(document.real, []).append((target.real, Span(path)))
+                yield target
 
     def _follow_reference(self, document: Document, model: ParameterDocument | ValuesDocument) -> Iterator[Document]:
         """The component (or, for values, the parameters) that `component:` names; a plain name names no document."""
