@@ -5,9 +5,9 @@ only where there are documents of it."""
 from __future__ import annotations
 
 import importlib
+import os
 import pkgutil
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from types import ModuleType
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -18,7 +18,7 @@ Check = Callable[[Program], Iterator[Diagnostic]]
 
 def modules_of(kind: str) -> list[ModuleType]:
     """Every module that checks a kind of document, in the order of their names."""
-    modules = sorted(module.name for module in pkgutil.iter_modules([str(Path(__file__).parent / kind)]))
+    modules = sorted(module.name for module in pkgutil.iter_modules([os.path.join(os.path.dirname(__file__), kind)]))
     found = (importlib.import_module(f"{__name__}.{kind}.{name}") for name in modules)
     return [module for module in found if hasattr(module, "check")]
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from robocomp_yaml.check.cdsl.forms import FORM
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
@@ -19,8 +19,10 @@ from robocomp_yaml.emit.plan import FilePlan, RootPlan
 from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
-from robocomp_yaml.model.component import Component
-from robocomp_yaml.model.interface import Module
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.component import Component
+    from robocomp_yaml.model.interface import Module
 
 
 @dataclass(slots=True)
@@ -144,10 +146,13 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
     if linked.broken and component.path not in state.faulty:
         result.diagnostics.append(_unresolved(component, component.path, state))
         return False
-    form = os.path.normpath(os.path.join(os.path.dirname(component.path), FORM))
-    if component.gui and form in state.faulty:
-        result.diagnostics.append(_unresolved(component, form, state))
-        return False
+    if component.gui:
+        from robocomp_yaml.check.cdsl.forms import FORM
+
+        form = os.path.normpath(os.path.join(os.path.dirname(component.path), FORM))
+        if form in state.faulty:
+            result.diagnostics.append(_unresolved(component, form, state))
+            return False
     document = linked.parameters.document
     if document is not None and document.path in state.faulty:
         if component.path not in state.faulty:

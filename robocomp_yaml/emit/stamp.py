@@ -128,9 +128,10 @@ def tool() -> str:
     for top in (package, *(os.path.join(os.path.dirname(package), name) for name in _DATA)):
         for where, below, names in os.walk(top):
             below[:] = sorted(name for name in below if name != "__pycache__")
+            folder = os.path.relpath(where, package)
             for name in sorted(names):
                 state = os.stat(os.path.join(where, name))
-                parts.append(f"{os.path.relpath(where, package)}/{name} {state.st_size} {state.st_mtime_ns}")
+                parts.append(f"{folder}/{name} {state.st_size} {state.st_mtime_ns}")
     return digest("\n".join(parts).encode())
 
 

@@ -12,16 +12,14 @@ from typing import TYPE_CHECKING
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import suggest
-from robocomp_yaml.link import options
 from robocomp_yaml.link.documents import Document, Documents
-from robocomp_yaml.link.ports import link_ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
-from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Import, Module
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.attachments import Attachments
+    from robocomp_yaml.model.component import Component
     from robocomp_yaml.link.deployment_documents import DeploymentDocuments
 
 
@@ -58,13 +56,11 @@ class Linker:
                 deployments = deployments or self._deployments()
                 todo += deployments.follow(document)
                 continue
-            if isinstance(document.model, Component):
-                model, diagnostics = options.expanded(document.model)
-                self.diagnostics += diagnostics
-                component = self.program.components[document.real] = LinkedComponent(model)
+            if document.kind == "cdsl" and document.model is not None:
+                component = self.program.components[document.real] = self._expanded(document.model)
                 components.append((document, component))
                 unresolved: set[str] = set()
-                todo += self._imports(document, model.imports, unresolved, cdsl)
+                todo += self._imports(document, component.component.imports, unresolved, cdsl)
                 component.broken = bool(unresolved)
             attachments = attachments or self._attachments()
             todo += attachments.follow(document)
@@ -72,12 +68,25 @@ class Linker:
         if attachments is not None:
             attachments.join()
         for document, component in sorted(components, key=lambda pair: pair[0].path):
-            self.diagnostics += link_ports(component, self._suggest_import(document))
+            self._link_ports(document, component)
             self._read_machine(component)
         if deployments is not None:
             deployments.join()
         self.program.documents = len(self.documents.read)
         return self.program
+
+    def _expanded(self, component: Component) -> LinkedComponent:
+        """A component with what its options add."""
+        from robocomp_yaml.link import options  # interfaces alone have none
+
+        model, diagnostics = options.expanded(component)
+        self.diagnostics += diagnostics
+        return LinkedComponent(model)
+
+    def _link_ports(self, document: Document, component: LinkedComponent) -> None:
+        from robocomp_yaml.link.ports import link_ports
+
+        self.diagnostics += link_ports(component, self._suggest_import(document))
 
     def _attachments(self) -> Attachments:
         from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none

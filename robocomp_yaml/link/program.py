@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from robocomp_yaml.model.component import Component, Use
 from robocomp_yaml.model.interface import (
     Constant,
     ExceptionType,
@@ -18,6 +17,7 @@ from robocomp_yaml.model.interface import (
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.deployments import LinkedDeployment
+    from robocomp_yaml.model.component import Component, Use
     from robocomp_yaml.model.parameters import Parameters
     from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
     from robocomp_yaml.model.statemachine import StateMachine

@@ -2,7 +2,8 @@
 
 Three of them say the same about each value, and differ in what may be missing. A document may leave out anything, and
 `null` returns to the default; of effective values nothing that is required may be missing; complete ones also have
-every default, so that there is nothing left to normalize.
+every default, so that there is nothing left to normalize. Only the first is read by people, in their editors, and has
+messages, examples and snippets for them; the second, for tools, says what each value is; the third is read by nobody.
 """
 
 from __future__ import annotations
@@ -96,14 +97,14 @@ def _ports(component: LinkedComponent) -> dict[str, list[str]]:
 
 @dataclass(slots=True)
 class _Maker:
-    """Makes schemas in one mode; structs go to `definitions`. The complete mode is read by nobody: it has no words."""
+    """Makes schemas in one mode; structs go to `definitions`."""
 
     mode: str
     definitions: dict[str, Schema] = field(default_factory=lambda: {"env": _REFERENCE})
 
     @property
-    def with_words(self) -> bool:
-        return self.mode != COMPLETE
+    def for_editors(self) -> bool:
+        return self.mode == DOCUMENT
 
     def type(self, type_: Type, *, nullable: bool = False) -> Schema:
         match type_:
@@ -132,7 +133,7 @@ class _Maker:
     def size(self, size: Size, of: str) -> Schema:
         made: Schema = {f"min{of}": size.least} if size.least else {}
         made |= {f"max{of}": size.most} if size.most is not None else {}
-        if not made or not self.with_words:
+        if not made or not self.for_editors:
             return made
         said = {"type": "string", "errorMessage": f"there must be {size.in_words} entries"}
         return {"allOf": [{"if": made, "then": {}, "else": said}]}
@@ -140,7 +141,7 @@ class _Maker:
     def shape(self, kind: str, then: Schema, nullable: bool, type_: Type) -> Schema:
         """A list or mapping: what holds for it, and one message for everything else."""
         made: Schema = {"if": {"type": kind}, "then": then, "else": {"type": _types(kind, nullable)}}
-        if self.with_words:
+        if self.for_editors:
             words = in_words(type_)
             made["else"]["errorMessage"] = f"this is {words}"
             if not (isinstance(type_, RecordType) and type_.is_group):
@@ -150,19 +151,19 @@ class _Maker:
 
     def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
         limits = self.limits(type_)
-        said = {"errorMessage": f"this is {in_words(type_)}"} if self.with_words else {}
+        said = {"errorMessage": f"this is {in_words(type_)}"} if self.for_editors else {}
         kind = _json_type(type_)
         otherwise: Schema
         if "enum" in limits:
             otherwise = {"enum": [*limits["enum"], *([None] if nullable else [])], **said}
-        elif isinstance(type_, BasicType) and type_.is_number and self.with_words:
+        elif isinstance(type_, BasicType) and type_.is_number and self.for_editors:
             # An editor has words of its own for a range, and only for a type takes ours.
             outside = {"if": limits, "then": {}, "else": {"type": "string", **said}}
             otherwise = {"if": {"type": kind}, "then": outside, "else": {"type": _types(kind, nullable), **said}}
         else:
             otherwise = {"type": _types(kind, nullable), **limits, **said}
         made: Schema = {"if": {"type": "object"}, "then": {"$ref": "#/definitions/env"}, "else": otherwise}
-        if self.with_words:
+        if self.for_editors:
             made["anyOf"] = [{"enum": limits["enum"]} if "enum" in limits else {"type": kind},
                              _REFERENCE_CHOICE, {}]
         return made
@@ -198,21 +199,19 @@ class _Maker:
         needed = [member.name for member in type_.members if member.required] if self.mode == EFFECTIVE else []
         if self.mode == COMPLETE:
             needed = [member.name for member in type_.members if not member.optional]
-        if needed and not self.with_words:
+        if needed:
             made["required"] = needed
-        elif needed:
-            made["allOf"] = [{"required": [name], "errorMessage": f"the key '{name}' is missing"} for name in needed]
-        if self.with_words:
-            if type_.name:
-                made["title"] = type_.name
-            if type_.doc:
-                made["description"] = made["markdownDescription"] = type_.doc
+        if type_.name and self.mode != COMPLETE:
+            made["title"] = type_.name
+        if type_.doc and self.mode != COMPLETE:
+            made["description"] = type_.doc
+            made |= {"markdownDescription": type_.doc} if self.for_editors else {}
         return made
 
     def member(self, member: Member) -> Schema:
         made = self.type(member.type, nullable=self.mode == DOCUMENT)
-        if self.with_words:
-            made |= _words(member)
+        if self.mode != COMPLETE:
+            made |= _words(member, self.for_editors)
         return made
 
 
@@ -255,8 +254,8 @@ def in_words(type_: Type) -> str:
     return words
 
 
-def _words(member: Member) -> Schema:
-    """Title, description, default: what an editor shows."""
+def _words(member: Member, for_editors: bool) -> Schema:
+    """Title, description, default; an editor also shows Markdown and examples."""
     unit = unit_of(member.type)
     doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
     kind = in_words(member.type)
@@ -274,10 +273,11 @@ def _words(member: Member) -> Schema:
         text += "".join(f"\n- `{name}`: {said}" for name, said in member.type.enumerators if said)
     made: Schema = {"title": f"{member.name} ({unit})" if unit else member.name}
     made["description"] = "\n".join(part for part in (doc, text) if part)
-    made["markdownDescription"] = "\n\n".join(part for part in (doc, text) if part)
     if member.default is not None:
         made["default"] = member.default.data
-    made["examples"] = [example(member)]
+    if for_editors:
+        made["markdownDescription"] = "\n\n".join(part for part in (doc, text) if part)
+        made["examples"] = [example(member)]
     return made
 
 
