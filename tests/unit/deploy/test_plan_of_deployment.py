@@ -1,0 +1,129 @@
+"""Plans of deployments, without any process: what happens to each for which state, and in which order."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robocomp_yaml.deploy.carry_out import undo
+from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Running
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, in_order, plan, with_dependents
+from robocomp_yaml.deploy.spec import Spec, spec_of
+from robocomp_yaml.network.network import ConfigFile, Endpoint, Host, Network, Process, Readiness, Variable
+
+A = Process(
+    "a", "here", ("run", "{config}", "x"), "/", config=ConfigFile("config/a", "x=1\n"), env=(Variable("V", "1"),),
+    endpoints=(Endpoint("Laser", "laser", 10003, "tcp -p 10003"),), ready=Readiness(pings=("laser:tcp -p 10003",)),
+)  # fmt: skip
+B = replace(A, name="b", after=("a",))
+
+
+def network(*processes: Process) -> Network:
+    found = Network("N", "/n.ddsl.yaml", "/folder", {"here": Host("here", "10.0.0.1")})
+    found.processes = {process.name: process for process in processes}
+    found.order = [tuple(process.name for process in processes if process.enabled)]
+    return found
+
+
+def spec(process: Process) -> Spec:
+    return spec_of(network(process), process, {})
+
+
+def running(process: Process, state: str = RUNNING) -> Running:
+    return Running(process.name, spec(process), "here", state)
+
+
+@pytest.mark.parametrize(
+    ("state", "action"),
+    [(RUNNING, KEEP), (ENDED, KEEP), (WAITING, START), (GIVEN_UP, START), (STOPPED, START), (LOST, START)],
+)
+def test_an_unchanged_process(state: str, action: str) -> None:
+    assert plan(network(A), {"a": running(A, state)}).steps["a"].action == action
+
+
+def test_a_process_of_another_version_restarts() -> None:
+    step = plan(network(A), {"a": Running("a", None, "here", RUNNING)}).steps["a"]
+    assert (step.action, step.reason) == (RESTART, "another version of rcyaml started it")
+
+
+@pytest.mark.parametrize(
+    ("changed", "action", "said"),
+    [
+        (replace(A, command=("run", "fast")), RESTART, "command: run /folder/config/a x → run fast"),
+        (replace(A, cwd="/tmp"), RESTART, "cwd: / → /tmp"),
+        (replace(A, env=()), RESTART, "env V: 1 (gone)"),
+        (replace(A, env=(Variable("V", ""),)), RESTART, "env V: 1 → ''"),
+        (replace(A, env=(Variable("V", source="W"),)), RESTART, "env V: 1 → {env: W}"),
+        (replace(A, config=None), RESTART, "command: run /folder/config/a x → run  x; config x: 1 (gone)"),
+        (replace(A, config=ConfigFile("config/a", "# said\nx=1\n")), RESTART, "config changed"),
+        (replace(A, ready=Readiness()), CHANGE, "ready changed"),
+        (replace(A, aliases=("c",)), CHANGE, "aliases changed"),
+    ],
+)
+def test_a_changed_process(changed: Process, action: str, said: str) -> None:
+    step = plan(network(changed), {"a": running(A)}).steps["a"]
+    assert (step.action, "; ".join(map(str, step.changes))) == (action, said)
+
+
+def test_a_moved_host_restarts() -> None:
+    moved = network(A)
+    moved.hosts["here"] = Host("here", "10.0.0.2")
+    step = plan(moved, {"a": running(A)}).steps["a"]
+    assert (step.action, step.reason) == (RESTART, "host: 10.0.0.1 → 10.0.0.2")
+
+
+def test_a_named_one_takes_its_dependences_and_its_followers_along() -> None:
+    plain = replace(B, name="c", is_ice=False)
+    changed = replace(A, cwd="/tmp")
+    now = {process.name: running(process) for process in (A, B, plain)}
+    assert {step.name: step.action for step in plan(network(changed, B, plain), now, ["a"]).steps.values()} == {
+        "a": RESTART, "c": RESTART,
+    }  # fmt: skip
+    assert set(plan(network(A, B), {}, ["b"]).steps) == {"a", "b"}
+    assert with_dependents({"a": (), "b": ("a",), "c": ("b",), "d": ()}, ["a"]) == {"a", "b", "c"}
+
+
+def test_what_was_done_is_undone() -> None:
+    changed, gone, new = replace(A, cwd="/tmp"), replace(A, name="gone"), replace(A, name="new")
+    before = {process.name: running(process) for process in (A, B, gone)}
+    done = plan(network(changed, B, new), before)
+    now = {process.name: running(process) for process in (changed, B, new)}
+    back = undo(done, before, now).steps
+    assert {name: step.action for name, step in back.items()} == {"a": START, "b": KEEP, "gone": START, "new": STOP}
+    assert back["a"].spec == before["a"].spec and back["gone"].spec == before["gone"].spec
+
+
+def test_a_spec_survives_as_data() -> None:
+    one = spec(replace(B, watched=("/etc/passwd", "/no/such"), groups=("g",), folders=("/f",)))
+    assert Spec.of_data(json.loads(json.dumps(one.as_data()))) == one
+    assert one.digests[0][1] and one.digests[1] == ("/no/such", "")
+
+
+def test_data_of_another_version_is_refused() -> None:
+    data = spec(A).as_data()
+    data["process"]["colour"] = "red"
+    with pytest.raises(ValueError, match="colour"):
+        Spec.of_data(data)
+
+
+@given(st.dictionaries(st.integers(0, 12), st.lists(st.integers(0, 12), max_size=4)))
+def test_each_stands_behind_what_it_is_after(graph: dict[int, list[int]]) -> None:
+    after = {str(name): [str(other) for other in others] for name, others in graph.items()}
+    order = in_order(after)
+    assert sorted(order) == sorted(after)
+    if not _has_cycle(after):
+        for name, others in after.items():
+            assert all(order.index(other) < order.index(name) for other in others if other in after)
+
+
+def _has_cycle(after: dict[str, list[str]]) -> bool:
+    """By taking away what is after nothing that is left."""
+    left = dict(after)
+    while free := [name for name, others in left.items() if not set(others) & set(left)]:
+        for name in free:
+            del left[name]
+    return bool(left)
