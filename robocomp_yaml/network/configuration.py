@@ -18,7 +18,7 @@ from robocomp_yaml.network.base import Base
 from robocomp_yaml.network.draft import Draft, Given, listening
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
 from robocomp_yaml.values.effective import document_faults, effective
-from robocomp_yaml.values.layers import data_of, merged
+from robocomp_yaml.values.layers import Place, data_of, merged
 from robocomp_yaml.values.overlay import overlay
 from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, Section, properties
 from robocomp_yaml.values.property_text import section_text
@@ -125,8 +125,8 @@ class Configuration:
                 entries[name] = (text_at(span, name), mapping_at(span, section))
         return mapping_at(span, entries)
 
-    def _parameters(self, linked: LinkedParameters, settings: Mapping, below: object) -> Mapping:
-        laid = overlay(settings, linked.parameters.root, below)  # type: ignore[arg-type]
+    def _parameters(self, linked: LinkedParameters, settings: Mapping, below: Place | None) -> Mapping:
+        laid = overlay(settings, linked.parameters.root, below)
         self.diagnostics += [
             codes.NO_ENTRY.at(fault.key.span, path=fault.key.lexeme, problem=fault.problem) for fault in laid.faults
         ]

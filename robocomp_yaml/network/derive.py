@@ -49,11 +49,10 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
     gates.connect()
     topics.resolve()
     network.connections = [*connections.found, *gates.found, *topics.found]
-    diagnostics = [
-        *endpoint_faults(drafts), *targets.diagnostics, *connections.diagnostics, *topics.diagnostics
-    ]
+    diagnostics = [*endpoint_faults(drafts), *targets.diagnostics, *connections.diagnostics, *topics.diagnostics]
     needs = [*_said(drafts), *connections.needs, *gates.needs, *topics.needs]
-    wanted = {need.target for need in needs}
+    enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
+    wanted = {need.target for need in needs if need.source in enabled}
     for storm in drafts.storms.values():
         network.processes[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in wanted)
     known: dict[str, tuple[str, ...]] = {}

@@ -47,6 +47,8 @@ def test_the_storm_is_a_process() -> None:
 def test_a_storm_that_nobody_needs_is_not_started() -> None:
     found = network(deployed(STORM + "components: {mouth: {component: mouth}}\n"))
     assert not found.processes["storm"].enabled and found.order == [("mouth",)]
+    unused = "components: {ears: {component: ears, enabled: false}}\n"
+    assert not network(deployed(STORM + unused, ears=EARS)).processes["storm"].enabled
 
 
 def test_a_rename_takes_the_prefix_away() -> None:
