@@ -9,17 +9,16 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_yaml.commands import _options
+from robocomp_yaml.emit.graphs.forms import forms
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.graphs.picture import Picture
     from robocomp_yaml.pipeline import Analysis
 
-FORMS = ("text", "dot", "mermaid", "json", "svg")
-
 
 @click.command(short_help="A picture of a deployment, or of components.")
 @click.argument("path", metavar="[DDSL]", default=".", type=click.Path(exists=True))
-@click.option("--as", "form", type=click.Choice(FORMS), default="text", show_default=True, help="How to draw it.")
+@click.option("--as", "form", type=click.Choice(forms()), default="text", show_default=True, help="How to draw it.")
 @click.option("-o", "--output", metavar="FILE", type=click.Path(dir_okay=False), help="Write it there.")
 @_options.include
 @_options.format_

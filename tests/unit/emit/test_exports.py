@@ -97,7 +97,8 @@ def test_systemd_takes_the_units(tmp_path: Path, network: Network) -> None:
     for target in tmp_path.rglob("*.target"):
         units = [str(path) for path in target.parent.iterdir() if path.suffix in (".service", ".target")]
         done = subprocess.run(["systemd-analyze", "verify", *units], capture_output=True, text=True)
-        assert not [line for line in done.stderr.splitlines() if str(tmp_path) in line or target.stem in line], done.stderr
+        about = [line for line in done.stderr.splitlines() if str(tmp_path) in line or target.stem in line]
+        assert not about, done.stderr
 
 
 def test_compose() -> None:

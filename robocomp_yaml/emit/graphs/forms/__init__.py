@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import importlib
+import pkgutil
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.graphs.picture import Picture
+
+
+def forms() -> list[str]:
+    """What `draw` can make."""
+    return sorted(module.name for module in pkgutil.iter_modules(__path__))
 
 
 def draw(picture: Picture, form: str) -> str:
