@@ -152,7 +152,7 @@ def up(
     result = _run(ctx, opened, work(), change=True, on_interrupt=interrupted)
     if opened.format_ == "json":
         end(ctx, opened, views.result_data(result))
-    if not attach:
+    if not attach and ctx.obj.verbosity >= 0:
         click.echo(views.result_text(opened.network, result), color=ctx.color)
     end(ctx, opened)
 
@@ -224,6 +224,8 @@ def _run(
         opened.engine.notes = []
         end(ctx, opened)
         raise
+    except BrokenPipeError:
+        raise  # whoever reads what is printed has had enough
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
     except KeyboardInterrupt:

@@ -14,7 +14,10 @@ _PARTS = ("config", "logs", "state")
 
 def make(folder: str) -> None:
     """Makes the folder and its parts. Raises OSError."""
-    os.makedirs(os.path.dirname(folder), exist_ok=True)
+    above = os.path.dirname(folder)
+    os.makedirs(above, exist_ok=True)
+    with contextlib.suppress(FileExistsError), open(f"{above}/.gitignore", "x", encoding="ascii") as file:
+        file.write("# What is derived for one machine, and may be secret.\n*\n")
     for path in (folder, *(f"{folder}/{part}" for part in _PARTS)):
         with contextlib.suppress(FileExistsError):
             os.mkdir(path)

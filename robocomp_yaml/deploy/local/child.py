@@ -25,11 +25,13 @@ Spec = dict[str, Any]  # a `deploy.spec.Spec` as data: the supervisor imports as
 
 
 class Child:
-    """`spec` is what it was started with, or will be; times are the loop's, which no change of the clock moves."""
+    """`spec` is what it was started with, or will be. `root` is the pid of its last run, as long as something of that
+    may be left. Times are the loop's, which no change of the clock moves."""
 
-    def __init__(self, spec: Spec, mark: str, log: LogFile, files: OpenFiles) -> None:
-        self.spec, self.mark, self.log, self._files = spec, mark, log, files
+    def __init__(self, spec: Spec, mark: str, log: LogFile, families: procfs.Families, files: OpenFiles) -> None:
+        self.spec, self.mark, self.log, self._families, self._files = spec, mark, log, families, files
         self.state, self.pid, self.restarts, self.last_exit = STOPPED, 0, 0, ""
+        self.root = 0
         self.lock = asyncio.Lock()
         self._loop = asyncio.get_running_loop()
         self.since = self._loop.time()
@@ -50,22 +52,22 @@ class Child:
         self.restarts, self.last_exit = 0, ""
         self._spawn()
 
-    async def stop(self, within: float, roots: Collection[int], alive: procfs.RecentTable) -> None:
+    async def stop(self, within: float) -> None:
         """Asks it and its group to end; kills what of its family is left after so many seconds. Raises TimeoutError
         where even that does not end them."""
         self._cancel_timer()
         if not self.pid:
             self._turn(STOPPED)
             return
-        root, self._is_stopping = self.pid, True
+        self._is_stopping = True
         try:
-            self._ask_to_end(root, roots, alive())
+            self._ask_to_end()
             deadline = self._loop.time() + within
             try:
                 await asyncio.wait_for(self._exited.wait(), within)
             except TimeoutError:
                 self.log.say(f"did not end within {within:g} s: killed")
-            while members := self.members(root, roots, alive()):
+            while members := self._families.recent(self.root):
                 if self._loop.time() > deadline + _AFTER_KILL:
                     raise TimeoutError
                 if self._loop.time() > deadline:
@@ -74,30 +76,30 @@ class Child:
             await asyncio.wait_for(self._exited.wait(), _AFTER_KILL)
         finally:
             self._is_stopping = False
+        self.root = 0
         self._turn(STOPPED)
 
-    def _ask_to_end(self, root: int, roots: Collection[int], alive: dict[int, procfs.Entry]) -> None:
+    def _ask_to_end(self) -> None:
         """Its group, and what has left that; one that was halted goes on, so that it can end."""
-        family = self.members(root, roots, alive)
+        members = self._families.recent(self.root)
+        alive = self._families.alive
         for number in (signal.SIGTERM, signal.SIGCONT):
             with suppress(ProcessLookupError):
-                os.killpg(root, number)
-            _signal([pid for pid in family if alive[pid].group != root], number)
+                os.killpg(self.root, number)
+            _signal([pid for pid in members if alive[pid].group != self.root], number)
 
-    def members(self, root: int, roots: Collection[int], alive: dict[int, procfs.Entry]) -> set[int]:
-        return procfs.family(root, self.mark, os.getpid(), alive, roots)
-
-    def on_exit(self, status: int, roots: Collection[int]) -> None:
+    def on_exit(self, status: int) -> None:
         """The process ended. What else it had started ends with it, so that nothing of it stands in the way."""
         self._read_all()
-        root, self.pid = self.pid, 0
+        self.pid = 0
         code = os.waitstatus_to_exitcode(status)
         self.last_exit = _in_words(code)
         self._exited.set()
         if self._is_stopping:
             self.log.say(f"stopped: {self.last_exit}")
             return
-        _signal(self.members(root, roots, procfs.table()), signal.SIGKILL)
+        _signal(self._families.now().get(self.root, set()), signal.SIGKILL)
+        self.root = 0
         self._after_end(is_failure=code != 0)
 
     def _after_end(self, *, is_failure: bool) -> None:
@@ -157,7 +159,8 @@ class Child:
         finally:
             os.close(theirs)
         started.returncode = 0  # it is the supervisor that waits for all children, not this object
-        self.pid, self._output = started.pid, ours
+        self.pid = self.root = started.pid
+        self._output = ours
         self._exited.clear()
         self._turn(RUNNING)
         self.log.say(f"started, pid {self.pid}")

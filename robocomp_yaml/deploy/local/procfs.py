@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 
 MARK = "RCYAML_PROCESS"
@@ -54,20 +54,6 @@ def table() -> dict[int, Entry]:
     return {one.pid: one for one in found if one and not one.is_dead}
 
 
-class RecentTable:
-    """All processes that were alive a moment ago: for many who wait for families to be gone. From a family of which
-    nothing was alive, nothing comes."""
-
-    def __init__(self) -> None:
-        self._taken, self._table = 0.0, table()
-
-    def __call__(self) -> dict[int, Entry]:
-        if time.monotonic() > self._taken + _MOMENT:
-            self._table = table()
-            self._taken = time.monotonic()
-        return self._table
-
-
 def mark_of(pid: int) -> str:
     """The MARK in the environment that a process began with; '' for others, and those of other users."""
     prefix = f"{MARK}=".encode()
@@ -82,17 +68,59 @@ def marked(folder: str) -> list[int]:
     return [pid for pid in pids() if mark_of(pid).rpartition(":")[0] == folder]
 
 
-def family(root: int, mark: str, adopter: int, alive: dict[int, Entry], roots: Collection[int] = ()) -> set[int]:
-    """Those alive that came from `root`: its descendants; those of its session; and those that lost their parent, so
-    that they are now children of `adopter`, but carry the mark. `roots` are the roots of other families."""
-    members = {
-        one.pid
-        for one in alive.values()
-        if one.pid == root
-        or one.session == root
-        or (one.parent == adopter and one.pid not in roots and mark_of(one.pid) == mark)
-    }
-    return descendants(members, alive)
+def families(roots: Mapping[int, str], adopter: int, alive: Mapping[int, Entry]) -> dict[int, set[int]]:
+    """Of each root, those alive that came from it: itself, its session, what lost its parent, so that it is now a child
+    of `adopter`, but carries the root's mark; and all that came from these. `roots` gives the mark of each."""
+    by_mark = {mark: root for root, mark in roots.items()}
+    found: dict[int, set[int]] = {root: set() for root in roots}
+    owners: dict[int, int] = {}
+    for pid in alive:
+        line = []
+        while pid in alive and pid not in owners:
+            line.append(pid)
+            owners[pid] = _root_of(alive[pid], roots, by_mark, adopter)
+            if owners[pid] or alive[pid].parent == adopter:
+                break
+            pid = alive[pid].parent
+        owner = owners.get(pid, 0)
+        for member in line:
+            owners[member] = owner
+            if owner:
+                found[owner].add(member)
+    return found
+
+
+def _root_of(one: Entry, roots: Collection[int], by_mark: Mapping[str, int], adopter: int) -> int:
+    """The root that a process shows by itself; 0 where only its parent can."""
+    if one.pid in roots:
+        return one.pid
+    if one.session in roots:
+        return one.session
+    return by_mark.get(mark_of(one.pid), 0) if one.parent == adopter else 0
+
+
+class Families:
+    """The families of a supervisor's children. `roots` gives their roots and marks, also of those that have ended but
+    may have left something."""
+
+    def __init__(self, roots: Callable[[], Mapping[int, str]]) -> None:
+        self._roots = roots
+        self._taken = -_MOMENT
+        self._found: dict[int, set[int]] = {}
+        self.alive: dict[int, Entry] = {}
+
+    def now(self) -> dict[int, set[int]]:
+        self.alive = table()
+        self._found = families(self._roots(), os.getpid(), self.alive)
+        self._taken = time.monotonic()
+        return self._found
+
+    def recent(self, root: int) -> set[int]:
+        """One, as it was a moment ago: enough for many who wait for families to be gone, since from a family of which
+        nothing was alive, nothing comes."""
+        if root not in self._found or time.monotonic() > self._taken + _MOMENT:
+            self.now()
+        return self._found.get(root, set())
 
 
 def descendants(of: Collection[int], alive: dict[int, Entry]) -> set[int]:

@@ -39,7 +39,9 @@ class _Service:
         self._files = OpenFiles()
         self._limit = int(os.environ.get("RCYAML_LOG_LIMIT") or LIMIT)
         self._over = asyncio.Event()
-        self._alive = procfs.RecentTable()
+        self._families = procfs.Families(
+            lambda: {child.root: child.mark for child in self.children.values() if child.root}
+        )
 
     async def run(self) -> None:
         self._files.raise_limit()
@@ -72,10 +74,7 @@ class _Service:
             if pid == 0:
                 return
             if child := by_pid.get(pid):
-                child.on_exit(status, self._roots())
-
-    def _roots(self) -> set[int]:
-        return {child.pid for child in self.children.values() if child.pid}
+                child.on_exit(status)
 
     async def _talk(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         tasks: set[asyncio.Task[None]] = set()
@@ -109,10 +108,10 @@ class _Service:
         return {"protocol": PROTOCOL, "pid": os.getpid()}
 
     async def _observe(self, request: Request) -> Request:
-        now, alive, roots = asyncio.get_running_loop().time(), procfs.table(), self._roots()
+        now, families = asyncio.get_running_loop().time(), self._families.now()
         found = []
         for child in self.children.values():
-            members = procfs.family(child.pid, child.mark, os.getpid(), alive, roots) if child.pid else set()
+            members = families.get(child.pid, set())
             found.append(
                 {
                     "spec": child.spec,
@@ -122,7 +121,7 @@ class _Service:
                     "restarts": child.restarts,
                     "last_exit": child.last_exit,
                     "memory": procfs.memory(members),
-                    "cpu": sum(alive[pid].cpu for pid in members),
+                    "cpu": sum(self._families.alive[pid].cpu for pid in members),
                     "members": sorted(members),
                 }
             )
@@ -135,7 +134,7 @@ class _Service:
                 self.children[name].spec = spec
             else:
                 log = LogFile(f"{self.folder}/logs/{name}.log", self._limit)
-                self.children[name] = Child(spec, f"{self.folder}:{name}", log, self._files)
+                self.children[name] = Child(spec, f"{self.folder}:{name}", log, self._families, self._files)
         return {}
 
     async def _start(self, request: Request) -> Request:
@@ -151,7 +150,7 @@ class _Service:
 
     async def _stop(self, child: Child, within: float) -> None:
         async with child.lock:
-            await child.stop(within, self._roots(), self._alive)
+            await child.stop(within)
 
     async def _forget(self, request: Request) -> Request:
         for name in request["names"]:
