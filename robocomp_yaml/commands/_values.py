@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -29,6 +30,8 @@ from robocomp_yaml.values.effective import Effective, effective
 from robocomp_yaml.values.judge import judge
 from robocomp_yaml.values.spell_yaml import flow
 
+_REFERENCE = re.compile(r"\{ *env *: *[A-Za-z_][A-Za-z0-9_]* *\}", re.ASCII)  # as `get` prints it
+
 
 @dataclass(slots=True)
 class Loaded:
@@ -53,6 +56,11 @@ def load(ctx: click.Context, file: str, include: tuple[str, ...], overlay: dict[
     if values is None and not has_errors(told):
         raise click.UsageError(f"{file} is no values document: it is called config.yaml (in etc/, beside a component) "
                                "or NAME.config.yaml")
+    if values is not None:
+        # The component's own values document is read with it; what is wrong there is none of this one's business.
+        ours = {id(layer) for layer in values.layers()}
+        others = {other.document.path for other in program.values.values() if id(other) not in ours}
+        told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
     if values is not None and values.parameters is not None and check.is_only_layer(values):
         told += check.of_document(values, complete=True)
     return Loaded(values, in_order(told), program.documents)
@@ -161,6 +169,7 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
         _fail(ctx, loaded.diagnostics or [codes.NO_COMPONENT.at(Span(file)).as_severity("error")], loaded.documents)
     steps, type_ = _steps(path, loaded.parameters.parameters.root)
     is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
+    is_text = is_text and not _REFERENCE.fullmatch(value)
     raw, _ = source_text.read_bytes(file)
     assert raw is not None
     text, _ = source_text.decode(file, raw)

@@ -97,6 +97,7 @@ def test_get(run: Run, path: str, value: str) -> None:
     ("Yolo.use_gpu", "true", "      vel: 1\n", "      vel: 1\n  Yolo:\n    use_gpu: true\n"),
     ('offsets["a b"]', "1", "      vel: 1\n", "      vel: 1\n  offsets:\n    a b: 1\n"),
     ("speed", "{env: SPEED}", "  speed: .5   # half\n", "  speed: {env: SPEED}   # half\n"),
+    ("device", "{env: BUS}", "      vel: 1\n", "      vel: 1\n  device: {env: BUS}\n"),
     ("motors[1].vel", "null", "      vel: 1\n", "      vel: null\n"),
 ])
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])
@@ -176,3 +177,14 @@ def test_a_document_without_component(run: Run, tmp_path: Path) -> None:
     (tmp_path / "lone.config.yaml").write_text("parameters: {speed: 1}\n")
     assert "RC3323" in run("config", "check", "lone.config.yaml").output
     assert run("config", "show", "lone.config.yaml").exit_code == 1
+
+
+def test_what_is_wrong_in_another_document_is_none_of_its_business(run: Run, tmp_path: Path) -> None:
+    """The component's own etc/config.yaml is no layer of one that does not extend it."""
+    (tmp_path / "etc/config.yaml").write_text(BASE.replace("speed: .5", "speed: 7"))
+    (tmp_path / "own.config.yaml").write_text(
+        "component: speech.cdsl.yaml\nparameters: {speed: 0.1, motors: [{name: a}]}\n"
+    )
+    assert run("config", "check", "own.config.yaml").exit_code == 0
+    assert run("config", "get", "own.config.yaml", "speed").output == "0.1\n"
+    assert run("config", "check", "sim.config.yaml").exit_code == 1
