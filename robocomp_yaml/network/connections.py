@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model.component import IGNORE
 from robocomp_yaml.model.deployment import Pair
 from robocomp_yaml.network.contents import Contents, name_of
 from robocomp_yaml.network.draft import Draft, Given, Offer
-from robocomp_yaml.network.drafts import Drafts, is_broken
+from robocomp_yaml.network.drafts import Drafts
 from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
+from robocomp_yaml.network.providers import Providers
 from robocomp_yaml.network.targets import Targets
 
 _MANY = 6
@@ -34,12 +33,12 @@ class Connections:
     found: list[Connection] = field(default_factory=list)
     needs: list[Need] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
-    _by_name: dict[str, list[Offer]] = field(default_factory=dict)
+    _providers: Providers = field(default_factory=Providers)
 
     def resolve(self) -> None:
         for draft in self.drafts.drafts.values():
-            for offer in draft.offers if not self.gates.is_gate(draft) else ():
-                self._by_name.setdefault(offer.interface, []).append(offer)
+            if not self.gates.is_gate(draft):
+                self._providers.add(draft)
         for draft in self.drafts.drafts.values():
             component, given = draft.instance.component, {pair.name: pair for pair in draft.instance.entry.connect}
             for port in component.requires if component else ():
@@ -84,21 +83,19 @@ class Connections:
 
     def _look_for(self, draft: Draft, port: Port) -> None:
         """Connects a port that nothing is said of: the nearest that serve an equal interface decide."""
-        named = [
-            offer for offer in self._by_name.get(port.interface.name, ())
-            if offer.owner is not draft and (offer.port or offer.given) and _reaches(draft, offer)
-        ]
-        equal = [offer for offer in named if self._is_equal(port, offer)]
-        equal = [offer for offer in equal if offer.owner.instance.entry.enabled] or equal
-        if len(equal) > 1:
-            near = [_nearness(draft, offer) for offer in equal]
-            equal = [offer for offer, rank in zip(equal, near, strict=True) if rank == max(near)]
-        if len(equal) == 1:
-            self._connect(draft, port.name, port.interface.name, equal[0], draft.span, port)
-        elif equal:
-            self._ambiguous(draft, port.name, port.interface.name, equal, draft.span, port)
-        elif named:
-            self._mismatch(draft, port, named[0], draft.span)
+        other: Offer | None = None
+        for ring in self._providers.rings(draft, port.interface.name):
+            equal = [offer for offer in ring if self._is_equal(port, offer)]
+            equal = [offer for offer in equal if offer.owner.instance.entry.enabled] or equal
+            if len(equal) == 1:
+                self._connect(draft, port.name, port.interface.name, equal[0], draft.span, port)
+            elif equal:
+                self._ambiguous(draft, port.name, port.interface.name, equal, draft.span, port)
+            if equal:
+                return
+            other = other or next(iter(ring), None)
+        if other is not None:
+            self._mismatch(draft, port, other, draft.span)
         else:
             self._unresolved(draft, port)
 
@@ -179,28 +176,3 @@ def _required(port: Port | None) -> list[Related]:
 
 def _is_only(offer: Offer) -> bool:
     return sum(other.interface == offer.interface for other in offer.owner.offers) == 1
-
-
-def _reaches(draft: Draft, offer: Offer) -> bool:
-    """Whether every closed group around the offer that the draft is outside of exposes it."""
-    source, target = draft.instance, offer.owner.instance
-    return all(
-        any((served.instance.process or served.instance) is target and served.adapter == offer.adapter
-            for served in group.serves)
-        for group in target.groups
-        if group.is_closed and not is_broken(group) and group not in source.groups
-    )
-
-
-def _nearness(draft: Draft, offer: Offer) -> int:
-    """How many includes and closed groups hold both."""
-    return len(_around(draft.instance) & _around(offer.owner.instance))
-
-
-def _around(instance: LinkedInstance) -> set[str]:
-    steps = instance.scope.split(".")[:-1]
-    return {".".join(steps[:n]) for n in range(1, len(steps) + 1)} | _closed(instance.groups)
-
-
-def _closed(groups: Iterable[LinkedGroup]) -> set[str]:
-    return {f"group {group.name}" for group in groups if group.is_closed}
