@@ -66,7 +66,8 @@ def keeper(places: Places, user: str) -> Any:
     """The server that brings processes back when their node has come back; IceGrid itself restarts it."""
     facts = _facts(
         KEEPER, "setpriv",
-        ["--pdeathsig", "KILL", "--", *map(_literal, (sys.executable, "-m", _KEEPER_MODULE, places.folder))],
+        # It has nothing to do before the network is up: the processes that start go first.
+        ["--pdeathsig", "KILL", "--", "nice", *map(_literal, (sys.executable, "-m", _KEEPER_MODULE, places.folder))],
         pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
         envs=[f"PYTHONPATH={package_path()}", f"{MARK}={places.folder}:"], logs=[],
     )  # fmt: skip

@@ -71,7 +71,10 @@ class IceGridEngine:
             try:
                 start_up.ensure_nodes(grid, self._places, self._network, hosts)
             except BaseException:
-                grid.close()
+                if self._places.wanted():
+                    grid.close()
+                else:
+                    start_up.ended(grid, self._places, self._network.name)
                 raise
         self._grid = grid
         self._specs, self._wanted = self._places.specs(), self._places.wanted()

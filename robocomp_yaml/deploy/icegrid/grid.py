@@ -14,7 +14,7 @@ import IceGrid
 from robocomp_yaml.deploy.icegrid import settings
 from robocomp_yaml.deploy.icegrid.places import Places, Registry
 
-_RETRY = 0.05
+_RETRY = 0.01
 _LOOK_WITHIN = 4000  # milliseconds
 
 

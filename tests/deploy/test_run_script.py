@@ -1,0 +1,194 @@
+"""The script that runs a process for IceGrid, by itself: words and texts as they are, restarts, logs, the end."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+from processes import until
+
+from robocomp_yaml import resources
+from robocomp_yaml.deploy.icegrid.status import of_text
+
+SCRIPT = resources.folder("templates") / "icegrid" / "run"
+ONCE = "1 no 10 100 5 60000"
+
+
+@dataclass
+class Runner:
+    """One process `arm`, run as IceGrid would; `last` is its Ice.Config."""
+
+    folder: Path
+    environment: dict[str, str] = field(default_factory=dict)
+    started: list[subprocess.Popen[bytes]] = field(default_factory=list)
+
+    def start(self, *words: str, rule: str = ONCE, **environment: str) -> subprocess.Popen[bytes]:
+        command = ["setpriv", "--pdeathsig", "KILL", "--", "bash", str(SCRIPT), "arm", str(self.folder), *words]
+        self.started.append(
+            subprocess.Popen(
+                [*command, "--Ice.Config=/nowhere"], env={**os.environ, "RCYAML_RESTART": rule, **environment},
+                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            )
+        )  # fmt: skip
+        return self.started[-1]
+
+    def to_end(self, *words: str, rule: str = ONCE, **environment: str) -> str:
+        """The log of a process that ended by itself, for good, without the times."""
+        assert self.start(*words, rule=rule, **environment).wait(20) == 0
+        until(lambda: "ended by itself" in self.log or "given up" in self.log or "rcyaml: the" in self.log, "the log")
+        return self.log
+
+    @property
+    def log(self) -> str:
+        path = self.folder / "logs" / "arm.log"
+        lines = path.read_text().splitlines() if path.exists() else []
+        return "\n".join(line[len("2026-11-21T10:02:03.123Z ") :] for line in lines)
+
+    @property
+    def told(self) -> tuple[str, str, int]:
+        """Its state, how it last ended, and the restarts."""
+        last = of_text((self.folder / "state" / "icegrid" / "status" / "arm").read_text())
+        assert last
+        return last.state, last.last_exit, last.restarts
+
+
+@pytest.fixture
+def runner(tmp_path: Path) -> Iterator[Runner]:
+    runner = Runner(tmp_path / "a folder")
+    yield runner
+    for process in runner.started:
+        process.kill()
+        process.wait()
+
+
+def show(*words: str) -> list[str]:
+    return ["=sh", "=-c", '=printf "%s|" "$@"; echo', "=sh", *(f"={word}" for word in words)]
+
+
+def test_words_reach_the_program_as_they_are(runner: Runner) -> None:
+    words = ["", "two words", "$HOME", "${x}", "'\"\\", "*", "--Ice.Config=mine", "é"]
+    assert "|".join(words) + "|" in runner.to_end(*show(*words))
+
+
+def test_its_environment_is_set_and_ours_is_not_left(runner: Runner) -> None:
+    log = runner.to_end("eONE=a b$c=", "sTWO=SECRET", "=env", SECRET="s3cr t", RCYAML_CONFIG="x")
+    assert "ONE=a b$c=" in log and "TWO=s3cr t" in log
+    assert "RCYAML_CONFIG" not in log and "RCYAML_RESTART" not in log
+
+
+def test_a_secret_that_is_not_there_is_said_and_nothing_is_started(runner: Runner) -> None:
+    log = runner.to_end("sTWO=NO_SUCH_SECRET", "=echo", "=here I am")
+    assert "the variable NO_SUCH_SECRET was not set" in log and "here I am" not in log
+    assert runner.told == ("given up", "the variable NO_SUCH_SECRET is not set", 0)
+
+
+def test_a_configuration_is_written_as_it_is_and_for_its_owner(runner: Runner) -> None:
+    pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
+    from robocomp_yaml.deploy.icegrid.descriptors import encoded
+
+    text = "a = $HOME ${x} \\n \\044 %s 'q' \"d\"\n\n  # é\n"
+    path = runner.folder / "config" / "arm"
+    runner.to_end(f"c{path}", "=true", RCYAML_CONFIG=encoded(text))
+    assert path.read_text() == text
+    assert path.stat().st_mode & 0o077 == 0
+
+
+def test_one_that_fails_again_and_again_is_given_up(runner: Runner) -> None:
+    log = runner.to_end("=sh", "=-c", "=exit 3", rule="1 on-failure 10 20 2 60000")
+    assert log.count("rcyaml: started") == 3
+    assert "exit code 3; starting again in 10 ms" in log and "exit code 3; starting again in 20 ms" in log
+    assert "given up: it ended 3 times within 60 s, the last time with exit code 3" in log
+    assert runner.told == ("given up", "exit code 3", 2)
+
+
+@pytest.mark.parametrize(
+    ("policy", "code", "state"),
+    [("on-failure", 0, "ended"), ("no", 0, "ended"), ("no", 1, "given up"), ("always", 0, "given up")],
+)
+def test_what_the_policies_do(runner: Runner, policy: str, code: int, state: str) -> None:
+    runner.to_end("=sh", "=-c", f"=exit {code}", rule=f"1 {policy} 10 20 1 60000")
+    assert runner.told == (state, f"exit code {code}", 1 if policy == "always" else 0)
+
+
+def test_a_newer_rule_counts(runner: Runner) -> None:
+    rules = runner.folder / "state" / "icegrid" / "rules"
+    rules.mkdir(parents=True)
+    (rules / "arm").write_text("2 no 10 20 1 60000\n")
+    runner.to_end("=sh", "=-c", "=exit 3", rule="1 always 10 20 5 60000")
+    assert runner.told == ("given up", "exit code 3", 0)
+
+
+def test_a_program_that_is_not_there_ends_like_one_that_fails(runner: Runner) -> None:
+    assert "no-such-program" in runner.to_end("=no-such-program")
+    assert runner.told[:2] == ("given up", "exit code 127")
+
+
+def test_asked_to_end_it_takes_all_it_started_with_it(runner: Runner) -> None:
+    process = runner.start("=sh", "=-c", "=sleep 600 & echo $!; wait")
+    until(lambda: "started, pid" in runner.log and runner.log.splitlines()[-1].isdigit(), lambda: runner.log)
+    child = int(runner.log.splitlines()[-1])
+    process.terminate()
+    assert process.wait(20) == 0
+    until(lambda: not _is_alive(child), "the child's child ends")
+    assert runner.told[0] == "stopped"
+
+
+def test_one_that_does_not_listen_is_killed(runner: Runner) -> None:
+    process = runner.start("=sh", "=-c", "=trap '' TERM; echo deaf; while :; do sleep 0.1; done", RCYAML_STOP_WITHIN="0.3")
+    until(lambda: "deaf" in runner.log, lambda: runner.log)
+    process.terminate()
+    assert process.wait(20) == 0
+    assert runner.told[:2] == ("stopped", "SIGKILL")
+
+
+def test_when_it_is_killed_so_is_the_program(runner: Runner) -> None:
+    process = runner.start("=sh", "=-c", "=echo $$; exec sleep 600")
+    until(lambda: runner.log and runner.log.splitlines()[-1].isdigit(), lambda: runner.log)
+    pid = int(runner.log.splitlines()[-1])
+    process.kill()
+    process.wait()
+    until(lambda: not _is_alive(pid), "the program ends")
+
+
+def test_logs_have_a_limit(runner: Runner) -> None:
+    runner.to_end("=sh", "=-c", "=for i in 1 2 3 4 5 6 7 8 9; do echo 0123456789 $i; done", RCYAML_LOG_LIMIT="100")
+    logs = runner.folder / "logs"
+    assert (logs / "arm.log.1").exists()
+    assert all((logs / name).stat().st_size < 250 for name in ("arm.log", "arm.log.1"))
+    assert "0123456789 9" in (logs / "arm.log").read_text() + (logs / "arm.log.1").read_text()
+
+
+def test_nothing_of_icegrid_stays_open(runner: Runner) -> None:
+    """Else it would take a process for alive as long as something that it started lives."""
+    ours, theirs = os.pipe()
+    os.set_inheritable(theirs, True)
+    command = ["bash", str(SCRIPT), "arm", str(runner.folder), "=sh", "=-c", "=setsid sleep 600 & exit 0", "--Ice.Config=x"]
+    process = subprocess.Popen(command, env={**os.environ, "RCYAML_RESTART": ONCE}, pass_fds=[theirs])
+    os.close(theirs)
+    assert process.wait(20) == 0
+    assert os.read(ours, 1) == b""
+    os.close(ours)
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        if _has(name, f"RCYAML_PROCESS={runner.folder}:arm"):
+            os.kill(int(name), signal.SIGKILL)
+
+
+def _has(pid: str, variable: str) -> bool:
+    try:
+        return variable.encode() in Path("/proc", pid, "environ").read_bytes().split(b"\0")
+    except OSError:
+        return False
+
+
+def _is_alive(pid: int) -> bool:
+    try:
+        return "\nState:\tZ" not in Path("/proc", str(pid), "status").read_text()
+    except OSError:
+        return False
+
+
