@@ -72,7 +72,7 @@ def geometry_of(picture: Picture) -> Geometry:
 
 def texts_of(node: Node) -> list[str]:
     """The lines of a node: its name, what it is, and what it serves."""
-    served = [f"{name}  {port}" if port else name for name, port in node.serves]
+    served = node.served()
     if len(served) > MOST_SERVED:
         served = [*served[: MOST_SERVED - 1], f"and {len(served) - MOST_SERVED + 1} more"]
     more = [*node.about, *(f"in {group}" for group in node.groups), *([] if node.enabled else ["not started"]), *served]

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 COMPONENT, PROGRAM, ICESTORM, TOPIC, OUTSIDE = "component", "program", "icestorm", "topic", "outside"
+_EVERYBODYS = "CommonBehavior"
 USES, PUBLISHES, SUBSCRIBES, AFTER = "uses", "publishes", "subscribes", "after"
 
 
@@ -40,6 +41,11 @@ class Node:
     groups: tuple[str, ...] = ()
     enabled: bool = True
     faults: tuple[Fault, ...] = ()
+
+    def served(self) -> list[str]:
+        """What it serves in words, but for what every component serves besides."""
+        own = [(name, port) for name, port in self.serves if name != _EVERYBODYS] or self.serves
+        return [f"{name} {port}" if port else name for name, port in own]
 
 
 @dataclass(frozen=True, slots=True)

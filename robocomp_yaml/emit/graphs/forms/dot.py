@@ -36,7 +36,7 @@ def draw(picture: Picture) -> str:
 
 
 def _node(node: Node) -> str:
-    text = "\n".join([node.title, *node.about, *(f"{name} {port}" if port else name for name, port in node.serves)])
+    text = "\n".join([node.title, *node.about, *node.served()])
     more = f', color="{_RED}", penwidth=2, tooltip={_quoted(_told(node))}' if node.faults else ""
     more += "" if node.enabled else ', fontcolor="#9aa0a6"'
     return f"{_quoted(node.name)} [label={_quoted(text)}, {_SHAPES[node.kind]}{more}];"

@@ -29,7 +29,7 @@ def draw(picture: Picture) -> str:
 
 
 def _node(node: Node, numbers: dict[str, str]) -> str:
-    text = [node.title, *node.about, *(f"{name} {port}" if port else name for name, port in node.serves)]
+    text = [node.title, *node.about, *node.served()]
     begin, end = _SHAPES[node.kind]
     return f"{numbers[node.name]}{begin}{_quoted(*text)}{end}"
 

@@ -159,9 +159,8 @@ def _problems(picture: Picture, geometry: Geometry) -> Iterator[str]:
 
 
 def _tooltip(node: Node) -> str:
-    served = [f"{name} {port}" if port else name for name, port in node.serves]
     told = [f"{fault.code}: {fault.message}" for fault in node.faults]
-    return "\n".join([node.title, *node.about, *served, *told])
+    return "\n".join([node.title, *node.about, *node.served(), *told])
 
 
 def _fault(faults: tuple[Fault, ...]) -> str:

@@ -29,7 +29,7 @@ def draw(picture: Picture) -> str:
 
 
 def _node(picture: Picture, node: Node) -> Iterator[str]:
-    serves = ", ".join(f"{name} {port}" if port else name for name, port in node.serves)
+    serves = ", ".join(node.served())
     about = ", ".join([*node.about, *(f"in {group}" for group in node.groups), *([] if node.enabled else ["off"])])
     mark = " !" if node.faults else ""
     yield f"{node.title}{mark}" + (f" ({about})" if about else "") + (f": {serves}" if serves else "")
