@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import Result
-from cpp_programs import cmake, needs_cpp
+from cpp_programs import cmake, needs_cpp, needs_qt
 from processes import Storm
 from scenario import INTERFACES
 
@@ -142,8 +142,8 @@ def skip_what_is_not_here(change: Change, language: str) -> None:
         pytest.skip("one change of each kind is built in C++: RCYAML_ALL_BUILDS=1 builds them all")
     if "window" in change.name and language == "python":
         pytest.importorskip("PySide6", reason="PySide6 is not installed (PySide6-Essentials<6.11)")
-    if "window" in change.name and language == "cpp" and not any(Path("/usr/lib").glob("*/cmake/Qt[56]Widgets")):
-        pytest.skip("Qt is not installed (Debian: qt6-base-dev)")
+    if "window" in change.name and language == "cpp" and needs_qt.args[0]:
+        pytest.skip(needs_qt.kwargs["reason"])
 
 
 def begin(root: Path, language: str, rcyaml: Run) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from components import build
-from cpp_programs import Programs, needs_cpp, needs_qt, shared_programs
+from cpp_programs import Programs, in_all_builds, needs_cpp, needs_qt, shared_programs
 from cpp_qt_sources import DOCUMENTS, SOURCES
 from processes import Ports, Start, Storm, until
 from scenario import INTERFACES, cdsl
@@ -63,6 +63,7 @@ def test_signals_stop_a_window(qt_programs: Programs, start: Start, tmp_path: Pa
 
 
 @needs_qt
+@in_all_builds
 def test_a_dialog_as_it_was_written(qt_programs: Programs, start: Start, tmp_path: Path) -> None:
     """The form is ours; rejecting a dialog closes it."""
     running = start(qt_programs("Dialog").command(tmp_path, {}), env=OFFSCREEN)
@@ -94,6 +95,7 @@ def _configs(arm: int, hand: int, behavior: int, icestorm: Storm) -> tuple[dict[
 
 
 @needs_qt
+@in_all_builds
 @pytest.mark.parametrize("name", ["Old", "New"])
 def test_robocomps_generations(
     qt_programs: Programs, start: Start, tmp_path: Path, free_port: Ports, icestorm: Storm, behavior: Any, name: str
@@ -125,7 +127,7 @@ def test_robocomps_generations(
 
 
 @needs_qt
-@pytest.mark.parametrize("name", ["Old", "New"])
+@pytest.mark.parametrize("name", ["Old", pytest.param("New", marks=in_all_builds)])
 def test_robocomps_own_stop_and_check(
     qt_programs: Programs, start: Start, tmp_path: Path, free_port: Ports, icestorm: Storm, ice: Any, slices: None,
     name: str,
@@ -144,6 +146,7 @@ def test_robocomps_own_stop_and_check(
 
 
 @needs_qt
+@in_all_builds
 def test_robocomps_window(qt_programs: Programs, start: Start, tmp_path: Path) -> None:
     """There the worker is the window."""
     running = start(qt_programs("Face").command(tmp_path, {"Period.Compute": 20}), env=OFFSCREEN)
@@ -152,6 +155,7 @@ def test_robocomps_window(qt_programs: Programs, start: Start, tmp_path: Path) -
 
 
 @needs_qt
+@in_all_builds
 def test_robocomps_skeleton(
     qt_programs: Programs, start: Start, tmp_path: Path, free_port: Ports, icestorm: Storm
 ) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from components import Build
-from cpp_programs import cmake, needs_cpp, needs_qt
+from cpp_programs import cmake, in_all_builds, needs_cpp, needs_qt
 from processes import Running, Start
 from scenario import INTERFACES, cdsl
 from test_python_gui import FORM, OFFSCREEN
@@ -103,6 +103,7 @@ def test_python(build: Build, start: Start) -> None:
 
 @needs_cpp
 @needs_qt
+@in_all_builds
 @pytest.mark.slow
 def test_cpp(build: Build, start: Start) -> None:
     any_ = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", "cpp", **KEYS)})["Any"].configure({})

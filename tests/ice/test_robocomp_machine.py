@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from components import Build, Built
-from cpp_programs import cmake, needs_cpp, needs_qt
+from cpp_programs import cmake, in_all_builds, needs_cpp, needs_qt
 from processes import Ports, Running, Start, until
 from robocomp_machines import EXPECTED, HEADER, MACHINE, PYTHON, SOURCE
 from scenario import INTERFACES, cdsl
@@ -68,6 +68,7 @@ def test_the_skeleton_in_python(
 
 @needs_cpp
 @needs_qt
+@in_all_builds
 @pytest.mark.slow
 def test_cpp(build: Build, start: Start, free_port: Ports, behavior: Behavior, tmp_path: Path) -> None:
     port = free_port()
@@ -85,6 +86,7 @@ def test_cpp(build: Build, start: Start, free_port: Ports, behavior: Behavior, t
 
 @needs_cpp
 @needs_qt
+@in_all_builds
 @pytest.mark.slow
 def test_the_skeleton_in_cpp(build: Build, start: Start, free_port: Ports, behavior: Behavior) -> None:
     """With all that a machine may have, and with a window; the machine starts by itself."""
