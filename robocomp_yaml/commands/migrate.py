@@ -43,7 +43,7 @@ def command(
     report: str | None, strict: bool, force: bool, exact: bool, names: tuple[str, ...], rules: str | None,
     include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
-    """Write documents for the legacy files at PATHS: IDSL and Slice interfaces, CDSL components, their configs.
+    """Write documents for the legacy files at PATHS: interfaces, components, their configs, and networks of them.
 
     A folder means all legacy files below it, and becomes a workspace. Comments come along. Nothing that you wrote or
     edited is overwritten, and the sources stay as they are.

@@ -64,7 +64,7 @@ class _Converter:
         node = Node(name, safe_name(name, taken), self.reader.span(at), notes=self.reader.notes(head))
         if any(name == known.alias for known in self.network.nodes):
             self.reader.diagnostics.append(codes.DUPLICATE.at(node.span, name=name))
-        elif node.name != name:
+        elif node.name != name and name.strip():
             what = self.reader.rules.repairs["name"].format(text=name, name=node.name)
             self.reader.diagnostics.append(codes.REPAIRED.at(node.span, what=what))
         for key, (_, pair) in pairs.items():

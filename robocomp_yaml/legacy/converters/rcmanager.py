@@ -45,6 +45,8 @@ class _Element:
 def convert(reader: Reader) -> Draft | None:
     tree = reader.parsed.tree
     assert tree is not None
+    if trees(tree, "refused_doctype"):
+        return None
     return _Converter(reader).draft(trees(tree, "element")[0])
 
 
@@ -98,8 +100,8 @@ class _Converter:
                     return chr(number)
             if found["name"] or found["hex"] or found["decimal"]:
                 self.refused("entity", value, found[0])
-            else:
-                self.reader.repaired("ampersand", value)
+                return "x"
+            self.reader.repaired("ampersand", value)
             return found[0]
 
         return _ENTITY.sub(character, re.sub(r"[\t\n\r]", " ", value[1:-1]))
@@ -112,7 +114,7 @@ class _Converter:
             at = self.reader.span(element.place("alias"))
             self.reader.diagnostics.append(codes.DUPLICATE.at(at, name=alias))
         node = Node(alias, safe_name(alias, taken), self.reader.span(element.place("alias")), notes=element.notes)
-        if node.name != alias:
+        if node.name != alias and alias.strip():
             what = self.reader.rules.repairs["name"].format(text=alias, name=node.name)
             self.reader.diagnostics.append(codes.REPAIRED.at(node.span, what=what))
             node.extra.put("alias", exact(alias))
