@@ -107,7 +107,8 @@ def test_a_file_that_is_no_program_after_all(place: Place) -> None:
     program.write_bytes(b"\x7fELF, but not really")
     program.chmod(0o755)
     result = place.up(replace(sleeper("a"), command=(str(program),)))
-    assert [found.message for found in result.diagnostics] == ["'a' cannot be started: exec format error"]
+    reason = f"'{program}' is no program of this kind of machine"
+    assert [found.message for found in result.diagnostics] == [f"'a' cannot be started: {reason}"]
 
 
 # A process ends while the network runs.
@@ -151,7 +152,7 @@ def test_a_program_that_vanishes_between_two_runs(place: Place) -> None:
     place.up(replace(sleeper("a", restart=Restart(delay=0.01, tries=2)), command=(str(program), "600")))
     program.unlink()
     os.kill(place.pids()["a"], signal.SIGKILL)
-    assert place.wait_for_state("a", GIVEN_UP).last_exit == "no such file or directory"
+    assert place.wait_for_state("a", GIVEN_UP).last_exit == f"there is no file '{program}'"
 
 
 def test_one_that_will_not_end_is_killed(place: Place) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import os
 import signal
 import subprocess
@@ -11,8 +12,8 @@ from collections.abc import Collection
 from contextlib import suppress
 from typing import Any
 
-from robocomp_yaml.deploy.local import procfs
-from robocomp_yaml.deploy.local.kernel import OpenFiles, die_with
+from robocomp_yaml.deploy.local import procfs, program
+from robocomp_yaml.deploy.local.kernel import OpenFiles, die_with, tie
 from robocomp_yaml.deploy.local.log_file import LogFile
 
 RUNNING, WAITING, GIVEN_UP, ENDED, STOPPED = "running", "waiting", "given up", "ended", "stopped"
@@ -135,29 +136,26 @@ class Child:
         try:
             self._spawn()
         except OSError as error:
-            self.last_exit = (error.strerror or str(error)).lower()
+            self.last_exit = error.strerror or str(error)
             self._after_end(is_failure=True)
 
     def _spawn(self) -> None:
-        process = self.spec["process"]
-        supervisor = os.getpid()
-
-        def prepare() -> None:
-            self._files.restore()
-            die_with(supervisor)
-
+        command, folder = self.spec["command"], self.spec["process"]["cwd"]
+        found = program.find(command[0], folder, self._environment)
         ours, theirs = os.pipe2(os.O_CLOEXEC | os.O_NONBLOCK)
         os.set_blocking(theirs, True)
         try:
             started = subprocess.Popen(
-                self.spec["command"], cwd=process["cwd"], env=self._environment, stdin=subprocess.DEVNULL,
-                stdout=theirs, stderr=theirs, start_new_session=True, preexec_fn=prepare,
+                [*tie(), found, *command[1:]], cwd=folder or "/", env=self._environment, stdin=subprocess.DEVNULL,
+                stdout=theirs, stderr=theirs, start_new_session=True,
+                preexec_fn=None if tie() else functools.partial(die_with, os.getpid()),
             )  # fmt: skip
         except BaseException:
             os.close(ours)
             raise
         finally:
             os.close(theirs)
+        self._files.restore(started.pid)
         started.returncode = 0  # it is the supervisor that waits for all children, not this object
         self.pid = self.root = started.pid
         self._output = ours

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
+import functools
 import os
 import resource
+import shutil
 import signal
 
 _SET_DEATH_SIGNAL, _SET_CHILD_SUBREAPER = 1, 36
@@ -24,6 +27,14 @@ def die_with(parent: int) -> None:
         os._exit(1)
 
 
+@functools.cache
+def tie() -> tuple[str, ...]:
+    """What stands before a command, so that its process is killed when its parent ends; () where the system does not
+    have it. To do the same in the new process itself (`die_with`) takes a copy of this one, which costs far more."""
+    found = shutil.which("setpriv", path=os.defpath)
+    return (found, "--pdeathsig", "KILL", "--") if found else ()
+
+
 class OpenFiles:
     """The limit of open files: as high as may be for one that watches many processes, as it was for these."""
 
@@ -33,5 +44,7 @@ class OpenFiles:
     def raise_limit(self) -> None:
         resource.setrlimit(resource.RLIMIT_NOFILE, (self._hard, self._hard))
 
-    def restore(self) -> None:
-        resource.setrlimit(resource.RLIMIT_NOFILE, (self._soft, self._hard))
+    def restore(self, pid: int) -> None:
+        if self._soft != self._hard:
+            with contextlib.suppress(ProcessLookupError):
+                resource.prlimit(pid, resource.RLIMIT_NOFILE, (self._soft, self._hard))

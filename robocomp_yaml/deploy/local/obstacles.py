@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import os
-import shutil
 import socket
 from collections.abc import Collection, Iterator, Sequence
 
-from robocomp_yaml.deploy.local import procfs
+from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -81,13 +80,11 @@ def _of_program(spec: Spec) -> Iterator[Diagnostic]:
 
 
 def _why_not(spec: Spec) -> str:
-    program, folder = spec.command[0], spec.process.cwd or "/"
+    folder = spec.process.cwd or "/"
     if not os.path.isdir(folder):
         return f"its folder '{folder}' does not exist"
-    if "/" not in program:
-        path = environment_of(spec.process).get("PATH", os.defpath)
-        return "" if shutil.which(program, path=path) else f"no program '{program}' is in the PATH"
-    full = os.path.join(folder, program)
-    if not os.path.exists(full):
-        return f"there is no file '{full}'"
-    return "" if os.access(full, os.X_OK) and os.path.isfile(full) else f"'{full}' is no program that may be run"
+    try:
+        program.find(spec.command[0], folder, environment_of(spec.process))
+    except OSError as error:
+        return error.strerror or str(error)
+    return ""
