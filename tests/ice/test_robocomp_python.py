@@ -71,10 +71,9 @@ def test_interfaces_topics_and_parameters(
     assert "state right 8.0 ['home']\n" in said
     assert "grasp b'cba'\n" in said
     assert "blocked at 1.0 9.0\n" in said
-    serving.wait_for("first turn in server limit 9")
-    assert "of Shelly\n" in serving.output
+    serving.wait_for("first turn in server limit 9").wait_for("of Shelly\n")
     if code is SERVER_2020:
-        assert "hurried 2 True\n" in serving.output
+        serving.wait_for("hurried 2 True\n")
     until(lambda: behavior(port).getPeriod() == 500, "setPeriod() by the user's code")
     assert calling.stop() == 0
     behavior(port).killYourSelf()
