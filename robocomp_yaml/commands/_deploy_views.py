@@ -49,6 +49,8 @@ def _step_data(step: Step) -> dict[str, Any]:
 
 
 def result_text(network: Network, result: Result) -> str:
+    if result.plan.is_empty and result.diagnostics:
+        return f"{network.name}: nothing to do, but not all is ready"
     if result.plan.is_empty:
         return f"{network.name}: nothing to do, {_count(len(result.plan.steps))} as wanted"
     if not result.diagnostics:

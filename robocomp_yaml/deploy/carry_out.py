@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step, in_order
-from robocomp_yaml.deploy.readiness import LOG_LINES, until_ready
+from robocomp_yaml.deploy.readiness import holds, until_ready
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
 STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
@@ -70,12 +70,14 @@ class Watch:
 
 
 async def carry_out(engine: Engine, plan: Plan, report: Report, *, keep_going: bool) -> Outcome:
-    """Does what the plan says. Where a process fails, nothing more is started, or, with `keep_going`, only what
-    depends on it is not."""
+    """Does what the plan says. Where a process that is started fails, nothing more is, or, with `keep_going`, only what
+    depends on it is not; the latter holds also where one that ran already is not ready."""
     leaving = plan.of(STOP, RESTART) + [step for step in plan.of(START) if _is_in_the_way(step)]
     await stop_all(engine, [step.running for step in leaving if step.running], report)
-    await engine.forget([step.name for step in plan.of(STOP)])
-    await engine.prepare([step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec])
+    if gone := [step.name for step in plan.of(STOP)]:
+        await engine.forget(gone)
+    if specs := [step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec]:
+        await engine.prepare(specs)
     starts = _Starts(engine, plan, report, keep_going)
     return await starts.run()
 
@@ -120,14 +122,13 @@ class _Starts:
 
     async def run(self) -> Outcome:
         starting = {step.name for step in self._plan.of(START, RESTART)}
-        needed = {name for step in self._plan.of(START, RESTART) for name in _after(step)}
         try:
             for step in (self._plan.steps[name] for name in self._order):
                 if step.name in starting:
                     # Those that close a cycle come later in the order, and are not waited for.
                     before = [self._tasks[name] for name in _after(step) if name in self._tasks]
                     self._tasks[step.name] = asyncio.create_task(self._start(step, before))
-                elif step.name in needed:
+                else:
                     self._tasks[step.name] = asyncio.create_task(self._wait_for(step))
             pending = set(self._tasks.values())
             while pending:
@@ -135,7 +136,7 @@ class _Starts:
                 for task in done:
                     if not task.cancelled():
                         task.result()
-                if self._outcome.failed and not self._keep_going:
+                if self._outcome.failed.keys() & starting and not self._keep_going:
                     break
         finally:
             await _cancel(self._tasks.values())
@@ -153,7 +154,7 @@ class _Starts:
         return await self._ends_ready(step, time.monotonic(), self._begin)
 
     async def _wait_for(self, step: Step) -> bool:
-        """Waits for a process that runs already and is needed: as a rule it answers at once."""
+        """Waits for a process that runs already: as a rule it answers at once."""
         return await self._ends_ready(step, time.monotonic(), None)
 
     async def _begin(self, name: str) -> None:
@@ -166,10 +167,11 @@ class _Starts:
     ) -> bool:  # fmt: skip
         assert step.spec
         try:
-            lines = await self._engine.lines([step.name], 0 if begin else LOG_LINES, True)
-            async with aclosing(lines):
+            async with aclosing(await self._engine.lines([step.name], 0, True)) as lines:
                 if begin:
                     await begin(step.name)
+                elif step.running and await holds(self._engine, step.spec, step.running):
+                    return True
                 await until_ready(self._engine, step.spec, lines, self._watch.of(step.name))
         except DeployFailed as error:
             self._outcome.failed[step.name] = error.diagnostic

@@ -57,24 +57,23 @@ class Status:
 
 async def up(
     engine: Engine, network: Network, names: Iterable[str], forced: Collection[str], choose: Choose, report: Report,
-    *, keep_going: bool = False, on_plan: Callable[[Plan], None] = lambda plan: None,
+    *, keep_going: bool = False,
 ) -> Result:  # fmt: skip
-    """Brings about what the network says. Nothing is touched where something stands in the way that can be seen
-    before. When a process fails, `choose` says what becomes of those that were started."""
+    """Brings about what the network says, and waits until all of it is ready. Nothing is touched where something stands
+    in the way that can be seen before. When a process that is started fails, `choose` says what becomes of those that
+    were; one that ran already and is not ready is only reported."""
     before = await engine.observe()
     result = Result(plan(network, before, names, forced))
-    on_plan(result.plan)
-    if result.plan.is_empty:
-        return result
     starting = [step.spec for step in result.plan.of(START, RESTART) if step.spec]
     leaving = {step.name for step in result.plan.of(STOP, RESTART)}
-    result.diagnostics = await engine.obstacles(starting, leaving)
+    result.diagnostics = await engine.obstacles(starting, leaving) if starting else []
     if result.diagnostics:
         return result
     result.outcome = await carry_out(engine, result.plan, report, keep_going=keep_going)
     if failed := result.outcome.failed:
         result.diagnostics = [await _with_log(engine, name, found) for name, found in failed.items()]
-        result.undone = KEEP_GOING if keep_going else await choose(result)
+        is_asked = failed.keys() & set(result.outcome.began) and not keep_going
+        result.undone = await choose(result) if is_asked else KEEP_GOING
         await _undo(engine, result, before, report)
     return result
 

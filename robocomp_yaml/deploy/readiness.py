@@ -46,7 +46,8 @@ async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
         async with aclosing(await engine.lines([spec.name], LOG_LINES, False)) as lines:
             texts = [line.text async for line in lines]
         starts = [number for number, text in enumerate(texts) if text.startswith(STARTED)]
-        return any(_is_sign(ready.log, text) for text in texts[starts[-1] if starts else 0 :])
+        # One that has written so much since its start has long begun to work.
+        return not starts or any(_is_sign(ready.log, text) for text in texts[starts[-1] :])
     return await _look(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
 
 

@@ -75,6 +75,18 @@ def test_one_that_is_never_ready(place: Place, free_port: Ports) -> None:
     assert "nothing listens on port" in result.diagnostics[0].message
 
 
+def test_one_that_runs_but_is_not_ready_is_told_by_each_up(place: Place, free_port: Ports) -> None:
+    never = sleeper("a", ready=Readiness(port=free_port(), within=0.3))
+    place.up(never, sleeper("b"), on_failure=operations.KEEP_GOING)
+    pids = place.pids()
+    result = place.up(never, sleeper("b"))
+    assert result.plan.is_empty and codes(result) == ["RC7003"]
+    assert place.pids() == pids and pids["a"]
+    result = place.up(never, sleeper("b", env=(Variable("X", "1"),)))
+    assert codes(result) == ["RC7003"] and result.outcome.began == ["b"]
+    assert place.observe()["b"].state == RUNNING
+
+
 def test_a_port_that_another_program_has(place: Place, free_port: Ports) -> None:
     port = free_port()
     with socket.create_server(("127.0.0.1", port)):

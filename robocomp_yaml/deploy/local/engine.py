@@ -43,7 +43,7 @@ class LocalEngine:
             connection = launch.reach(network.folder)
             was_killed = connection is None and record.was_killed(network.folder)
             if was_killed or (connection is None and create):
-                left = record.clear_up(network.folder)
+                left = [*record.clear_up(network.folder), *(launch.last_words(network.folder) if was_killed else ())]
                 if was_killed or left:
                     self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(network.path), more="\n".join(left)))
             if connection is None and create:

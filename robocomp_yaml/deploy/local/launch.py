@@ -13,12 +13,22 @@ from robocomp_yaml.deploy.local.service import PROTOCOL
 
 __all__ = ["PROTOCOL", "reach", "start", "wait_gone"]
 
+_LINES = 10
 _PATIENCE = 20.0  # seconds: far more than it needs, also where the machine is busy
 
 
 def reach(folder: str) -> socket.socket | None:
     """A connection to the supervisor; None where there is none. Raises OSError where the folder is none."""
     return channel.connect(f"{folder}/state") if os.path.isdir(f"{folder}/state") else None
+
+
+def last_words(folder: str) -> list[str]:
+    """What the supervisor said of itself, which is nothing as long as all is well."""
+    try:
+        with open(f"{folder}/state/supervisor.log", encoding="utf-8", errors="replace") as file:
+            return file.read().splitlines()[-_LINES:]
+    except OSError:
+        return []
 
 
 async def start(folder: str) -> socket.socket:
@@ -42,8 +52,7 @@ async def start(folder: str) -> socket.socket:
             await asyncio.sleep(0.02)
         keeper.kill()
         keeper.wait()
-        text = os.pread(said, 1 << 16, 0).decode("utf-8", "replace").strip()
-        raise OSError(0, f"the supervisor does not start: {text[-500:]}")
+        raise OSError(0, f"the supervisor does not start: {' '.join(last_words(folder))}")
     finally:
         os.close(said)
 
