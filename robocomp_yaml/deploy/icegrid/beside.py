@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import threading
 import time
 from collections.abc import Callable, Collection
@@ -49,3 +51,7 @@ def run_beside(
     finally:
         with lock:
             deploy([name], [])
+        if here:
+            for path in (places.status(name), places.log(name)):
+                with contextlib.suppress(OSError):
+                    os.unlink(path)

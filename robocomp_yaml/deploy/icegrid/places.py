@@ -65,7 +65,7 @@ class Places:
         return f"{self.folder}/logs/{name}.log"
 
     def registry(self) -> Registry | None:
-        data = self._read(_REGISTRY, None)
+        data = self._read(_REGISTRY, {})
         return Registry(**data) if data else None
 
     def keep_registry(self, registry: Registry) -> None:
@@ -95,11 +95,13 @@ class Places:
         self._write(_SPECS, {name: spec.as_data() if spec else kept.get(name) for name, spec in specs.items()})
 
     def _read(self, path: str, missing: Any) -> Any:
+        """What a file holds; `missing` where there is none, or one that another version of rcyaml wrote otherwise."""
         try:
             with open(f"{self.folder}/{path}", encoding="utf-8") as file:
-                return json.load(file)
+                data = json.load(file)
         except (FileNotFoundError, NotADirectoryError, ValueError):
             return missing
+        return data if type(data) is type(missing) else missing
 
     def _write(self, path: str, data: Any) -> None:
         own_folder.write(self.folder, path, json.dumps(data))

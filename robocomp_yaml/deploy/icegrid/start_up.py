@@ -17,6 +17,7 @@ from robocomp_yaml.deploy.icegrid.places import (
     registry_address,
 )
 from robocomp_yaml.deploy.local.obstacles import is_here
+from robocomp_yaml.deploy.local.record import clear_up
 from robocomp_yaml.diag.codes import grids
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Host, Network
@@ -43,6 +44,8 @@ def created(places: Places, network: Network) -> Grid:
     if registry is None or registry.address != address:
         _end_here(places)
         try:
+            if registry is None:
+                clear_up(network.folder)  # what runs although nothing is known of it: someone removed the folder
             own_folder.make(network.folder)
             settings.make_key(places)
             registry = Registry(address, free_port(address))
