@@ -72,7 +72,7 @@ def subjects(tmp_path_factory: pytest.TempPathFactory) -> Subjects:
     return Subjects(tmp_path_factory)
 
 
-def test_the_same_verdict_for_the_same_reasons(subjects: Subjects) -> None:
+def test_the_same_verdict_about_the_same_parameters(subjects: Subjects) -> None:
     asked = [(n, data) for n, (_, fitting, others) in enumerate(subjects.cases) for data in (fitting, *others)]
     refused = 0
     answers = subjects.program.judge([(f"g{n}", data) for n, data in asked])
@@ -86,8 +86,8 @@ def test_the_same_verdict_for_the_same_reasons(subjects: Subjects) -> None:
 
 
 def _blamed(problems: list[str]) -> list[str]:
-    """Of each message what comes before the value, which the languages spell in their own ways."""
-    return sorted(re.split(r", and |(?<= is) |(?<= has) |(?<=holds) ", problem)[0] for problem in problems)
+    """The parameter that each message names; the languages spell values in their own ways."""
+    return sorted(re.split(r" (?:must be|is|has|holds) ", problem)[0] for problem in problems)
 
 
 def test_properties_are_read_alike(subjects: Subjects) -> None:

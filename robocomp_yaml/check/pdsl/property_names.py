@@ -63,11 +63,10 @@ def _among_themselves(linked: LinkedParameters, places: dict[str, Span]) -> Iter
 
 def _taken(component: LinkedComponent) -> Iterator[tuple[str, str]]:
     """The names of properties that the component's connections use, and whose they are."""
-    yield "CommonBehavior", "the adapter CommonBehavior"
-    for port in (*component.implements, *component.subscribes):
-        yield port.name, f"the adapter {port.name}"
-    for port in component.subscribes:
-        yield f"{port.name}Topic", f"the adapter {port.name}Topic"
+    names = [port.name for port in (*component.implements, *component.subscribes)]
+    for name in ("CommonBehavior", *names, *(f"{port.name}Topic" for port in component.subscribes)):
+        yield name, f"the adapter {name}"
+        yield f"{name}.Endpoints", f"the endpoints of {name}"
     for port in component.publishes:
         yield port.name, f"the topic {port.name}"
     for port in component.requires:

@@ -23,7 +23,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def of_document(linked: LinkedValues, *, complete: bool = False) -> Iterator[Diagnostic]:
     """`complete`: to be judged as the values of a component even where another document builds on it."""
     if linked.parameters is None:
-        if not linked.is_extended and not linked.document.component:
+        if not linked.is_extended and not linked.document.component and not linked.broken:
             yield codes.NO_COMPONENT.at(linked.document.root.span)
         return
     if linked.parameters.broken:

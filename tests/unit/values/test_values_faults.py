@@ -48,6 +48,12 @@ def test_good_values_have_no_faults(tmp_path: Path) -> None:
     assert faults(tmp_path, GOOD) == []
 
 
+def test_what_extends_nothing_is_told_once(tmp_path: Path) -> None:
+    """That it belongs to no component follows from that."""
+    assert [fault.split()[1] for fault in faults(tmp_path, "extends: [nope.config.yaml]\n")] == ["RC3321"]
+    assert [fault.split()[1] for fault in faults(tmp_path, "extends: [x.config.yaml]\n")] == ["RC3322"]
+
+
 @pytest.mark.parametrize(("line", "fault"), [
     ("volume: 101", "5:11 RC3303 volume is 101 percent, and must be from 0 to 100 percent"),
     ("volume: 1.5", "5:11 RC3302 volume must be a whole number (percent), and is 1.5"),
