@@ -6,6 +6,7 @@ import asyncio
 import os
 import sys
 from collections.abc import Collection, Coroutine, Iterable
+from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
@@ -35,7 +36,7 @@ INTERRUPTED = "interrupted: what runs goes on; `rcyaml deploy down` stops it"
 @dataclass(slots=True)
 class Opened:
     """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
-    so far, of which some have been `shown`; `documents` were read."""
+    so far, of which some have been `shown`; `documents` were read. `lock` is held while it is changed."""
 
     path: str
     network: Network
@@ -44,6 +45,7 @@ class Opened:
     told: list[Diagnostic] = field(default_factory=list)
     documents: int = 0
     shown: list[Diagnostic] = field(default_factory=list)
+    lock: ExitStack = field(default_factory=ExitStack)
 
     @property
     def enabled(self) -> set[str]:
@@ -141,6 +143,7 @@ def up(
             opened.told += result.diagnostics
             progress.pause()
             if attach and not result.diagnostics:
+                opened.lock.close()  # what has come up may be worked on
                 opened.told += await follow()
         if result.diagnostics or attach:
             await operations.end_if_idle(opened.engine)
@@ -215,9 +218,8 @@ def _run(
     try:
         if not change:
             return asyncio.run(work)
-        with folder.locked(opened.network.folder) as is_ours:
-            if is_ours:
-                return asyncio.run(work)
+        if opened.lock.enter_context(folder.locked(opened.network.folder)):
+            return asyncio.run(work)
         reason = "another rcyaml is changing this deployment"
     except DeployFailed as error:
         opened.told += [*opened.engine.notes, error.diagnostic]
@@ -234,6 +236,7 @@ def _run(
         ctx.exit(130)
     finally:
         work.close()
+        opened.lock.close()
     where = shown_path(opened.network.folder)
     opened.told.append(deploying.FOLDER.at(Span(opened.network.path), path=where, reason=reason))
     end(ctx, opened)

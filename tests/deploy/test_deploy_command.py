@@ -149,12 +149,55 @@ def start(folder: Path, *args: str, **more: object) -> subprocess.Popen[bytes]:
     return subprocess.Popen([sys.executable, "-m", "robocomp_yaml", "deploy", *args], cwd=folder, **more)  # type: ignore[call-overload, no-any-return]
 
 
+NEVER = ROBOT.replace("after: [base]}", "after: [base], ready: {log: never, within: 60 s}}")
+
+
+def coming_up(robot: Path) -> subprocess.Popen[bytes]:
+    """An `up` that waits in vain for `arm`."""
+    write_tree(robot, {"robot.ddsl.yaml": NEVER})
+    up = start(robot, "up", "robot.ddsl.yaml", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    assert up.stdout and up.stdout.readline() == b"base  ready\n"
+    return up
+
+
+def test_interrupted_it_leaves_what_runs(robot: Path, place: Place) -> None:
+    up = coming_up(robot)
+    until(lambda: place.pids().get("arm"), "arm is started")
+    up.send_signal(signal.SIGINT)
+    with up.stdout as rest:
+        assert b"what runs goes on" in rest.read()
+    assert up.wait(20) == 130
+    assert all(place.pids().values())
+
+
+def test_the_next_up_goes_on_where_a_killed_one_left_off(robot: Path, place: Place, rcyaml: Rcyaml) -> None:
+    up = coming_up(robot)
+    up.kill()
+    up.stdout.close()
+    up.wait(20)
+    base = place.pids()["base"]
+    write_tree(robot, {"robot.ddsl.yaml": ROBOT})
+    assert deploy(rcyaml, "up").exit_code == 0
+    assert place.pids()["base"] == base and place.observe()["arm"].state == "running"
+
+
+def test_the_supervisor_is_killed_while_it_comes_up(robot: Path, place: Place) -> None:
+    up = coming_up(robot)
+    os.kill(place.keeper_and_supervisor()[1], signal.SIGKILL)
+    with up.stdout as rest:
+        said = rest.read().decode()
+    assert up.wait(20) == 1
+    assert "error[RC7007]" in said and "Traceback" not in said
+    place.wait_gone()
+
+
 def test_attached_it_ends_with_ctrl_c(robot: Path, place: Place) -> None:
     attached = start(robot, "up", "robot.ddsl.yaml", "--attach", stdout=subprocess.PIPE)
     assert attached.stdout
     seen = b""
     while b"Ctrl-C takes it down" not in seen or b"base | hello" not in seen:
         seen += os.read(attached.stdout.fileno(), 1000)
+    assert start(robot, "restart", ".", "arm").wait(60) == 0  # meanwhile others may work on it
     attached.send_signal(signal.SIGINT)
     with attached.stdout as rest:
         rest.read()
