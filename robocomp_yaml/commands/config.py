@@ -78,7 +78,8 @@ def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...]) -> N
 @click.pass_context
 def set_(ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...]) -> None:
     """Give the parameter at PATH another VALUE in FILE, checked by its type and limits. Text needs no quotes; null
-    returns to the default, and {env: NAME} is what the environment has when the component starts. Comments, order and layout of the document stay, byte for byte."""
+    returns to the default, and {env: NAME} is what the environment has when the component starts. Comments, order and
+    layout of the document stay, byte for byte."""
     from robocomp_yaml.commands import _values
 
     _values.set_value(ctx, file, path, value, include)

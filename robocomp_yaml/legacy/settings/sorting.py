@@ -14,6 +14,7 @@ from robocomp_yaml.legacy.settings.headers import free
 MAX_DEPTH = 20
 """So many parts may a parameter's key have; nobody writes half as many."""
 
+_OWN = "x-"
 _WORD = re.compile(r"[A-Za-z_]\w*\Z")
 
 
@@ -56,13 +57,20 @@ class Sorted:
     properties: list[Named] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
+    def put(self, section: list[Named], name: str, setting: Setting) -> None:
+        """Under its name in a section, where one that starts with `x-` would be the user's own."""
+        if name.startswith(_OWN):
+            self.keep(setting)
+        else:
+            section.append(Named(name, setting))
+
     def connect(self, name: str, setting: Setting) -> None:
         """A proxy. Without a name of its own it is called as its property."""
         taken = {named.name for named in self.proxies}
-        if name and name not in taken:
+        if name and name not in taken and not name.startswith(_OWN):
             self.proxies.append(Named(name, setting))
         else:
-            self.proxies.append(Named(free(setting.key, taken), setting, setting.key))
+            self.proxies.append(Named(free(setting.key.replace(_OWN, "x_", 1), taken), setting, setting.key))
 
     def keep(self, setting: Setting) -> None:
         """A property that no section has a place for."""
@@ -90,14 +98,14 @@ def _classic(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> Non
     if key.startswith("Ice.") and len(key) > 4:
         found.ice.append(Named(key[4:], setting))
     elif key.endswith(".Endpoints") and len(key) > 10:
-        found.endpoints.append(Named(key[:-10], setting))
+        found.put(found.endpoints, key[:-10], setting)
     elif key == "TopicManager.Proxy":
         found.manager.append(Named("manager", setting))
     elif rules.sections["proxy"].match(text) or (key.removesuffix("Proxy") in ports.requires and key[-5:] == "Proxy"):
         name = key.removesuffix("Proxy")
         found.connect(name if name != key else "", setting)
     elif key.startswith("Proxies.") and key.endswith("Prefix") and len(key) > 14:
-        found.prefixes.append(Named(key[8:-6], setting))
+        found.put(found.prefixes, key[8:-6], setting)
     elif (key == text or key.removesuffix("Topic") in ports.topics) and _WORD.match(key) and _WORD.match(text):
         found.names.append(Named(key, setting))
     else:
@@ -109,11 +117,11 @@ def _toml(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
     if path[0] == "Ice" and len(path) > 1:
         found.ice.append(Named(key[4:], setting))
     elif path[0] == "Endpoints" and len(path) == 2 and text:
-        found.endpoints.append(Named(path[1], setting))
+        found.put(found.endpoints, path[1], setting)
     elif key == "Proxies.TopicManager" and text:
         found.manager.append(Named("manager", setting))
     elif path[0] == "Proxies" and len(path) == 2 and not rules.sections["proxy"].match(text) and key[-6:] == "Prefix":
-        found.prefixes.append(Named(path[1][:-6], setting))
+        found.put(found.prefixes, path[1][:-6], setting)
     elif path[0] == "Proxies" and len(path) == 2 and text:
         found.connect(path[1], setting)
     elif rules.sections["proxy"].match(text):
