@@ -4,9 +4,12 @@ VENV ?= .venv
 # Ice comes as a module for Debian's own python3 (3.11); another one cannot load it.
 PYTHON ?= $(shell test -x /usr/bin/python3 && echo /usr/bin/python3 || echo python3)
 JOBS ?= 2
-ICE := zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 python3-zeroc-ice
+ICE := zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 python3-zeroc-ice \
+  zeroc-icegrid zeroc-ice-utils
 QT := qt6-base-dev
-TOOLS := python3-venv cmake g++ make ninja-build nodejs npm git
+TOOLS := python3-venv cmake g++ make ninja-build nodejs npm git openssl iproute2
+# More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server.
+MORE ?=
 
 .PHONY: help demo test fast lint bench clean
 
@@ -43,7 +46,7 @@ $(VENV)/tests: pyproject.toml $(VENV)/rcyaml
 .PHONY: system
 system:
 	@missing=""; \
-	for package in $(ICE) $(QT) $(TOOLS); do \
+	for package in $(ICE) $(QT) $(TOOLS) $(MORE); do \
 	  case $$package in nodejs) command -v node >/dev/null && continue;; npm) command -v npm >/dev/null && continue;; esac; \
 	  dpkg-query -W -f '$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$package"; done; \
 	if [ -n "$$missing" ]; then \
