@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -36,6 +35,8 @@ class Change:
 
     def diff(self) -> Iterator[str]:
         """A unified diff, line by line."""
+        import difflib  # asked for with --diff only
+
         yield from difflib.unified_diff(
             _lines(self.before), _lines(self.after),
             os.devnull if self.before is None else f"a/{self.path}",

@@ -40,7 +40,8 @@ def quoted(text: str) -> str:
 
 def _plain(line: str) -> str:
     """Without what is no text, and without the backslash that would draw the next line into the comment."""
-    return "".join(c for c in line if c.isprintable() or c == "\t").rstrip(" \t\\")
+    kept = line if line.isprintable() else "".join(c for c in line if c.isprintable() or c == "\t")
+    return kept.rstrip(" \t\\")
 
 
 def folded(code: str, indent: str) -> str:
