@@ -13,6 +13,7 @@ from __future__ import annotations
 import os
 import shutil
 import signal
+import socket
 import statistics
 import subprocess
 import sys
@@ -32,8 +33,6 @@ class Alone:
     """A registry and a node of IceGrid's own, in a folder."""
 
     def __init__(self, folder: Path) -> None:
-        import socket
-
         self.folder = folder
         with socket.create_server(("127.0.0.1", 0)) as probe:
             self.port = probe.getsockname()[1]
@@ -49,6 +48,8 @@ class Alone:
             "IceGrid.Registry.Internal.Endpoints": own, "IceGrid.Registry.LMDB.Path": f"{self.folder}/registry",
             "IceGrid.Registry.AdminPermissionsVerifier": "IceGrid/NullPermissionsVerifier",
         })  # fmt: skip
+        while not self._answers():  # a node that finds no registry looks for it again only after 10 s
+            time.sleep(0.005)
         self._start("icegridnode", {
             "Ice.Default.Locator": f"IceGrid/Locator:{own} -p {self.port}", "IceGrid.Node.Name": "here",
             "IceGrid.Node.Endpoints": own, "IceGrid.Node.Data": f"{self.folder}/node",
@@ -56,6 +57,10 @@ class Alone:
         })  # fmt: skip
         script = [sys.executable, __file__, "alone", str(self.port), activation]
         subprocess.run(script, check=True)
+
+    def _answers(self) -> bool:
+        with socket.socket() as probe:
+            return probe.connect_ex(("127.0.0.1", self.port)) == 0
 
     def _start(self, program: str, settings: dict[str, str]) -> None:
         words = [f"--{key}={value}" for key, value in settings.items()]
