@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import fcntl
+import itertools
 import os
 import time
 from collections.abc import Iterator, Sequence
@@ -131,6 +132,9 @@ def _make_room_for_locks(count: int) -> None:
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, count + 200)), hard))
 
 
+_numbers = itertools.count()  # of all commits: two roots may have a folder in common
+
+
 @dataclass(slots=True)
 class _Commit:
     """The commit of one batch, phase by phase. `at` is the path that it is busy with."""
@@ -172,7 +176,7 @@ class _Commit:
         for step in self.batch.steps:
             if step.after is not None:
                 folders.update(dict.fromkeys(_missing_folders(self.root, step.path)))
-        marks = tuple(_mark(step, number) for number, step in enumerate(self.batch.steps))
+        marks = tuple(_mark(step, next(_numbers)) for step in self.batch.steps)
         self.journal = Journal(marks, tuple(folders))
         self.under_way = True
         self.journal.save(self.root)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from robocomp_yaml.emit.places import STATE
@@ -53,6 +55,19 @@ def read(data: bytes | None) -> Manifest:
     if not isinstance(files, dict):
         raise Unusable("it is damaged")
     return Manifest({path: _entry(fields) for path, fields in files.items()})
+
+
+def any_has(file: str, hash_: str) -> bool:
+    """Whether a manifest in a folder above the file says that rcyaml wrote it with this digest."""
+    above, path = os.path.split(file)
+    while path:
+        with suppress(OSError, Unusable), open(os.path.join(above, PATH), "rb") as stream:
+            entry = read(stream.read()).files.get(path)
+            if entry and not entry.once and entry.hash == hash_:
+                return True
+        above, name = os.path.split(above)
+        path = f"{name}/{path}" if name else ""
+    return False
 
 
 def _entry(fields: object) -> Entry:

@@ -29,8 +29,13 @@ def prepare(
     planned: what they hold for documents that are gone is removed. `merges` are those of the user's own files.
     """
     result = Changes()
-    for wanted in by_root(plans, others):
-        root = _Root(wanted, adopt, merges or Merges())
+    roots = by_root(plans, others)
+    planned = {
+        f"{wanted.root.real}/{path}": (wanted.root.real, file.plan.text)
+        for wanted in roots for path, file in wanted.files.items()
+    }  # fmt: skip
+    for wanted in roots:
+        root = _Root(wanted, adopt, merges or Merges(), planned)
         root.prepare()
         result.roots.append(root.result)
         result.diagnostics += root.diagnostics
@@ -77,13 +82,18 @@ def _cannot_write(wanted: WantedRoot, path: str, reason: str) -> Diagnostic:
 
 
 class _Root:
-    """The look at one root: each planned or known file meets what stands at its path."""
+    """The look at one root: each planned or known file meets what stands at its path.
 
-    def __init__(self, wanted: WantedRoot, adopt: bool, merges: Merges) -> None:
+    Roots may lie in each other: a workspace's `slice/` is that of a component in the same folder, too. `planned` are the
+    files of all roots, each with its text and the innermost root that wants it, which writes it.
+    """
+
+    def __init__(self, wanted: WantedRoot, adopt: bool, merges: Merges, planned: dict[str, tuple[str, str]]) -> None:
         self.wanted = wanted
         self.root = wanted.root
         self.adopt = adopt
         self.merges = merges
+        self.planned = planned
         self.old = Manifest()
         self.new = Manifest()
         self.diagnostics = list(wanted.diagnostics())
@@ -170,7 +180,7 @@ class _Root:
                 self._write(plan, found, changes.UPDATE)
             else:
                 self._note(plan.path, changes.UNCHANGED)
-        elif entry and digest(found.data or b"") == entry.hash:
+        elif self._has_another(plan) or self._is_ours(plan.path, found.data or b"", entry):
             self._write(plan, found, changes.UPDATE)
         elif entry and not entry.once:
             change = self._write(plan, found, changes.EDITED)
@@ -187,11 +197,23 @@ class _Root:
         self.result.settled[plan.path] = text
         self._own(plan.path, digest(text))
 
+    def _has_another(self, plan: FilePlan) -> bool:
+        """Whether a root inside this one writes the very same file."""
+        root, text = self.planned[f"{self.root.real}/{plan.path}"]
+        return root != self.root.real and text == plan.text
+
+    def _is_ours(self, path: str, data: bytes, entry: Entry | None) -> bool:
+        """Whether rcyaml wrote it, for this root or for another one that has it, too."""
+        hash_ = digest(data)
+        return bool(entry and entry.hash == hash_) or manifest.any_has(f"{self.root.real}/{path}", hash_)
+
     def _unwanted(self, path: str, entry: Entry) -> None:
         """A file of the manifest that no plan asks for: it stays as long as some document may still want it."""
         owners = self.wanted.holders(path, entry)
         if owners:
             self.new.files[path] = replace(entry, owners=owners)
+            return
+        if f"{self.root.real}/{path}" in self.planned:
             return
         found = self.root.look(path, read=not entry.once)
         if entry.once:
@@ -201,7 +223,7 @@ class _Root:
                 self._drop_base(path)
         elif not found.exists or found.problem:
             return
-        elif digest(found.data or b"") == entry.hash:
+        elif self._is_ours(path, found.data or b"", entry):
             self._note(path, changes.REMOVE, found.data)
             self.result.steps.append(atomic.Step(path, found.data, None))
         else:
@@ -220,9 +242,10 @@ class _Root:
         if mode and plan.executable:
             # Whoever may read it may run it.
             mode |= (mode & 0o444) >> 2
-        self.result.steps.append(atomic.Step(
-            plan.path, found.data if found.exists else None, text, plan.executable, mode, orig
-        ))
+        if not self._has_another(plan):
+            self.result.steps.append(atomic.Step(
+                plan.path, found.data if found.exists else None, text, plan.executable, mode, orig
+            ))
         return self._note(plan.path, action, found.data, text, orig)
 
     def _note(

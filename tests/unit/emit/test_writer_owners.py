@@ -101,3 +101,25 @@ def test_an_owner_outside_a_linked_root_is_found(tmp_path: Path) -> None:
     carry_out(plan(tmp_path / "out", always("A.ice", "1\n"), owner="../docs/A.idsl.yaml"))
     changes, _ = carry_out(plan(tmp_path / "out", always("B.ice", "1\n"), owner="B.idsl.yaml"))
     assert actions(changes, tmp_path / "out") == {"B.ice": "create"}
+
+
+def test_roots_in_each_other_share_a_file(tmp_path: Path) -> None:
+    """Such as a component in a workspace's own folder: the `slice/` of both is one."""
+    def compiled(text: str, *, inner: bool = True, outer: bool = True) -> list[str]:
+        plans = [plan(tmp_path / "slice", always("A.ice", text), owner="../a.idsl.yaml")] if inner else []
+        if outer:
+            plans.append(plan(tmp_path, always("slice/A.ice", text)))
+        _, said = carry_out(*plans)
+        return codes(said)
+
+    assert compiled("1\n") == []
+    for _ in range(2):  # one of them cannot be written for a while
+        assert compiled("2\n", outer=False) == compiled("3\n") == []
+        assert compiled("4\n", inner=False) == compiled("5\n") == []
+    _, said = carry_out(plan(tmp_path / "slice", always("A.ice", "5\n"), owner="../a.idsl.yaml"), plan(tmp_path))
+    assert not said
+    assert (tmp_path / "slice" / "A.ice").read_text() == "5\n"
+    assert compiled("5\n") == []
+    (tmp_path / "slice" / "A.ice").write_text("mine\n")
+    assert set(compiled("6\n")) == {"RC6004"}
+    assert [path.read_text() for path in (tmp_path / "slice").glob("*.orig")] == ["mine\n"]
