@@ -84,8 +84,8 @@ def _cannot_write(wanted: WantedRoot, path: str, reason: str) -> Diagnostic:
 class _Root:
     """The look at one root: each planned or known file meets what stands at its path.
 
-    Roots may lie in each other: a workspace's `slice/` is that of a component in the same folder, too. `planned` are the
-    files of all roots, each with its text and the innermost root that wants it, which writes it.
+    Roots may lie in each other: a workspace's `slice/` is that of a component in the same folder, too. `planned` are
+    the files of all roots, each with its text and the innermost root that wants it, which writes it.
     """
 
     def __init__(self, wanted: WantedRoot, adopt: bool, merges: Merges, planned: dict[str, tuple[str, str]]) -> None:
