@@ -9,7 +9,7 @@ from robocomp_yaml import resources
 from robocomp_yaml.emit import config, parameter_files
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
-from robocomp_yaml.emit.ports import assign
+from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.emit.targets import target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
@@ -42,7 +42,7 @@ def component_plan(
         written = os.path.lexists(os.path.join(root, CONFIG))
         table = assign([linked]) if written else options.ports(linked)
         plan.files += parameter_files.schemas(linked)
-        made = list(parameter_files.configs(linked, parameter_files.documents_of(linked, program), table))
+        made = list(_configs(linked, program, table))
         plan.files += made
         if all(file.path != CONFIG for file in made):
             plan.files.append(config.plan(linked, table))
@@ -59,8 +59,18 @@ def places(linked: LinkedComponent, workspace: Workspace, root: str) -> list[str
 
 def values_of(linked: LinkedComponent, program: Program) -> list[ValuesDocument]:
     """Every document that a component's `etc/config` is made of."""
-    documents = parameter_files.documents_of(linked, program)
-    return [layer.document for values in documents for layer in values.layers()]
+    if not program.values:
+        return []
+    from robocomp_yaml.emit.value_files import documents_of
+
+    return [layer.document for values in documents_of(linked, program) for layer in values.layers()]
+
+
+def _configs(linked: LinkedComponent, program: Program, table: Ports) -> Iterator[FilePlan]:
+    if program.values:
+        from robocomp_yaml.emit.value_files import configs, documents_of  # most components have no values
+
+        yield from configs(linked, documents_of(linked, program), table)
 
 
 def _component_root(path: str, options: Options) -> str:

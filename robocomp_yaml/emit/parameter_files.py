@@ -1,4 +1,4 @@
-"""What `compile` makes of parameters and values: `etc/config`, the schemas of values, and reference docs."""
+"""What `compile` makes of parameters alone: the schemas of their values, and reference docs."""
 
 from __future__ import annotations
 
@@ -6,18 +6,9 @@ import json
 import os
 from collections.abc import Iterator
 
-from robocomp_yaml.emit import config
-from robocomp_yaml.emit.parameter_docs import parameter_docs
-from robocomp_yaml.emit.plan import CONFIG, FilePlan
-from robocomp_yaml.emit.ports import Ports
-from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
-from robocomp_yaml.source.properties import read
-from robocomp_yaml.values.effective import effective
+from robocomp_yaml.emit.plan import FilePlan
+from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.values.json_schema import DOCUMENT, EFFECTIVE, document_schema
-from robocomp_yaml.values.new import new_document
-from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties
-from robocomp_yaml.values.property_text import property_text
-from robocomp_yaml.values.write import Property
 
 SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"
 DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
@@ -40,50 +31,11 @@ def docs(linked: LinkedComponent) -> Iterator[FilePlan]:
     """The reference of a component's parameters, and an example of their values."""
     if linked.parameters.document is None:
         return
+    from robocomp_yaml.emit.parameter_docs import parameter_docs
+    from robocomp_yaml.values.new import new_document
+
     where = os.path.basename(linked.component.path)
     example = new_document(linked.parameters.parameters, f"../{where}", "# An example: every parameter, and what it "
                            "may be. The first line of your own document names the schema beside this file.", [])
     yield FilePlan(DOCS, parameter_docs(linked))
     yield FilePlan(EXAMPLE, example)
-
-
-def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues]:
-    """The values documents that a component is configured from: `etc/config.yaml`, and those beside it that are
-    written to a legacy file of their own."""
-    folder = os.path.realpath(os.path.join(os.path.dirname(linked.component.path), "etc"))
-    found = [
-        values
-        for real, values in sorted(program.values.items())
-        if os.path.dirname(real) == folder
-        and values.parameters is not None
-        and values.parameters.component is linked
-        and (os.path.basename(real) == "config.yaml" or legacy_file(values))
-    ]
-    joined = {str(layer.value) for values in found for layer in values.document.extends}
-    # The first half of a pair is joined into the other half's file.
-    return [values for values in found if os.path.basename(values.document.path) not in joined]
-
-
-def configs(linked: LinkedComponent, documents: list[LinkedValues], table: Ports) -> Iterator[FilePlan]:
-    """The property files of a component; the documents have been found right."""
-    for values in documents:
-        found, _ = effective(values)
-        if found is None:
-            continue
-        sections, _ = properties(values, found)
-        if not legacy_file(values) and dialect(values) == CLASSIC:
-            sections = _with_connections(sections, linked, table)
-        path = f"etc/{os.path.basename(legacy_file(values))}" if legacy_file(values) else CONFIG
-        source = os.path.basename(values.document.path)
-        yield FilePlan(path, property_text(sections, linked.component.name, source))
-
-
-def _with_connections(sections: list[Section], linked: LinkedComponent, table: Ports) -> list[Section]:
-    """The defaults of endpoints and proxies that the document does not give: without them nothing would start."""
-    given = {made.key for section in sections for made in section.properties}
-    missing = [
-        Property(key, value)
-        for key, value in read(config.plan(linked, table).text).values.items()
-        if key not in given and (key.endswith((".Endpoints", "Proxy")) and not key.startswith("Ice."))
-    ]
-    return [Section("Where this component and the others are, by default", missing), *sections] if missing else sections

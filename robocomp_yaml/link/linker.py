@@ -77,7 +77,9 @@ class Linker:
 
     def _expanded(self, component: Component) -> LinkedComponent:
         """A component with what its options add."""
-        from robocomp_yaml.link import options  # interfaces alone have none
+        if not component.options:
+            return LinkedComponent(component)
+        from robocomp_yaml.link import options  # of legacy components
 
         model, diagnostics = options.expanded(component)
         self.diagnostics += diagnostics
