@@ -94,16 +94,20 @@ class Grid:
 
     def states(self, names: Iterable[str]) -> dict[str, tuple[str, int]]:
         """State and pid of each server; '' for one whose node does not answer, and one that there is not."""
-        asked = [(name, self._looks.getServerStateAsync(name), self._looks.getServerPidAsync(name)) for name in names]
-        found: dict[str, tuple[str, int]] = {}
-        for name, state, pid in asked:
-            try:
-                found[name] = (str(state.result()), pid.result())
-            except (IceGrid.NodeUnreachableException, IceGrid.ServerNotExistException, Ice.InvocationTimeoutException):
-                found[name] = ("", 0)
-            except Ice.Exception as error:
-                raise Unreachable(in_words(error)) from error
-        return found
+        asked = [(name, self._looks.getServerPidAsync(name)) for name in names]
+        pids = {name: self._answer(pid, -1) for name, pid in asked}
+        # What has a pid is active, or on its way there or back.
+        rest = {name: self._looks.getServerStateAsync(name) for name, pid in pids.items() if pid == 0}
+        states = {name: str(self._answer(state, "")) for name, state in rest.items()}
+        return {name: (states.get(name, "Active" if pid > 0 else ""), max(pid, 0)) for name, pid in pids.items()}
+
+    def _answer(self, future: Any, missing: Any) -> Any:
+        try:
+            return future.result()
+        except (IceGrid.NodeUnreachableException, IceGrid.ServerNotExistException, Ice.InvocationTimeoutException):
+            return missing
+        except Ice.Exception as error:
+            raise Unreachable(in_words(error)) from error
 
     def start(self, name: str) -> None:
         try:
