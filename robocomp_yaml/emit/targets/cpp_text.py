@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 WIDTH = 120
 IN = "    "
+_LITERAL_OR_MARK = re.compile(r""""(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|[][(){},]""", re.DOTALL)
 
 
 def comment(text: str, indent: str = "") -> str:
@@ -74,14 +76,10 @@ def _parts(inner: str) -> list[str]:
 
 
 def _outside_texts(code: str) -> Iterator[tuple[int, int, str]]:
-    """Each character that stands in no literal, with its place and how deep it is in brackets behind it."""
-    depth, at = 0, 0
-    while at < len(code):
-        char = code[at]
-        if char in "\"'":
-            at += 1
-            while code[at] != char:
-                at += 2 if code[at] == "\\" else 1
-        depth += (char in "([{") - (char in ")]}")
-        yield at, depth, char
-        at += 1
+    """Each bracket and comma that stands in no literal, with its place and how deep it is in brackets behind it."""
+    depth = 0
+    for found in _LITERAL_OR_MARK.finditer(code):
+        mark = found[0]
+        if len(mark) == 1:
+            depth += (mark in "([{") - (mark in ")]}")
+            yield found.start(), depth, mark
