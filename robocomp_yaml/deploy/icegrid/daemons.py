@@ -44,12 +44,23 @@ def start_registry(places: Places, registry: Registry) -> None:
 
 def end(folder: str) -> None:
     """Asks the daemon of this folder to end, with what would start it again."""
+    _signal(folder, "pid", f"{folder}/guard", signal.SIGTERM)
+
+
+def kill(folder: str) -> None:
+    """Kills the daemon of this folder, which does not end when it is asked, and what would start it again."""
+    _signal(folder, "pid", f"{folder}/guard", signal.SIGKILL)
+    _signal(folder, "program", f"--Ice.Config={folder}/settings", signal.SIGKILL)
+
+
+def _signal(folder: str, file_name: str, word: str, number: int) -> None:
+    """To the process whose number the file holds, if it still is the one with this word in its command."""
     try:
-        with open(f"{folder}/pid", encoding="ascii") as file:
+        with open(f"{folder}/{file_name}", encoding="ascii") as file:
             pid = int(file.read())
         with open(f"/proc/{pid}/cmdline", "rb") as file:
-            if os.fsencode(f"{folder}/guard") in file.read().split(b"\0"):
-                os.kill(pid, signal.SIGTERM)
+            if os.fsencode(word) in file.read().split(b"\0"):
+                os.kill(pid, number)
     except (OSError, ValueError):
         return
 

@@ -23,7 +23,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Host, Network
 
 _PATIENCE = 20.0  # seconds: far more than is needed, also where a machine is busy
-_ENDS_WITHIN = 15.0
+_ENDS_WITHIN, _REGISTRY_ENDS_WITHIN = 15.0, 3.0
 _RECONNECTS_WITHIN = 15.0  # seconds in which a node finds a registry that has come back
 _LOOK = 0.02
 
@@ -118,6 +118,9 @@ def _end_here(places: Places) -> None:
     nodes = [f"{places.root}/nodes/{host}" for host, is_ours in places.nodes().items() if is_ours]
     for folder in (*nodes, places.registry_folder):
         daemons.end(folder)
+    # The registry would wait for a host that is cut off.
+    if not _until(lambda: not daemons.is_alive(places.registry_folder), _REGISTRY_ENDS_WITHIN):
+        daemons.kill(places.registry_folder)
     _until(lambda: not any(map(daemons.is_alive, (*nodes, places.registry_folder))), _ENDS_WITHIN)
 
 
