@@ -12,6 +12,7 @@ from robocomp_yaml.legacy.draft import Draft, Reader
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.networks import command, endpoint
 from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+from robocomp_yaml.legacy.toml_tree import toml_tree
 
 _KEYS = {"name": "", "cwd": "cwd", "cmd": "program", "ice_name": "endpoints"}
 """The keys of a component, and those of the document that take their comments."""
@@ -20,15 +21,8 @@ _Pairs = dict[str, tuple[str, Tree[Token]]]
 
 
 def convert(reader: Reader) -> Draft | None:
-    tree = reader.parsed.tree
-    assert tree is not None
-    try:
-        tomllib.loads(reader.source.text)  # what the grammar does not judge: keys that stand twice
-    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        at = reader.source.span(0, 1)
-        reader.diagnostics.append(codes.SYNTAX.at(at, problem=f"this is no TOML: {error}", hint=""))
-        return None
-    return _Converter(reader).draft(tree)
+    tree = toml_tree(reader)
+    return None if tree is None else _Converter(reader).draft(tree)
 
 
 class _Converter:

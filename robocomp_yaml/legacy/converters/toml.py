@@ -6,27 +6,20 @@ import tomllib
 
 from lark import Token, Tree
 
-from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Map, Notes
 from robocomp_yaml.legacy.draft import Draft, Reader
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.settings import entries
 from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings
+from robocomp_yaml.legacy.toml_tree import toml_tree
 
 _Path = tuple[str, ...]
 
 
 def convert(reader: Reader) -> Draft | None:
     """The settings of a file, by their full paths."""
-    tree = reader.parsed.tree
-    assert tree is not None
-    try:
-        tomllib.loads(reader.source.text)  # what the grammar does not judge: keys that stand twice
-    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        at = reader.source.span(0, 1)
-        reader.diagnostics.append(codes.SYNTAX.at(at, problem=f"this is no TOML: {error}", hint=""))
-        return None
-    return _Converter(reader).draft(tree)
+    tree = toml_tree(reader)
+    return None if tree is None else _Converter(reader).draft(tree)
 
 
 class _Converter:
