@@ -7,11 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from editor.snippets import inserted
+from editor.proposals import assert_can_stand_there
 from editor.workbench import Workbench
 
 from robocomp_yaml import resources
-from robocomp_yaml.source import schema, tree
 
 D = "deployment: A\n"
 E = D + "components:\n  a:\n    component: b\n    "
@@ -190,12 +189,7 @@ HOVERS = [
 def test_a_deployment_is_completed(editor: Workbench, text: str, labels: list[str]) -> None:
     proposals = editor.complete("ddsl", text)
     assert [proposal.label for proposal in proposals] == labels
-    for proposal in proposals:
-        if "$" in proposal.text:
-            result = inserted(text, proposal.text)
-            root, said = tree.parse("new.yaml", result)
-            assert root is not None, (proposal, result, said)
-            assert [d.message for d in schema.validate("ddsl", root) if d.code != "RC0203"] == [], (proposal, result)
+    assert_can_stand_there("ddsl", text, proposals)
 
 
 def test_one_message_for_each_fault(editor: Workbench) -> None:

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import pytest
 from conftest import write_tree
-from editor.snippets import inserted
+from editor.proposals import assert_can_stand_there
 from editor.workbench import Workbench
 
 from robocomp_yaml.emit.parameter_files import SCHEMA, schemas
 from robocomp_yaml.pipeline import analyse
-from robocomp_yaml.source import schema, tree
 
 P = "parameters:\n"
 FORMS = ["number", "choice", "text", "list", "map"]
@@ -62,12 +61,7 @@ parameters:
 def test_a_pdsl_is_completed(editor: Workbench, text: str, labels: list[str]) -> None:
     proposals = editor.complete("pdsl", text)
     assert [proposal.label for proposal in proposals] == labels
-    for proposal in proposals:
-        if "$" in proposal.text:
-            result = inserted(text, proposal.text)
-            root, said = tree.parse("new.yaml", result)
-            assert root is not None, (proposal, result, said)
-            assert [d.message for d in schema.validate("pdsl", root) if d.code != "RC0203"] == [], (proposal, result)
+    assert_can_stand_there("pdsl", text, proposals)
 
 
 def test_one_message_for_each_fault(editor: Workbench) -> None:

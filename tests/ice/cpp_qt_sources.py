@@ -3,6 +3,7 @@ them, in three generations."""
 
 from __future__ import annotations
 
+from forms import FORM
 from scenario import INTERFACES, cdsl
 
 _ROBOCOMP = {"compatibility": "robocomp"}
@@ -23,19 +24,6 @@ DOCUMENTS = {
         "Bare", "cpp", implements=["Arm"], requires=["Hand"], subscribes=["ArmEvents"], **_ROBOCOMP
     ),
 }
-
-FORM = """\
-<?xml version="1.0" encoding="UTF-8"?>
-<ui version="4.0">
- <class>guiDlg</class>
- <widget class="{base}" name="guiDlg">
-  <widget class="QWidget" name="inner">
-   <widget class="QLabel" name="label"><property name="text"><string>none</string></property></widget>
-   <widget class="QPushButton" name="button"/>
-  </widget>
- </widget>
-</ui>
-"""
 
 WINDOW_H = """
 #pragma once

@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 from components import Build
 from cpp_programs import cmake, in_all_builds, needs_cpp, needs_qt
+from forms import FORM
 from processes import Running, Start
 from scenario import INTERFACES, cdsl
-from test_python_gui import FORM, OFFSCREEN
+from test_python_gui import OFFSCREEN
 
 KEYS: dict[str, Any] = {
     "gui": {"toolkit": "qt", "base": "QDialog"},

@@ -9,23 +9,11 @@ from typing import Any
 
 import pytest
 from components import Build, Built
-from processes import Ports, Start, until
+from forms import FORM
+from processes import Ports, Start
 from scenario import INTERFACES, cdsl
 
 BASES = ["QWidget", "QMainWindow", "QDialog"]
-FORM = """\
-<?xml version="1.0" encoding="UTF-8"?>
-<ui version="4.0">
- <class>guiDlg</class>
- <widget class="{base}" name="guiDlg">
-  <widget class="QWidget" name="inner">
-   <widget class="QLabel" name="label"><property name="text"><string>none</string></property></widget>
-   <widget class="QPushButton" name="button"/>
-  </widget>
- </widget>
-</ui>
-"""
-
 WORKER = """
 import threading
 import time
