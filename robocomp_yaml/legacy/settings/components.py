@@ -49,7 +49,6 @@ def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, e
         first = first_half(file.path)
         after = first if first in by_path else ""
         config = Config(file.path, source, rules, sort(draft.settings, component.ports, rules))
-        entry.diagnostics += config.sorted.diagnostics
         configs.append(config)
         folder = os.path.dirname(chosen[file.path]) or "."
         links[file.path] = Links(
@@ -63,6 +62,7 @@ def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, e
     for plan in planned:
         _tell(plan, entries)
     for config in configs:
+        entries[config.name].diagnostics += config.sorted.diagnostics
         draft = entries[config.name].file.draft
         assert draft is not None
         draft.document = values_document(config, planned, links[config.name], exact=exact)

@@ -73,8 +73,12 @@ class Sorted:
             self.proxies.append(Named(free(setting.key.replace(_OWN, "x_", 1), taken), setting, setting.key))
 
     def keep(self, setting: Setting) -> None:
-        """A property that no section has a place for."""
-        self.properties.append(Named(setting.key, setting))
+        """A property that no section has a place for. A list or a table, which TOML may give, can be none."""
+        if isinstance(setting.value, Leaf):
+            self.properties.append(Named(setting.key, setting))
+        else:
+            what = f"only texts and numbers can stand here, so '{setting.key}' is left out"
+            self.diagnostics.append(codes.LOST.at(setting.span, what=what))
 
 
 def sort(settings: Settings, ports: Ports, rules: Rules) -> Sorted:
@@ -82,8 +86,7 @@ def sort(settings: Settings, ports: Ports, rules: Rules) -> Sorted:
     for setting in settings.settings:
         if not isinstance(setting.value, Leaf):
             if rules.sections["service"].match(f"{setting.key}.") or len(setting.path) > MAX_DEPTH:
-                what = f"only texts and numbers can stand here, so '{setting.key}' is left out"
-                found.diagnostics.append(codes.LOST.at(setting.span, what=what))
+                found.keep(setting)
             else:
                 found.parameters.append(setting)
         elif settings.dialect == CLASSIC:
