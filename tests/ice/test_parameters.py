@@ -216,14 +216,37 @@ def test_it_does_not_start_with_wrong_values(component: Component, start: Start,
     running = component.run(start, option)
     assert running.exit_code() == 1
     (line,) = running.output.splitlines()
-    assert line.endswith(f"ERROR ParaComp: {component.config}: {said}")
+    assert line.endswith(f"ERROR ParaComp: {option.partition('=')[0]} on the command line: {said}")
+
+
+def test_file_and_options_are_told_apart(component: Component, start: Start) -> None:
+    component.write(basicPeriod="2000", Arm_M0="a,-1,1,.5")
+    running = component.run(start, "--motors.0.vel=9", "--mode=fast")
+    assert running.exit_code() == 1
+    said = "basicPeriod is 2000 ms, and must be from 1 to 1000 ms; motors[0].vel is 9 rad/s, and must be from 0 to 2"
+    where = f"{component.config} and --motors.0.vel on the command line"
+    assert f"2 parameters cannot be as given by {where}: {said} rad/s\n" in running.output
+
+
+def test_a_file_that_is_wrong_by_itself(component: Component, start: Start) -> None:
+    component.write(basicPeriod="2000")
+    running = component.run(start, "--mode=fast")
+    assert running.exit_code() == 1
+    assert f"ParaComp: {component.config}: basicPeriod is 2000 ms" in running.output
+
+
+def test_options_that_do_not_fit_together(component: Component, start: Start) -> None:
+    running = component.run(start, "--motors.0.min=2", "--motors.0.max=1.5", "--mode=fast")
+    assert running.exit_code() == 1
+    assert "ParaComp: --motors.0.min on the command line: a motor's min must be below its max" in running.output
 
 
 def test_a_misspelled_property_is_told_of(component: Component, start: Start) -> None:
     component.write(motors_0_speed="1", offsets_z="1", other_thing="1")
-    running = component.run(start).wait_for("ParaComp is running")
+    running = component.run(start, "--motors.0.velo=1").wait_for("ParaComp is running")
     for key in ("motors.0.speed", "offsets.z"):
         running.wait_for(f"WARNING ParaComp: {component.config}: there is no parameter '{key}'")
+    running.wait_for("WARNING ParaComp: --motors.0.velo on the command line: there is no parameter 'motors.0.velo'")
     assert "other.thing" not in running.output
 
 

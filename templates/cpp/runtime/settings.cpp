@@ -26,30 +26,51 @@ std::string shown(const std::filesystem::path& file)
     return relative.empty() || relative.compare(0, 2, "..") == 0 ? file.string() : relative;
 }
 
-}
-
-Settings::Settings(const CommandLine& commandLine) : files_(commandLine.files), properties_(Ice::createProperties())
+/// `--KEY=VALUE`, taken as it stands: Ice's own reader would end the value at a `#`.
+std::map<std::string, std::string> read(const std::vector<std::string>& options)
 {
-    for (const auto& file : files_)
+    std::map<std::string, std::string> found;
+    for (const auto& option : options)
     {
-        load(file);
-    }
-    for (const auto& option : commandLine.properties)
-    {
-        // `--KEY=VALUE`, taken as it stands: Ice's own reader would end the value at a `#`.
         const auto equals = std::min(option.find('='), option.size());
         const auto key = trimmed(option.substr(2, equals - 2));
         if (key.empty())
         {
             throw StartError(option + " names no property");
         }
-        overrides_[key] = equals < option.size() ? option.substr(equals + 1) : "1";
-        properties_->setProperty(key, overrides_[key]);
+        found[key] = equals < option.size() ? option.substr(equals + 1) : "1";
+    }
+    return found;
+}
+
+}
+
+Settings::Settings(const CommandLine& commandLine) : Settings(commandLine.files, read(commandLine.properties))
+{
+}
+
+Settings::Settings(const std::vector<std::filesystem::path>& files, std::map<std::string, std::string> overrides)
+    : files_(files), properties_(Ice::createProperties()), overrides_(std::move(overrides))
+{
+    for (const auto& file : files_)
+    {
+        load(file);
+    }
+    for (const auto& [key, value] : overrides_)
+    {
+        properties_->setProperty(key, value);
     }
     for (const auto& [key, value] : properties_->getPropertiesForPrefix("Ice."))
     {
         properties_->setProperty(key, unquoted(value));
     }
+}
+
+Settings Settings::without(const std::string& option) const
+{
+    auto others = overrides_;
+    others.erase(option);
+    return Settings(files_, std::move(others));
 }
 
 void Settings::load(const std::filesystem::path& file)
@@ -147,6 +168,11 @@ std::string Settings::where() const
         result += (result.empty() ? "" : " or ") + shown(file);
     }
     return result;
+}
+
+std::string Settings::source(const std::string& key) const
+{
+    return overrides_.count(key) != 0 ? "--" + key + " on the command line" : where();
 }
 
 const std::shared_ptr<Ice::Properties>& Settings::properties() const

@@ -27,6 +27,9 @@ public:
 
     explicit Settings(const CommandLine& commandLine);
 
+    /// The same files, but for an option of the command line.
+    Settings without(const std::string& option) const;
+
     /// The value of the first of the keys that is set, or an empty one.
     std::string first(Keys keys) const;
 
@@ -42,9 +45,13 @@ public:
     /// The config file, for messages.
     std::string where() const;
 
+    /// Where a property comes from, for messages.
+    std::string source(const std::string& key) const;
+
     const std::shared_ptr<Ice::Properties>& properties() const;
 
 private:
+    Settings(const std::vector<std::filesystem::path>& files, std::map<std::string, std::string> overrides);
     void load(const std::filesystem::path& file);
     static void checkText(const std::filesystem::path& file);
 

@@ -38,40 +38,53 @@ Store::Store(Table table) : table_(std::move(table))
 {
 }
 
-void Store::load(Texts properties, const Texts& overrides)
+void Store::load(const Texts& properties, const Texts& overrides)
 {
     {
         const std::lock_guard lock(mutex_);
-        const auto robocomp = properties.find("Period.Compute"); // RoboComp's own spelling
-        if (robocomp != properties.end())
-        {
-            properties.emplace("period.compute", robocomp->second);
-        }
-        Reader reader(properties, table_.spellings);
-        auto read = reader.read(table_.kind);
-        std::set<std::string> used = reader.used();
-        for (const auto& [key, text] : overrides)
-        {
-            const auto steps = parsePath(key);
-            const auto* kind = kindAt(table_.kind, steps);
-            if (used.count(key) == 0 && !steps.empty() && kind != nullptr && kind->isPlain())
-            {
-                put(table_.kind, read, steps, resolved(text));
-                used.insert(key);
-            }
-        }
-        Taking taking;
-        taking.isText = true;
-        auto made = table_.kind.take(read, {}, taking);
-        replace(std::move(made), std::move(taking));
+        auto found = read(properties, overrides);
+        replace(std::move(found.values), std::move(found.taking));
         isLoaded_ = true;
-        for (const auto& key : used)
-        {
-            properties.erase(key);
-        }
-        others_ = std::move(properties);
+        others_ = std::move(found.others);
     }
     tell();
+}
+
+std::vector<Problem> Store::problems(const Texts& properties, const Texts& overrides) const
+{
+    const auto found = read(properties, overrides);
+    return found.taking.problems.empty() ? broken(found.values) : found.taking.problems;
+}
+
+Store::Found Store::read(Texts properties, const Texts& overrides) const
+{
+    const auto robocomp = properties.find("Period.Compute"); // RoboComp's own spelling
+    if (robocomp != properties.end())
+    {
+        properties.emplace("period.compute", robocomp->second);
+    }
+    Reader reader(properties, table_.spellings);
+    auto read = reader.read(table_.kind);
+    std::set<std::string> used = reader.used();
+    for (const auto& [key, text] : overrides)
+    {
+        const auto steps = parsePath(key);
+        const auto* kind = kindAt(table_.kind, steps);
+        if (used.count(key) == 0 && !steps.empty() && kind != nullptr && kind->isPlain())
+        {
+            put(table_.kind, read, steps, resolved(text));
+            used.insert(key);
+        }
+    }
+    Found found;
+    found.taking.isText = true;
+    found.values = table_.kind.take(read, {}, found.taking);
+    for (const auto& key : used)
+    {
+        properties.erase(key);
+    }
+    found.others = std::move(properties);
+    return found;
 }
 
 void Store::change(const std::map<std::string, Value>& values)

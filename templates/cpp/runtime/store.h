@@ -54,7 +54,10 @@ public:
 
     /// Takes the values from properties, at the start or once more. `overrides` are of the command line; they are
     /// paths, whatever the table says. Throws ParameterError.
-    void load(Texts properties, const Texts& overrides);
+    void load(const Texts& properties, const Texts& overrides);
+
+    /// What is wrong with values that a component would start with.
+    std::vector<Problem> problems(const Texts& properties, const Texts& overrides) const;
 
     /// Sets several values by their paths: all of them, or none and ParameterError.
     void change(const std::map<std::string, Value>& values);
@@ -83,6 +86,14 @@ public:
     int number(const std::string& path, int otherwise) const;
 
 private:
+    struct Found
+    {
+        Value values;
+        Taking taking;
+        Texts others;
+    };
+
+    Found read(Texts properties, const Texts& overrides) const;
     void replace(Value made, Taking taking);
     std::vector<Problem> broken(const Value& made) const;
     void tell();

@@ -126,7 +126,7 @@ class Application:
         component = self._component
         ports = (*component.implements, *component.requires, *component.publishes, *component.subscribes)
         for key in configuration.misspelled(self._store, [port.name for port in ports]):
-            self._log.warning("%s: there is no parameter '%s'", self._settings.where, key)
+            self._log.warning("%s: there is no parameter '%s'", self._settings.source(key), key)
 
     def _serve_common_behavior(self) -> commonbehavior.Behavior | None:
         """Unless the config has no endpoint for it, or the component implements it itself."""

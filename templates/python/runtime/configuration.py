@@ -11,15 +11,15 @@ from generated.runtime.parameters import Store, Table
 from generated.runtime.plain import Plain
 from generated.runtime.problems import ParameterError
 from generated.runtime.schedule import Schedule
-from generated.runtime.settings import Settings
+from generated.runtime.settings import Settings, on_the_command_line
 
 
 def load(table: Table, settings: Settings) -> Store:
     """Raises StartError with all that is wrong."""
     try:
-        return Store(table, settings.parameters(), settings.overrides)
+        return _store(table, settings)
     except ParameterError as error:
-        raise StartError(in_words(error, settings)) from None
+        raise StartError(_in_words(error, table, settings)) from None
 
 
 def reload(store: Store, settings: Settings) -> None:
@@ -27,13 +27,36 @@ def reload(store: Store, settings: Settings) -> None:
     try:
         store.reload(settings.parameters(), settings.overrides)
     except ParameterError as error:
-        raise StartError(in_words(error, settings)) from None
+        raise StartError(_in_words(error, store.table, settings)) from None
 
 
-def in_words(error: ParameterError, settings: Settings) -> str:
+def _store(table: Table, settings: Settings) -> Store:
+    return Store(table, settings.parameters(), settings.overrides)
+
+
+def _in_words(error: ParameterError, table: Table, settings: Settings) -> str:
+    """All problems, and whether the file or options of the command line are to blame for them."""
+    wrong = {problem.message for problem in error.problems}
+    by_options: dict[str, set[str]] = {}
+    for key in settings.overrides:
+        blamed = wrong & (_messages(table, settings) - _messages(table, settings.without(key)))
+        if blamed:
+            by_options[key] = blamed
+    sources = [settings.where] if wrong.difference(*by_options.values()) else []
+    if by_options:
+        sources.append(on_the_command_line(list(by_options)))
     if len(error.problems) == 1:
-        return f"{settings.where}: {error}"
-    return f"{len(error.problems)} parameters cannot be as {settings.where} says: {error}"
+        return f"{sources[0]}: {error}"
+    return f"{len(error.problems)} parameters cannot be as given by {' and '.join(sources)}: {error}"
+
+
+def _messages(table: Table, settings: Settings) -> set[str]:
+    """What is wrong with values that a component would start with."""
+    try:
+        _store(table, settings)
+    except ParameterError as error:
+        return {problem.message for problem in error.problems}
+    return set()
 
 
 def misspelled(store: Store, ports: Iterable[str]) -> Iterator[str]:

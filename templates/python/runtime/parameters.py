@@ -90,7 +90,7 @@ class Store:
 
     def __init__(self, table: Table, properties: Mapping[str, str], overrides: Mapping[str, str]) -> None:
         self.kind = Recording(table.values)
-        self._table = table
+        self.table = table
         self._lock = threading.Lock()
         self._listeners: list[Listener] = []
         self._news: deque[Change] = deque()
@@ -163,7 +163,7 @@ class Store:
         paths, whatever the table says."""
         if "period.compute" not in properties and "Period.Compute" in properties:  # RoboComp's own spelling
             properties = {**properties, "period.compute": properties["Period.Compute"]}
-        reader = Reader(properties, self._table.spellings)
+        reader = Reader(properties, self.table.spellings)
         read = reader.read(self.kind)
         for key, text in overrides.items():
             steps = _steps(key)
@@ -180,7 +180,7 @@ class Store:
     def _broken(self, made: Any) -> Iterable[Problem]:
         return [
             Problem("", constraint.otherwise, wanted=constraint.text)
-            for constraint in self._table.constraints
+            for constraint in self.table.constraints
             if not constraint.holds(made)
         ]
 

@@ -46,6 +46,15 @@ class Settings:
         """The config file, for messages."""
         return " or ".join(shown(file) for file in self._files)
 
+    def source(self, key: str) -> str:
+        """Where a property comes from, for messages."""
+        return on_the_command_line([key]) if key in self.overrides else self.where
+
+    def without(self, option: str) -> Settings:
+        """The same files, but for an option of the command line."""
+        others = [argument for argument in self._arguments if _option(argument)[0] != option]
+        return Settings(self._files, others)
+
     def first(self, *keys: str) -> str:
         """The value of the first of the keys that is set, or ''."""
         for key in keys:
@@ -84,6 +93,11 @@ class Settings:
         """All properties but Ice's own."""
         every = self.properties.getPropertiesForPrefix("")
         return {key: value for key, value in sorted(every.items()) if not key.startswith("Ice.")}
+
+
+def on_the_command_line(options: Sequence[str]) -> str:
+    """Options by the keys of their properties, for messages."""
+    return f"{' and '.join(f'--{key}' for key in options)} on the command line"
 
 
 def _option(argument: str) -> tuple[str, str]:
