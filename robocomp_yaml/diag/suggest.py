@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 
 
 def suggest(word: str, candidates: Iterable[str]) -> str | None:
@@ -19,3 +19,14 @@ def suggest(word: str, candidates: Iterable[str]) -> str | None:
     folded = {candidate.lower(): candidate for candidate in known}
     near = get_close_matches(word.lower(), folded, n=1, cutoff=0.7)
     return folded[near[0]] if near else None
+
+
+def hint_for_key(word: str, known: Iterable[str], given: Container[str]) -> str:
+    """What to say of a key that means nothing: which one was meant, perhaps beside it, or which there can be."""
+    known = list(known)
+    free = [key for key in known if key not in given]
+    if meant := suggest(word, free):
+        return f"did you mean '{meant}'?"
+    if meant := suggest(word, (key for key in known if key in given)):
+        return f"'{meant}' is there already"
+    return f"there can be: {', '.join(free[:20])}" if free else ""

@@ -102,21 +102,16 @@ def _explain(
 def _unknown_key(
     whole: dict[str, Any], node: Mapping, place: Path[str | int], path: list[str | int], unknown: str
 ) -> Diagnostic:
-    from robocomp_yaml.diag.suggest import suggest
+    from robocomp_yaml.diag.suggest import hint_for_key
 
     key = node.entries[unknown][0]
     around = _subschema(whole, path[:-1])
     if not isinstance(around, dict):
         around = {}
     named = [p for p in around.get("patternProperties", {}) if not p.startswith("^x-")]
-    known = [k for k in around.get("properties", {}) if k not in node.entries]
     if named and not around.get("properties"):
         return codes.WRONG_NAME.at(key.span, name=unknown, hint=_name_hint(unknown))
-    meant = suggest(unknown, known)
-    if meant:
-        hint = f"did you mean '{meant}'?"
-    else:
-        hint = f"there can be: {', '.join(known)}" if known else ""
+    hint = hint_for_key(unknown, around.get("properties", {}), node.entries)
     return codes.UNKNOWN_KEY.at(key.span, key=unknown, where=_where(place, None, node), hint=hint)
 
 

@@ -10,7 +10,7 @@ from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import hint_for_key, suggest
 from robocomp_yaml.model.parameters import (
     LIMITS,
     BasicType,
@@ -236,9 +236,7 @@ def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scal
 
 
 def unknown(name: Scalar, type_: RecordType, path: Path, node: Mapping) -> Diagnostic:
-    known = [member.name for member in type_.members if member.name not in node.entries]
-    meant = suggest(name.lexeme, known)
-    hint = f"did you mean '{meant}'?" if meant else f"there can be: {', '.join(known[:20])}" if known else ""
+    hint = hint_for_key(name.lexeme, (member.name for member in type_.members), node.entries)
     return codes.UNKNOWN_PARAMETER.at(name.span, path=in_words((*path, name.lexeme)), hint=hint)
 
 

@@ -75,6 +75,7 @@ def test_what_extends_nothing_is_told_once(tmp_path: Path) -> None:
     ("offsets: {a: 1, b: 2, c: 3}", "5:12 RC3305 offsets has 3 entries, and must have at most 2"),
     ("offsets: {a b: x}", "5:18 RC3302 offsets[\"a b\"] must be a number, and is the text 'x'"),
     ("volum: 1", "5:3 RC3301 there is no parameter 'volum' (did you mean 'volume'?)"),
+    ("volume: 1\n  volumee: 1", "6:3 RC3301 there is no parameter 'volumee' ('volume' is there already)"),
     ("period: {compute: 0}", "5:21 RC3303 period.compute is 0 ms, and must be at least 1 ms"),
 ])
 def test_one_fault(tmp_path: Path, line: str, fault: str) -> None:
