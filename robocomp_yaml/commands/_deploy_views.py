@@ -55,7 +55,7 @@ def result_text(network: Network, result: Result) -> str:
         return f"{network.name}: nothing to do, {_count(len(result.plan.steps))} as wanted"
     if not result.diagnostics:
         return f"{network.name}: {_count(len(result.plan.of(START, RESTART, CHANGE, KEEP)))} as wanted"
-    if not result.outcome.failed:
+    if not result.undone:
         return f"{network.name}: nothing was touched"
     after = {ROLL_BACK: "back to what ran before", KEEP_GOING: "what was started was kept"}
     return f"{network.name}: failed; {after.get(result.undone, 'what was started was stopped')}"

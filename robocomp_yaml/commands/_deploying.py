@@ -20,6 +20,7 @@ from robocomp_yaml.deploy import folder, operations
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Engine
 from robocomp_yaml.deploy.engines import make_engine
+from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.render import render
@@ -76,7 +77,7 @@ def _document(path: str) -> str:
     if len(found) != 1:
         what = ", ".join(found) or "none: `rcyaml new deployment NAME` writes one"
         raise click.UsageError(f"'{path}' is to have one deployment document; it has {what}")
-    return os.path.join(path, found[0])
+    return os.path.normpath(os.path.join(path, found[0]))
 
 
 def chosen(network: Network, names: Iterable[str]) -> set[str]:
@@ -117,9 +118,9 @@ def plan(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
 
 def up(
     ctx: click.Context, opened: Opened, names: tuple[str, ...], forced: Collection[str], on_failure: str,
-    *, attach: bool = False,
+    timeout: float | None, *, attach: bool = False,
 ) -> None:  # fmt: skip
-    wanted = chosen(opened.network, names)
+    wanted, limit = chosen(opened.network, names), TimeLimit(timeout)
     is_asked = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and opened.format_ == "text"
     progress = Progress(opened.format_ == "text" and ctx.obj.verbosity >= 0, _options.colored(ctx), opened.enabled)
 
@@ -138,8 +139,9 @@ def up(
         await opened.engine.open(opened.network, create=True)
         async with attached(ctx, opened, attach) as follow, progress:
             result = await operations.up(
-                opened.engine, opened.network, wanted, forced, choose, progress.report, keep_going=on_failure == "keep"
-            )
+                opened.engine, opened.network, wanted, forced, choose, progress.report,
+                keep_going=on_failure == "keep", limit=limit,
+            )  # fmt: skip
             opened.told += result.diagnostics
             progress.pause()
             if attach and not result.diagnostics:

@@ -28,6 +28,24 @@ engine = click.option("--engine", type=click.Choice(["local", "icegrid"]),
 names = click.argument("names", nargs=-1, metavar="[NAME]...")
 
 
+class _Duration(click.ParamType):
+    """A length of time with its unit, as in documents."""
+
+    name = "time"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        from robocomp_yaml.model.build_component import duration
+
+        seconds = value if isinstance(value, float) else duration(value)
+        if not seconds:
+            self.fail(f"'{value}' is no length of time, such as 30s or 2min", param, ctx)
+        return seconds
+
+
+timeout = click.option("--timeout", type=_Duration(), metavar="TIME",
+                       help="How long it may take, all in all: 30s, 2min.")  # fmt: skip
+
+
 @click.group(short_help="A network of components: plan, up, status, logs, down.")
 def command() -> None:
     """Deploy the network that a document (NAME.ddsl.yaml) describes.
@@ -55,16 +73,17 @@ def plan(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | No
 @engine
 @click.option("--on-failure", type=click.Choice(["ask", "stop", "rollback", "keep"]), default="ask",
               help="What becomes of what was started when a process fails; asked on a terminal, else stop.")
+@timeout
 @click.option("--attach", is_flag=True, help="Stay, show what they print, and take them down at the end.")
 @click.pass_context
-def up(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, on_failure: str, attach: bool,
-       include: tuple[str, ...], format_: str) -> None:  # fmt: skip
+def up(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, on_failure: str,
+       timeout: float | None, attach: bool, include: tuple[str, ...], format_: str) -> None:  # fmt: skip
     """Bring the network about: start each process when all that it needs are ready, restart what changed, stop what is
     no longer part of it. NAMEs limit it to some, with all that they need."""
     from robocomp_yaml.commands import _deploying
 
     opened = _deploying.open_(ctx, ddsl, include, format_, engine)
-    _deploying.up(ctx, opened, names, (), on_failure, attach=attach)
+    _deploying.up(ctx, opened, names, (), on_failure, timeout, attach=attach)
 
 
 @command.command(short_help="How the processes are.")
@@ -104,14 +123,16 @@ def logs(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | No
 @engine
 @click.option("--on-failure", type=click.Choice(["ask", "stop", "rollback", "keep"]), default="ask",
               help="What becomes of those that were restarted when one fails.")
+@timeout
 @click.pass_context
 def restart(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, on_failure: str,
-            include: tuple[str, ...], format_: str) -> None:  # fmt: skip
+            timeout: float | None, include: tuple[str, ...], format_: str) -> None:  # fmt: skip
     """Restart the processes NAME (without: all), as the document describes them now."""
     from robocomp_yaml.commands import _deploying
 
     opened = _deploying.open_(ctx, ddsl, include, format_, engine)
-    _deploying.up(ctx, opened, names, _deploying.chosen(opened.network, names) or opened.enabled, on_failure)
+    forced = _deploying.chosen(opened.network, names) or opened.enabled
+    _deploying.up(ctx, opened, names, forced, on_failure, timeout)
 
 
 @command.command(short_help="Take it down, in reverse order.")

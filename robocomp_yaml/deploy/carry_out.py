@@ -10,7 +10,9 @@ from dataclasses import dataclass, field
 
 from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step, in_order
-from robocomp_yaml.deploy.readiness import holds, until_ready
+from robocomp_yaml.deploy.readiness import holds, until_ready, why_not
+from robocomp_yaml.deploy.time_limit import TimeLimit
+from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
 STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
@@ -31,11 +33,14 @@ class Event:
 @dataclass(slots=True)
 class Outcome:
     """`began` are the processes that were started, ready or not; `failed` why some are not ready; `skipped` are those
-    that were not tried because of these."""
+    that were not tried because of these, or because the time was over (`is_late`): then `late` are those of the failed
+    that were still waited for."""
 
     began: list[str] = field(default_factory=list)
     failed: dict[str, Diagnostic] = field(default_factory=dict)
     skipped: list[str] = field(default_factory=list)
+    is_late: bool = False
+    late: list[str] = field(default_factory=list)
 
 
 Report = Callable[[Event], None]
@@ -69,16 +74,19 @@ class Watch:
         self._until = 0.0
 
 
-async def carry_out(engine: Engine, plan: Plan, report: Report, *, keep_going: bool) -> Outcome:
+async def carry_out(
+    engine: Engine, plan: Plan, report: Report, *, keep_going: bool, limit: TimeLimit | None = None
+) -> Outcome:  # fmt: skip
     """Does what the plan says. Where a process that is started fails, nothing more is, or, with `keep_going`, only what
-    depends on it is not; the latter holds also where one that ran already is not ready."""
+    depends on it is not; the latter holds also where one that ran already is not ready. When the time is over, nothing
+    more is started, and what is not ready has failed."""
     leaving = plan.of(STOP, RESTART) + [step for step in plan.of(START) if _is_in_the_way(step)]
     await stop_all(engine, [step.running for step in leaving if step.running], report)
     if gone := [step.name for step in plan.of(STOP)]:
         await engine.forget(gone)
     if specs := [step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec]:
         await engine.prepare(specs)
-    starts = _Starts(engine, plan, report, keep_going)
+    starts = _Starts(engine, plan, report, keep_going, limit or TimeLimit())
     return await starts.run()
 
 
@@ -113,10 +121,12 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
 class _Starts:
     """The starts of one plan under way."""
 
-    def __init__(self, engine: Engine, plan: Plan, report: Report, keep_going: bool) -> None:
-        self._engine, self._plan, self._report, self._keep_going = engine, plan, report, keep_going
+    def __init__(self, engine: Engine, plan: Plan, report: Report, keep_going: bool, limit: TimeLimit) -> None:
+        self._engine, self._plan, self._report = engine, plan, report
+        self._keep_going, self._limit = keep_going, limit
         self._outcome = Outcome()
         self._watch = Watch(engine)
+        self._since: dict[str, float] = {}  # when it began to be waited for; those of which it is not known how it ends
         self._tasks: dict[str, asyncio.Task[bool]] = {}
         self._order = in_order({step.name: _after(step) for step in plan.of(START, RESTART, CHANGE, KEEP)})
 
@@ -132,7 +142,12 @@ class _Starts:
                     self._tasks[step.name] = asyncio.create_task(self._wait_for(step))
             pending = set(self._tasks.values())
             while pending:
-                done, pending = await asyncio.wait(pending, return_when=asyncio.FIRST_COMPLETED)
+                if self._limit.is_over:
+                    self._outcome.is_late = True
+                    break
+                done, pending = await asyncio.wait(
+                    pending, timeout=self._limit.left, return_when=asyncio.FIRST_COMPLETED
+                )
                 for task in done:
                     if not task.cancelled():
                         task.result()
@@ -140,6 +155,10 @@ class _Starts:
                     break
         finally:
             await _cancel(self._tasks.values())
+        if self._outcome.is_late:
+            self._outcome.late = [*self._since]
+            for name in self._outcome.late:
+                await self._is_late(self._plan.steps[name])
         tried = {*self._outcome.began, *self._outcome.failed}
         self._outcome.skipped = [step.name for step in self._plan.of(START, RESTART) if step.name not in tried]
         for name in self._outcome.skipped:
@@ -151,35 +170,48 @@ class _Starts:
         if before and not all(await asyncio.gather(*(asyncio.shield(task) for task in before))):
             return False
         self._report(Event(step.name, STARTING))
-        return await self._ends_ready(step, time.monotonic(), self._begin)
+        return await self._ends_ready(step, self._begin)
 
     async def _wait_for(self, step: Step) -> bool:
         """Waits for a process that runs already: as a rule it answers at once."""
-        return await self._ends_ready(step, time.monotonic(), None)
+        return await self._ends_ready(step, None)
 
     async def _begin(self, name: str) -> None:
         self._outcome.began.append(name)
         await self._engine.start(name)
         self._watch.forget()
 
-    async def _ends_ready(
-        self, step: Step, began: float, begin: Callable[[str], Awaitable[None]] | None
-    ) -> bool:  # fmt: skip
+    async def _ends_ready(self, step: Step, begin: Callable[[str], Awaitable[None]] | None) -> bool:
         assert step.spec
+        self._since[step.name] = time.monotonic()
         try:
             async with aclosing(await self._engine.lines([step.name], 0, True)) as lines:
                 if begin:
                     await begin(step.name)
-                elif step.running and await holds(self._engine, step.spec, step.running):
-                    return True
-                await until_ready(self._engine, step.spec, lines, self._watch.of(step.name))
+                if begin or not (step.running and await holds(self._engine, step.spec, step.running)):
+                    await until_ready(self._engine, step.spec, lines, self._watch.of(step.name))
         except DeployFailed as error:
-            self._outcome.failed[step.name] = error.diagnostic
-            self._report(Event(step.name, FAILED, error.diagnostic.message, time.monotonic() - began))
+            self._fail(step.name, error.diagnostic)
             return False
+        took = self._took(step.name)
         if begin:
-            self._report(Event(step.name, READY, seconds=time.monotonic() - began))
+            self._report(Event(step.name, READY, seconds=took))
         return True
+
+    async def _is_late(self, step: Step) -> None:
+        """It was still waited for when the time was over."""
+        assert step.spec
+        why = why_not(step.spec, await self._watch.of(step.name)())
+        where = step.spec.process.span
+        self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=self._limit, why=why))
+
+    def _fail(self, name: str, found: Diagnostic) -> None:
+        self._outcome.failed[name] = found
+        self._report(Event(name, FAILED, found.message, self._took(name)))
+
+    def _took(self, name: str) -> float:
+        """The seconds for which it was waited for, which is over."""
+        return time.monotonic() - self._since.pop(name)
 
 
 def _after(step: Step) -> tuple[str, ...]:
@@ -194,13 +226,14 @@ async def _cancel(tasks: Iterable[asyncio.Task[bool]]) -> None:
 
 
 def undo(plan: Plan, before: Mapping[str, Running], now: Mapping[str, Running]) -> Plan:
-    """The plan back to what ran before this plan was carried out, wholly or in part."""
+    """The plan back to what ran before this plan was carried out, wholly or in part. What was not touched is not waited
+    for either."""
     steps: dict[str, Step] = {}
     for name, step in plan.steps.items():
-        spec = before[name].spec if name in before and before[name].state in (RUNNING, WAITING) else None
         if step.action == KEEP:
-            steps[name] = step
-        elif spec is None:
+            continue
+        spec = before[name].spec if name in before and before[name].state in (RUNNING, WAITING) else None
+        if spec is None:
             if name in now:
                 steps[name] = Step(name, STOP, "it did not run before", running=now[name])
         else:

@@ -10,16 +10,18 @@ from dataclasses import dataclass, field, replace
 
 from robocomp_yaml.deploy.carry_out import Outcome, Report, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Engine, Running
-from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, plan, with_dependents
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.deploy.time_limit import TimeLimit
+from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Network
 
 STOP_THEM, ROLL_BACK, KEEP_GOING = "stop", "rollback", "keep"
 
 SHOWN_LINES = 10
 """Lines of a log that are shown with what failed."""
-
 
 
 @dataclass(slots=True)
@@ -57,41 +59,70 @@ class Status:
 
 async def up(
     engine: Engine, network: Network, names: Iterable[str], forced: Collection[str], choose: Choose, report: Report,
-    *, keep_going: bool = False,
+    *, keep_going: bool = False, limit: TimeLimit | None = None,
 ) -> Result:  # fmt: skip
     """Brings about what the network says, and waits until all of it is ready. Nothing is touched where something stands
-    in the way that can be seen before. When a process that is started fails, `choose` says what becomes of those that
-    were; one that ran already and is not ready is only reported."""
+    in the way that can be seen before. When a process that is started fails, or the time is over, `choose` says what
+    becomes of those that were; one that ran already and is not ready is only reported."""
+    limit = limit or TimeLimit()
     before = await engine.observe()
     result = Result(plan(network, before, names, forced))
     starting = [step.spec for step in result.plan.of(START, RESTART) if step.spec]
     leaving = {step.name for step in result.plan.of(STOP, RESTART)}
     result.diagnostics = await engine.obstacles(starting, leaving) if starting else []
+    if limit.is_over:
+        result.diagnostics.append(deploying.LATE.at(Span(network.path), within=limit, when="before anything was done"))
     if result.diagnostics:
         return result
-    result.outcome = await carry_out(engine, result.plan, report, keep_going=keep_going)
-    if failed := result.outcome.failed:
-        result.diagnostics = [await _with_log(engine, name, found) for name, found in failed.items()]
-        is_asked = failed.keys() & set(result.outcome.began) and not keep_going
+    result.outcome = await carry_out(engine, result.plan, report, keep_going=keep_going, limit=limit)
+    outcome = result.outcome
+    if outcome.failed or outcome.is_late:
+        result.diagnostics = await _what_failed(engine, network, result, limit)
+        is_unfinished = outcome.failed.keys() & set(outcome.began) or (outcome.is_late and outcome.skipped)
+        is_asked = is_unfinished and not keep_going
         result.undone = await choose(result) if is_asked else KEEP_GOING
-        await _undo(engine, result, before, report)
+        await _undo(engine, network, result, before, report)
     return result
 
 
-async def _undo(engine: Engine, result: Result, before: Mapping[str, Running], report: Report) -> None:
+async def _undo(
+    engine: Engine, network: Network, result: Result, before: Mapping[str, Running], report: Report
+) -> None:  # fmt: skip
     now = await engine.observe()
     if result.undone == STOP_THEM:
         await stop_all(engine, [now[name] for name in result.outcome.began if name in now], report)
     elif result.undone == ROLL_BACK:
         again = await carry_out(engine, undo(result.plan, before, now), report, keep_going=True)
-        result.diagnostics += again.failed.values()
+        for name, found in again.failed.items():
+            # What an engine has kept of a process does not know where it stands in the document.
+            process = network.processes.get(name)
+            result.diagnostics.append(replace(found, span=process.span if process else Span(network.path)))
 
 
-async def _with_log(engine: Engine, name: str, found: Diagnostic) -> Diagnostic:
-    """What failed, with the last lines of its log."""
+async def _what_failed(engine: Engine, network: Network, result: Result, limit: TimeLimit) -> list[Diagnostic]:
+    """Each with the last lines of its log; those that were late together."""
+    outcome = result.outcome
+    logs = {name: await _last_lines(engine, name) for name in outcome.failed}
+    failed = {name: found for name, found in outcome.failed.items() if name not in outcome.late}
+    told = [replace(found, more="\n".join(logs[name])) for name, found in failed.items()]
+    if not outcome.is_late:
+        return told
+    wanted = [step.name for step in result.plan.of(START, RESTART, CHANGE, KEEP)]
+    ready = [name for name in wanted if name not in outcome.failed and name not in outcome.skipped]
+    groups = {"ready": ready, "waited for": outcome.late, "failed": failed, "not started": outcome.skipped}
+    more = [f"{what}: {', '.join(names)}" for what, names in groups.items() if names]
+    late = deploying.LATE.at(
+        Span(network.path), within=limit,
+        when=f"when {len(ready)} of {len(wanted)} processes {'was' if len(ready) == 1 else 'were'} ready",
+        related=[Related(outcome.failed[name].message, outcome.failed[name].span) for name in outcome.late],
+        more="\n".join([*more, *(line for name in outcome.late for line in logs[name])]),
+    )  # fmt: skip
+    return [late, *told]
+
+
+async def _last_lines(engine: Engine, name: str) -> list[str]:
     async with aclosing(await engine.lines([name], SHOWN_LINES, False)) as lines:
-        texts = [f"{name} | {line.text}" async for line in lines]
-    return replace(found, more="\n".join(texts))
+        return [f"{name} | {line.text}" async for line in lines]
 
 
 async def status(engine: Engine, network: Network, names: Collection[str], reached: bool) -> list[Status]:

@@ -69,7 +69,7 @@ async def until_ready(
             raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=watch.result()))
         raise DeployFailed(
             deploying.NOT_READY.at(
-                spec.process.span, name=spec.name, within=f"{spec.process.ready.within:g}", why=_why_not(spec, running)
+                spec.process.span, name=spec.name, within=f"{spec.process.ready.within:g}", why=why_not(spec, running)
             )
         )
     finally:
@@ -144,7 +144,8 @@ def _is_sign(pattern: str, text: str) -> bool:
     return not text.startswith(OWN) and re.search(pattern, text) is not None
 
 
-def _why_not(spec: Spec, running: Running | None) -> str:
+def why_not(spec: Spec, running: Running | None) -> str:
+    """What is missing for a process to be ready."""
     ready = spec.process.ready
     if running and running.restarts:
         return f"it ended meanwhile: {running.end}"

@@ -73,7 +73,12 @@ def seconds(node: Node | None) -> float | None:
         return None
     if isinstance(node.data, int | float):
         return node.data / 1000
-    parts = _DURATION.fullmatch(node.lexeme.strip())
+    return duration(node.lexeme)
+
+
+def duration(text: str) -> float | None:
+    """The seconds of `100 ms`, `10 s` or `2min`."""
+    parts = _DURATION.fullmatch(text.strip())
     return float(parts[1]) * _SECONDS[parts[2]] if parts else None
 
 

@@ -17,6 +17,7 @@ from robocomp_yaml.deploy.engine import Line, Running
 from robocomp_yaml.deploy.local import procfs, record
 from robocomp_yaml.deploy.local.engine import LocalEngine
 from robocomp_yaml.deploy.operations import Result, Status
+from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.network.network import ConfigFile, Host, Network, Process, Readiness
 
 LISTEN = "import socket,sys,time; s = socket.create_server(('127.0.0.1', int(sys.argv[1]))); time.sleep(600)"
@@ -75,7 +76,7 @@ class Place:
 
     def up(
         self, *processes: Process, on_failure: str = operations.STOP_THEM, names: Iterable[str] = (),
-        forced: Iterable[str] = (),
+        forced: Iterable[str] = (), limit: float | None = None,
     ) -> Result:  # fmt: skip
         self.events = []
 
@@ -85,7 +86,7 @@ class Place:
         async def work(engine: LocalEngine) -> Result:
             return await operations.up(
                 engine, self.network(*processes), names, set(forced), choose, self.events.append,
-                keep_going=on_failure == operations.KEEP_GOING,
+                keep_going=on_failure == operations.KEEP_GOING, limit=TimeLimit(limit),
             )  # fmt: skip
 
         return self.run(work, *processes)

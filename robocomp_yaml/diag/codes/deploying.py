@@ -126,6 +126,18 @@ GIVEN_UP = Code(
     _FINE,
     _UP,
 )
+LATE = Code(
+    "RC7011",
+    "error",
+    "the time limit of {within} s was over {when}",
+    "`--timeout` says how long `rcyaml deploy up` may take, all in all. When that time is over, nothing more is "
+    "started, each process that was waited for is told with what it lacked, and `--on-failure` says what becomes of "
+    "those that were started. A network that takes longer in good order needs more time, or none of its own: without "
+    "`--timeout`, each process has the time of its `ready:`.",
+    _one('program: sleep\nargs: ["60"]\nready: {port: 14713, within: 60 s}'),
+    _FINE,
+    f"{_UP} --timeout 3s",
+)
 NO_ANSWER = Code(
     "RC7010",
     "error",

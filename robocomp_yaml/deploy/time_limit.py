@@ -1,0 +1,25 @@
+"""How long bringing a network up may take, all in all."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True)
+class TimeLimit:
+    """So many `seconds` from `began` on, by a clock that nobody sets; without a limit where they are None."""
+
+    seconds: float | None = None
+    began: float = field(default_factory=time.monotonic)
+
+    @property
+    def left(self) -> float | None:
+        return None if self.seconds is None else max(0.0, self.began + self.seconds - time.monotonic())
+
+    @property
+    def is_over(self) -> bool:
+        return self.left == 0.0
+
+    def __str__(self) -> str:
+        return f"{self.seconds:g}"

@@ -1,0 +1,133 @@
+"""A network that is to be ready within a time, all in all."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+from processes import Ports
+from robocomp_yaml.deploy import operations
+from robocomp_yaml.deploy.carry_out import SKIPPED
+from robocomp_yaml.deploy.engine import RUNNING
+from robocomp_yaml.network.network import NEVER, Process, Readiness, Restart, Variable
+from small_networks import Place, shell, sleeper
+
+IN_VAIN = Readiness(log="never", within=600)
+SLOW = "trap 'sleep 1.2; exit 0' TERM; echo at work; while :; do sleep 0.05; done"
+
+
+def codes(result: operations.Result) -> list[str]:
+    return [found.code for found in result.diagnostics]
+
+
+def waiting(name: str, *after: str) -> Process:
+    return shell(name, "echo where is my motor; exec sleep 600", *after, ready=IN_VAIN)
+
+
+def test_who_is_ready_and_who_is_not(place: Place) -> None:
+    result = place.up(sleeper("a"), waiting("b"), waiting("c", "a"), sleeper("d", "b"), limit=1.5)
+    assert codes(result) == ["RC7011"]
+    (late,) = result.diagnostics
+    assert late.message == "the time limit of 1.5 s was over when 1 of 4 processes was ready"
+    why = "was not ready within 1.5 s: no line of its log matches 'never'"
+    assert [one.message for one in late.related] == [f"'b' {why}", f"'c' {why}"]
+    lines = late.more.splitlines()
+    assert lines[:3] == ["ready: a", "waited for: b, c", "not started: d"]
+    assert "b | where is my motor" in lines and "c | where is my motor" in lines
+    assert place.order(SKIPPED) == ["d"]
+    assert set(place.pids().values()) == {0}
+
+
+def test_what_failed_before_is_told_apart(place: Place) -> None:
+    fails = shell("b", "echo no power; exit 3", restart=Restart(policy=NEVER))
+    result = place.up(sleeper("a"), fails, waiting("c"), limit=1.5, on_failure=operations.KEEP_GOING)
+    assert codes(result) == ["RC7011", "RC7004"]
+    late, failed = result.diagnostics
+    assert late.more.splitlines()[:3] == ["ready: a", "waited for: c", "failed: b"]
+    assert "b | no power" in failed.more.splitlines() and "no power" not in late.more
+
+
+def test_time_enough(place: Place) -> None:
+    assert not place.up(sleeper("a"), sleeper("b", "a"), limit=600).diagnostics
+
+
+def test_over_before_anything_was_done(place: Place) -> None:
+    result = place.up(sleeper("a"), limit=0)
+    assert [found.message for found in result.diagnostics] == ["the time limit of 0 s was over before anything was done"]
+    assert place.pids() == {}
+
+
+def test_back_to_what_ran_before(place: Place) -> None:
+    place.up(sleeper("a"), sleeper("b", "a"))
+    before = place.pids()
+    changed = sleeper("b", "a", env=(Variable("X", "1"),))
+    result = place.up(sleeper("a"), changed, waiting("c", "b"), limit=1.5, on_failure=operations.ROLL_BACK)
+    assert codes(result) == ["RC7011"]
+    after = place.observe()
+    assert after["a"].pid == before["a"] and after["b"].state == RUNNING
+    assert after["b"].spec and not after["b"].spec.process.env and "c" not in after
+
+
+def test_what_was_started_may_stay(place: Place) -> None:
+    result = place.up(sleeper("a"), waiting("b", "a"), limit=1.5, on_failure=operations.KEEP_GOING)
+    assert codes(result) == ["RC7011"]
+    assert {name: one.state for name, one in place.observe().items()} == {"a": RUNNING, "b": RUNNING}
+
+
+@pytest.mark.parametrize("on_failure", [operations.STOP_THEM, operations.ROLL_BACK])
+def test_stopping_takes_all_the_time(place: Place, on_failure: str) -> None:
+    """Nothing is started any more; what was stopped for that comes back where this is wanted."""
+    slow = shell("a", SLOW, ready=Readiness(log="at work"))
+    place.up(slow)
+    result = place.up(shell("a", SLOW + " # new", ready=Readiness(log="at work")), limit=1, on_failure=on_failure)
+    assert codes(result) == ["RC7011"] and result.outcome.skipped == ["a"]
+    assert result.undone == on_failure
+    assert (place.observe()["a"].state == RUNNING) == (on_failure == operations.ROLL_BACK)
+
+
+ROBOT = """\
+deployment: Robot
+components:
+  base: {program: sleep, args: ["600"]}
+"""
+MORE = """\
+  arm: {program: sh, args: [-c, "echo no motor; exec sleep 600"], after: [base], ready: {log: moves, within: 10 min}}
+  hand: {program: sleep, args: ["600"], after: [arm]}
+"""
+
+
+@pytest.mark.parametrize("engine", ["local", "icegrid"])
+def test_as_one_types_it(engine: str, place: Place, tmp_path: Path, rcyaml: Callable[..., Result]) -> None:
+    if engine == "icegrid":
+        pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
+        if shutil.which("icegridnode") is None:
+            pytest.skip("IceGrid is not installed (Debian: zeroc-icegrid)")
+
+    def deploy(what: str, *args: str) -> Result:
+        return rcyaml("deploy", what, "robot.ddsl.yaml", "--engine", engine, *args)
+
+    write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT})
+    assert deploy("up", "--timeout", "2 min").exit_code == 0
+    write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT + MORE})
+    result = deploy("up", "--timeout", "3s")
+    assert result.exit_code == 1
+    assert result.stdout.endswith("Robot: failed; what was started was stopped\n")
+    assert "error[RC7011]: the time limit of 3 s was over when 1 of 3 processes was ready" in result.stderr
+    assert "    ready: base\n    waited for: arm\n    not started: hand\n" in result.stderr
+    assert "robot.ddsl.yaml:4:3" in result.stderr and "arm | no motor" in result.stderr
+    states = [line.split()[1] for line in deploy("status").stdout.splitlines()[1:]]
+    assert states[0] == "ready" and "running" not in states
+    assert deploy("down").exit_code == 0
+    place.wait_gone()
+
+
+@pytest.mark.parametrize("time", ["60", "soon", "0s", "-1s"])
+def test_a_time_has_a_unit(time: str, tmp_path: Path, rcyaml: Callable[..., Result]) -> None:
+    write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT})
+    result = rcyaml("deploy", "up", "robot.ddsl.yaml", f"--timeout={time}")
+    assert result.exit_code == 2 and f"'{time}' is no length of time, such as 30s or 2min" in result.stderr
