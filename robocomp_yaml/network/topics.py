@@ -15,16 +15,25 @@ from robocomp_yaml.network.draft import Draft, Given, StormDraft
 from robocomp_yaml.network.drafts import Drafts
 from robocomp_yaml.network.network import TOPIC, Connection
 from robocomp_yaml.network.order import Need
+from robocomp_yaml.network.topic_names import NamedEnd, full_names
 
 
 @dataclass(frozen=True, slots=True)
 class _End:
-    """A port at one end of a topic."""
+    """A port at one end of the topic that its document calls `name`; `storm` is None, and `manager` given, where the
+    IceStorm is none of ours."""
 
     draft: Draft
     port: Port
     is_out: bool
+    name: str
     span: Span
+    storm: StormDraft | None
+    manager: str
+
+    @property
+    def named(self) -> NamedEnd:
+        return NamedEnd(self.draft.name, self.draft.instance.scope, self.name, self.is_out)
 
 
 @dataclass(slots=True)
@@ -40,6 +49,7 @@ class Topics:
     _ends: dict[tuple[str, str], list[_End]] = field(default_factory=dict)
 
     def resolve(self) -> None:
+        every: list[_End] = []
         for draft in self.drafts.drafts.values():
             component = draft.instance.component
             if component is None or not (component.publishes or component.subscribes):
@@ -50,10 +60,10 @@ class Topics:
                 self.needs.append(Need(draft.name, storm.name, "", "TopicManager", draft.span))
             elif not manager:
                 continue
-            for port in component.publishes:
-                self._end(draft, port, storm, manager, is_out=True)
-            for port in component.subscribes:
-                self._end(draft, port, storm, manager, is_out=False)
+            every += [self._end(draft, port, storm, manager, is_out=True) for port in component.publishes]
+            every += [self._end(draft, port, storm, manager, is_out=False) for port in component.subscribes]
+        for end, topic in zip(every, self._topics(every), strict=True):
+            self._meet(end, topic)
         for (_, topic), ends in self._ends.items():
             self._compare(topic, ends)
 
@@ -83,19 +93,36 @@ class Topics:
             ))
         return None, manager
 
-    def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> None:
+    def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> _End:
         rename = next((pair for pair in draft.instance.entry.topics if pair.name == port.name), None)
         if rename is not None:
             draft.topics[port.name] = Given(rename.text, rename.span)
-            topic, span = rename.text, rename.span
-        else:
-            topic, span = self.base_of(draft).topic(port.name, port.interface.name, is_out=is_out), draft.span
+            return _End(draft, port, is_out, rename.text, rename.span, storm, manager)
+        name = self.base_of(draft).topic(port.name, port.interface.name, is_out=is_out)
+        return _End(draft, port, is_out, name, draft.span, storm, manager)
+
+    def _topics(self, every: list[_End]) -> list[str]:
+        """The full names of their topics. An IceStorm that is none of ours has others besides us, who know them by the
+        names that they have in the documents."""
+        topics = [end.name for end in every]
+        for storm in self.drafts.storms.values():
+            carried = [index for index, end in enumerate(every) if end.storm is storm]
+            ends = [every[index].named for index in carried]
+            names = full_names(ends, self.drafts.linked.names, storm.linked.scope)
+            for index, name in zip(carried, names, strict=True):
+                topics[index] = name
+        return topics
+
+    def _meet(self, end: _End, topic: str) -> None:
+        draft, port, storm = end.draft, end.port, end.storm
+        if topic != end.name:
+            draft.topics[port.name] = Given(topic, end.span)
+        carrier = storm.name if storm else ""
         self.found.append(Connection(
-            draft.name, port.name, port.interface.name, storm.name if storm else "", TOPIC, topic, is_out,
-            storm.proxy if storm else manager, span,
+            draft.name, port.name, port.interface.name, carrier, TOPIC, topic, end.is_out,
+            storm.proxy if storm else end.manager, end.span,
         ))
-        carrier = storm.name if storm else f":{manager}"
-        self._ends.setdefault((carrier, topic), []).append(_End(draft, port, is_out, span))
+        self._ends.setdefault((carrier or f":{end.manager}", topic), []).append(end)
 
     def _compare(self, topic: str, ends: list[_End]) -> None:
         """Every end of a topic must mean the same interface; what is subscribed should be published."""

@@ -126,7 +126,8 @@ NOBODY_PUBLISHES = Code(
     "warning",
     "'{source}' is subscribed to {topic}, which nobody in this deployment publishes",
     "It will hear nothing, unless something outside publishes the topic with the same IceStorm. Often the names "
-    "differ: `topics:` renames, and a configuration may have a prefix.",
+    "differ: `topics:` renames, a configuration may have a prefix, and what an include both publishes and subscribes "
+    "to is called after it, as in left/State.",
     _with(deployed(_STORM + _BOTH), speech=_TALKS, mouth=_SUBSCRIBES, News=_NEWS),
     _with(deployed(_STORM + _BOTH), speech=_PUBLISHES, mouth=_SUBSCRIBES, News=_NEWS),
     _CHECK,

@@ -105,3 +105,53 @@ def test_both_ends_must_mean_the_same() -> None:
     (found,) = faults({**files, "mind/mind.cdsl.yaml": component("MindComp", MIND, "Other")})
     assert said(found) == ("RC4211", "robot.ddsl.yaml", 5, 3)
     assert found.message.endswith("by the topic Heard: 'text' of 'word' is string, and int")
+
+
+ARM = "deployment: Arm\n" + BOTH
+ARMS = "include: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}\n"
+
+
+def topics(found: Network) -> dict[str, str]:
+    return {line.source: line.topic for line in found.connections if line.kind == TOPIC}
+
+
+def test_each_include_keeps_its_own_topics() -> None:
+    found = network(deployed(STORM + ARMS, **ENDS, **{"arm.ddsl.yaml": ARM}))
+    assert topics(found) == {
+        f"{side}.{name}": f"{side}/Heard" for side in ("left", "right") for name in ("ears", "mind")
+    }  # fmt: skip
+    assert config(found.processes["left.mind"])["Heard"] == "left/Heard"
+
+
+def test_who_names_the_topic_of_an_include_gets_it() -> None:
+    outer = STORM + ARMS + "components: {all: {component: mind, topics: {Heard: right/Heard}}}\n"
+    arm = ARM.replace("  mind: {component: mind}\n", "")  # what only one asks for, only that one closes
+    found = network(deployed(outer, **ENDS, **{"arm.ddsl.yaml": arm}))
+    assert topics(found) == {"all": "right/Heard", "left.ears": "Heard", "right.ears": "right/Heard"}
+
+
+def test_an_open_end_meets_what_is_around_it() -> None:
+    inner = "deployment: Arm\ncomponents: {ears: {component: ears}}\n"
+    outer = STORM + ARMS + "components: {mind: {component: mind}}\n"
+    found = network(deployed(outer, **ENDS, **{"arm.ddsl.yaml": inner}))
+    assert set(topics(found).values()) == {"Heard"}
+
+
+def test_the_topic_of_all_is_named_by_a_slash() -> None:
+    arm = ARM.replace("ears}", "ears, topics: {Heard: /Heard}}")
+    outer = STORM + ARMS + "components: {all: {component: mind, topics: {Heard: /Heard}}}\n"
+    found = network(deployed(outer, **ENDS, **{"arm.ddsl.yaml": arm}))
+    assert set(topics(found).values()) == {"Heard"}
+
+
+def test_who_is_outside_is_told_what_the_topic_is_called() -> None:
+    outer = STORM + ARMS + "components: {all: {component: mind}}\n"
+    (found,) = faults(deployed(outer, **ENDS, **{"arm.ddsl.yaml": ARM}))
+    assert found.code == "RC4210"
+    assert found.hint == "it is published as left/Heard, right/Heard: `topics: {Heard: left/Heard}`"
+
+
+def test_an_include_with_an_icestorm_of_its_own() -> None:
+    arm = ARM.replace("components", "services: {storm: {icestorm: {}}}\ncomponents", 1)
+    found = network(deployed("include: {left: arm.ddsl.yaml}\n", **ENDS, **{"arm.ddsl.yaml": arm}))
+    assert lines(found) == {("left.ears", "left.storm", "Heard", True), ("left.mind", "left.storm", "Heard", False)}
