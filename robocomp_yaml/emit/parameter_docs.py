@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.parameters import EnumType, ListType, MapType, Member, RecordType, Type
-from robocomp_yaml.values.json_schema import in_words, plain
+from robocomp_yaml.values.json_schema import in_words, shortened
+
+_CODE_OR_TAG = re.compile(r"((`+)(?!`).*?(?<!`)\2(?!`))|(?<!\\)<(?!https?://)", re.DOTALL)
 
 
 def parameter_docs(linked: LinkedComponent) -> str:
@@ -18,7 +21,7 @@ def _lines(linked: LinkedComponent) -> Iterator[str]:
     yield f"# Parameters of {linked.component.name}"
     yield ""
     if parameters.doc:
-        yield parameters.doc
+        yield _text(parameters.doc)
         yield ""
     yield from _table("Parameter", parameters.root, "")
     for type_ in parameters.types:
@@ -26,7 +29,7 @@ def _lines(linked: LinkedComponent) -> Iterator[str]:
         yield f"## {type_.name}"
         yield ""
         if type_.doc:
-            yield type_.doc
+            yield _text(type_.doc)
             yield ""
         if isinstance(type_, RecordType):
             yield from _table("Member", type_, "")
@@ -39,7 +42,8 @@ def _lines(linked: LinkedComponent) -> Iterator[str]:
         yield "## Constraints"
         yield ""
         for constraint in parameters.constraints:
-            yield f"- `{constraint.text}`" + (f": {constraint.otherwise}, otherwise." if constraint.otherwise else "")
+            otherwise = f": {_text(constraint.otherwise)}, otherwise." if constraint.otherwise else ""
+            yield f"- {_code(constraint.text)}{otherwise}"
     if parameters.spellings:
         yield ""
         yield "## Properties"
@@ -73,23 +77,21 @@ def _rows(record: RecordType, prefix: str) -> Iterator[str]:
 
 def _linked(type_: Type) -> str:
     """The type in words, with a link to where a named one is described."""
-    words = in_words(type_)
     named = type_
     while isinstance(named, ListType | MapType):
         named = named.element
-    if isinstance(named, RecordType | EnumType) and named.name in words:
-        head, _, tail = words.rpartition(named.name)
-        return f"{head}[{named.name}](#{named.name.lower()}){tail}"
-    if isinstance(named, EnumType):
-        return f"[{named.name}](#{named.name.lower()}): {words}"
-    return words
+    if not isinstance(named, RecordType | EnumType):
+        return in_words(type_)
+    inner = in_words(named)
+    around = in_words(type_).removesuffix(inner)
+    link = f"{around}[{named.name}](#{named.name.lower()})"
+    return f"{link}: {inner}" if isinstance(named, EnumType) else link
 
 
 def _default(member: Member) -> str:
     if member.default is None:
         return "may be left out" if member.optional else "**required**"
-    text = plain(member.default.data)
-    return f"`{_cell(text)}`" if len(text) <= 60 else f"`{_cell(text[:59])}…`"
+    return _code(shortened(member.default.data)).replace("|", "\\|")
 
 
 def _meaning(member: Member) -> str:
@@ -98,4 +100,15 @@ def _meaning(member: Member) -> str:
 
 
 def _cell(text: str) -> str:
-    return " ".join(text.split()).replace("|", "\\|")
+    return _text(" ".join(text.split())).replace("|", "\\|")
+
+
+def _code(text: str) -> str:
+    """In as many backquotes as it takes."""
+    fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
+    return f"{fence} {text} {fence}" if "`" in text else f"{fence}{text}{fence}"
+
+
+def _text(doc: str) -> str:
+    """A doc, which may be Markdown, but no HTML: `<name>` is to be seen."""
+    return _CODE_OR_TAG.sub(lambda found: found[0] if found[1] else "\\<", doc)

@@ -12,6 +12,7 @@ from robocomp_yaml.model.parameters import (
     Type,
     unit_of,
 )
+from robocomp_yaml.values.json_schema import shortened
 
 
 def facts(member: Member) -> str:
@@ -20,7 +21,7 @@ def facts(member: Member) -> str:
     if not found and (unit := unit_of(member.type)):
         found.append(f"in {unit}")
     if member.default is not None:
-        found.append(f"default: {_spelled(member.default.data)}")
+        found.append(f"default: {shortened(member.default.data)}")
     if member.optional:
         found.append("optional")
     if member.editable and not member.is_group:
@@ -44,21 +45,9 @@ def _limits(type_: Type) -> list[str]:
             found = [f"{size.in_words} entries"] if size.least or size.most is not None else []
             if isinstance(type_, ListType) and type_.unique:
                 found.append("all different")
-            return found + [f"each {limit}" for limit in _limits(element)]
+            return found + [f"each {limit}".replace("each each", "each of these") for limit in _limits(element)]
         case _:
             return []
-
-
-def _spelled(data: object) -> str:
-    if isinstance(data, bool):
-        return "true" if data else "false"
-    if isinstance(data, str):
-        return f'"{data}"'
-    if isinstance(data, list):
-        return f"[{', '.join(map(_spelled, data))}]"
-    if isinstance(data, dict):
-        return f"{{{', '.join(f'{key}: {_spelled(value)}' for key, value in data.items())}}}"
-    return str(data)
 
 
 def records(root: RecordType) -> tuple[list[tuple[str, RecordType]], list[EnumType]]:

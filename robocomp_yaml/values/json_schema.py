@@ -241,7 +241,8 @@ def in_words(type_: Type) -> str:
     if isinstance(type_, ListType | MapType):
         kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
         size = f" of {type_.size.in_words} entries" if type_.size != Size() else ""
-        return f"a {kind}{size}, each {one} {in_words(type_.element)}"
+        unique = ", all different" if isinstance(type_, ListType) and type_.unique else ""
+        return f"a {kind}{size}{unique}, each {one} {in_words(type_.element)}"
     words = kind_in_words(type_)
     if isinstance(type_, BasicType):
         if type_.values:
@@ -249,7 +250,7 @@ def in_words(type_: Type) -> str:
         elif type_.range:
             words += f" {type_.range.in_words}"
         elif type_.pattern:
-            words += f" that matches {type_.pattern.text}"
+            words += f" that matches `{type_.pattern.text}`"
         words += f" ({type_.unit})" if type_.unit else ""
     return words
 
@@ -261,7 +262,7 @@ def _words(member: Member, for_editors: bool) -> Schema:
     kind = in_words(member.type)
     facts = [kind[0].upper() + kind[1:]] if not member.is_group else []
     if member.default is not None:
-        facts.append(f"default: {plain(member.default.data)}")
+        facts.append(f"default: {shortened(member.default.data)}")
     elif member.optional:
         facts.append("may be left out")
     elif not member.is_group:
@@ -281,15 +282,10 @@ def _words(member: Member, for_editors: bool) -> Schema:
     return made
 
 
-def plain(data: object) -> str:
-    """Data as YAML spells it on one line."""
-    if isinstance(data, bool) or data is None:
-        return {True: "true", False: "false"}.get(data, "null")  # type: ignore[arg-type]
-    if isinstance(data, dict):
-        return "{" + ", ".join(f"{key}: {plain(value)}" for key, value in data.items()) + "}"
-    if isinstance(data, list):
-        return "[" + ", ".join(plain(item) for item in data) + "]"
-    return str(data) if not isinstance(data, str) or data else '""'
+def shortened(data: object) -> str:
+    """Data as YAML spells it on one line, or how that begins."""
+    text = flow(data)
+    return text if len(text) <= 60 else f"{text[:59]}…"
 
 
 def example(member: Member) -> object:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from robocomp_yaml.check.pdsl.expressions import is_sound
@@ -70,9 +71,7 @@ def _names(record: RecordType) -> Iterator[Diagnostic]:
     names: dict[tuple[str, str], Member] = {}
     for member in record.members:
         if not is_identifier(member.code_name):
-            free = "".join(c if c.isalnum() else "_" for c in member.name)
-            free = f"p{free}" if free[0].isdigit() else free
-            yield codes.NO_IDENTIFIER.at(member.span, name=member.name, hint=f"for instance as: {free}")
+            yield codes.NO_IDENTIFIER.at(member.span, name=member.name, hint=f"for instance as: {_free(member.name)}")
             continue
         for language in LANGUAGES:
             code = in_code(member.code_name, language)
@@ -84,6 +83,12 @@ def _names(record: RecordType) -> Iterator[Diagnostic]:
                     related=[Related(f"'{other.name}' stands here", other.span)],
                 )
                 break
+
+
+def _free(name: str) -> str:
+    """An identifier that is like it."""
+    made = re.sub(r"[^A-Za-z0-9_]", "_", name).lstrip("_")
+    return made if made[:1].isalpha() else f"p{made}"
 
 
 def _defaults_together(parameters: Parameters) -> Iterator[Diagnostic]:

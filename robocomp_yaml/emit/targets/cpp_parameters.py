@@ -159,6 +159,7 @@ class _Types:
             wanted = path if not record.is_group else f"{set_name('', path[1:])}Group"
             self.names[path] = "Values" if path == "." else names.take(wanted)
         self.functions = {path: names.take(f"kindOf{self.names[path]}") for path, _ in self.records}
+        self.enumerators = {enum.name: _enumerators(enum) for enum in self.enums}
         self.tables = {enum.name: names.take(f"namesOf{self.names[enum.name]}") for enum in self.enums}
 
     def enum(self, enum: EnumType) -> EnumView:
@@ -166,7 +167,7 @@ class _Types:
         words += [f"{name}: {one_line(doc)}" for name, doc in enum.enumerators if doc]
         return EnumView(
             self.names[enum.name], self.tables[enum.name], comment("\n".join(words)),
-            [f"{in_code(name, 'C++')}," for name in enum.names], [f"{quoted(name)}," for name in enum.names],
+            [f"{name}," for name in self.enumerators[enum.name].values()], [f"{quoted(name)}," for name in enum.names],
         )
 
     def record(self, path: str, record: RecordType) -> RecordView:
@@ -218,7 +219,7 @@ class _Types:
         data = member.default.data if member.default is not None else None
         match member.type:
             case EnumType(name=name) if isinstance(data, str):
-                return f"parameters::{self.names[name]}::{in_code(data, 'C++')}"
+                return f"parameters::{self.names[name]}::{self.enumerators[name][data]}"
             case BasicType() if isinstance(data, bool):
                 return "true" if data else "false"
             case BasicType() if isinstance(data, str):
@@ -259,6 +260,12 @@ class _Types:
             made = self.member_type(member, None)
             is_small = isinstance(member.type, BasicType | EnumType) and made != "std::string" and not member.optional
             yield names.take(set_name("set", group[1:])), made if is_small else f"const {made}&", ".".join(path)
+
+
+def _enumerators(enum: EnumType) -> dict[str, str]:
+    """The names in code of an enum's names."""
+    names = Names()
+    return {name: names.take(in_code(name, "C++")) for name in enum.names}
 
 
 def _setter(name: str, type_: str, path: str) -> str:

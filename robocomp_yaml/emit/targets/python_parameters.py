@@ -128,7 +128,8 @@ class _Types:
 
     def __init__(self, root: RecordType) -> None:
         self.records, self.enums = records(root)
-        names = Names(_TAKEN)
+        members = {in_code(member.code_name, "Python") for _, record in self.records for member in record.members}
+        names = Names((*_TAKEN, *members))  # a class's members hide what else is called so
         self._enums = {enum.name: names.take(enum.name) for enum in self.enums}
         self._records = {path: names.take(path) for path, record in self.records if not record.is_group}
         for path, record in self.records:

@@ -127,6 +127,23 @@ def test_names_that_clash(link: Link) -> None:
     assert "class AServant_ : public X::A\n" in got["generated/genericworker.cpp"]
 
 
+def test_names_of_parameters_that_clash(link: Link) -> None:
+    """With words of C++ and of Qt, and with each other behind the underscore that these get."""
+    pdsl = """\
+component: x.cdsl.yaml
+types: {Mode: {enum: [class, class_, emit]}}
+parameters:
+  slots: {type: Mode, default: class_}
+  signals: {type: int, default: 1, editable: true}
+  Mode: {type: Mode, default: emit}
+"""
+    got = files(link({"x.cdsl.yaml": "component: C\nlanguage: cpp\n", "x.pdsl.yaml": pdsl}))
+    header = got["generated/parameters.h"]
+    assert "    class_,\n    class__,\n    emit_,\n" in header
+    for field in ("Mode slots_ = parameters::Mode::class__;", "int signals_ = 1;", "Mode Mode = parameters::Mode::emit_;"):
+        assert field in header
+
+
 def test_interfaces_of_one_name_from_two_modules(link: Link) -> None:
     documents = {
         "X.idsl.yaml": "module: X\ninterfaces:\n  A: {methods: {f: {in: {n: int}}}}\n",

@@ -75,6 +75,21 @@ def started(text: str, properties: Mapping[str, str], overrides: Mapping[str, st
     return accessors.live(parameters(text)[0], dict(properties), dict(overrides or {}))
 
 
+def test_members_called_like_types() -> None:
+    """In the body of a class, its members hide the types around it."""
+    text = """\
+types:
+  Point: {struct: {x: {type: int, default: 1}}}
+  Mode: {enum: [a, b]}
+parameters:
+  Point: {type: Point, default: {}}
+  Mode: {type: Mode, default: a}
+  other: {type: Point, default: {x: 2}}
+"""
+    live = started(text, {"Point.x": "3"})
+    assert (live.Point.x, live.Mode, live.other.x) == (3, "a", 2)
+
+
 def test_golden(golden: Callable[[str, Mapping[str, str]], None]) -> None:
     text = python_parameters.text(parameters(ARM)[0], "ArmComp", "arm.pdsl.yaml")
     golden("python/parameters", {"parameters.py": text})

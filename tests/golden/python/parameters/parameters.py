@@ -24,7 +24,7 @@ class YoloGroup(composite.Record):
     """Default: true."""
 
     model: str = composite.member(plain.text(), default="m", editable=True)
-    """Default: "m"; may change while the component runs."""
+    """Default: m; may change while the component runs."""
 
 
 class Motor(composite.Record):
@@ -76,7 +76,7 @@ class Values(composite.Record):
         default="Dunkermotoren",
         editable=True,
     )
-    """Default: "Dunkermotoren"; may change while the component runs."""
+    """Default: Dunkermotoren; may change while the component runs."""
 
     device: str = composite.member(
         plain.text(pattern="\\/dev\\/[a-z]+", shown_as="/dev/[a-z]+"),
@@ -84,7 +84,7 @@ class Values(composite.Record):
     )
     """Where the bus is.
 
-    Matches /dev/[a-z]+; default: "/dev/tty".
+    Matches /dev/[a-z]+; default: /dev/tty.
     """
 
     baudRate: int = composite.member(
@@ -143,7 +143,7 @@ class Values(composite.Record):
     """Default: false."""
 
     class_: str = composite.member(plain.text(), default="x", key="class")
-    """Default: "x"."""
+    """Default: x."""
 
     period: PeriodGroup = composite.member(composite.group(PeriodGroup), editable=True)
     """How often the component works."""
