@@ -23,6 +23,8 @@ def suggest(word: str, candidates: Iterable[str]) -> str | None:
 
 def hint_for_key(word: str, known: Iterable[str], given: Container[str]) -> str:
     """What to say of a key that means nothing: which one was meant, perhaps beside it, or which there can be."""
+    if word == "<<":
+        return "YAML 1.2 has no merge keys: write the keys themselves"
     known = list(known)
     free = [key for key in known if key not in given]
     if meant := suggest(word, free):

@@ -27,6 +27,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 from robocomp_yaml.values.paths import Step, in_words
 
 Path = tuple[Step, ...]
+_TRUTHS = {"yes": "true", "on": "true", "y": "true", "no": "false", "off": "false", "n": "false"}  # in YAML 1.1
 _ENV_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 
 
@@ -58,8 +59,11 @@ def shown(node: Node) -> str:
     assert isinstance(node, Scalar)
     if node.data is None:
         return "empty"
-    text = node.lexeme if len(node.lexeme) <= 40 else node.lexeme[:39] + "…"
-    return f"the text '{text}'" if isinstance(node.data, str) else text
+    return f"the text '{_short(node.lexeme)}'" if isinstance(node.data, str) else _short(node.lexeme)
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 40 else f"{text[:39]}…"
 
 
 def _at(code: Code, node: Node, key: Scalar | None, *, hint: str = "", **facts: str) -> Diagnostic:
@@ -78,6 +82,8 @@ def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diag
             type_.name == "bool" and bare in ("true", "false", "True", "False")
         )):
             hint = f"without quotes: {bare}"
+        elif type_.name == "bool" and (meant := _TRUTHS.get(bare.lower())):
+            hint = f"write {meant}"
     elif isinstance(type_, BasicType) and type_.name == "string" and isinstance(node, Scalar) and node.lexeme:
         hint = f'text needs quotes here: "{node.lexeme}"'
     wanted = f"{kind_in_words(type_)}{_unit(type_)}"
@@ -137,7 +143,7 @@ def _basic(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Iter
             yield _not_allowed(type_, node, path, key)
         elif type_.pattern and not type_.pattern.matches(value):
             yield _at(
-                codes.NO_MATCH, node, key, path=in_words(path), value=value[:60], pattern=type_.pattern.text
+                codes.NO_MATCH, node, key, path=in_words(path), value=_short(value), pattern=type_.pattern.text
             )
     elif isinstance(value, bool) or not isinstance(value, int | float):
         yield _wrong_type(type_, node, path, key)
@@ -166,7 +172,7 @@ def _number(
     if wanted:
         lexeme = node.lexeme if isinstance(node, Scalar) else str(value)
         yield _at(
-            codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{lexeme[:40]}{unit}", wanted=wanted
+            codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{_short(lexeme)}{unit}", wanted=wanted
         )
 
 
@@ -174,7 +180,7 @@ def _not_allowed(type_: BasicType, node: Node, path: Path, key: Scalar | None) -
     allowed = [value.lexeme for value in type_.values]
     unit = f" {type_.unit}" if type_.unit else ""
     meant = suggest(str(node.data), allowed) if type_.name == "string" else None
-    found = node.lexeme[:40] if isinstance(node, Scalar) else ""
+    found = _short(node.lexeme) if isinstance(node, Scalar) else ""
     return _at(
         codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{found!r}" if type_.name == "string" else
         f"{found}{unit}", wanted=f"one of {', '.join(allowed)}{unit}", hint=f"did you mean '{meant}'?" if meant else "",

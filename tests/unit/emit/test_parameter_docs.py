@@ -22,7 +22,7 @@ parameters:
   one: {type: Mode, values: [slow], default: slow}
   points: {list: {list: Point}, size: 2}
   ids: {list: int, unique: true, default: [1]}
-  many: {list: int, default: [11111, 22222, 33333, 44444, 55555, 66666, 77777, 88888, 99999]}
+  many: {list: int, default: [11111, 22222, 33333, 44444, 55555, 66666, 77777, 88888, 9]}
 constraints:
   - {that: len(ids) < 3, else: give fewer than <3>}
 """
@@ -40,7 +40,7 @@ def test_what_a_reader_sees(tmp_path: Path) -> None:
         "| `one` | [Mode](#mode): one of slow | `slow` |  |",
         "| `points` | a list of exactly 2 entries, each entry a list, each entry [Point](#point) | **required** |  |",
         "| `ids` | a list, all different, each entry a whole number | `[1]` |  |",
-        "| `many` | a list, each entry a whole number | `[11111, 22222, 33333, 44444, 55555, 66666, 77777, 88888, 99…` |  |",
+        "| `many` | a list, each entry a whole number | `[11111, 22222, 33333, 44444, 55555, 66666, 77777, 88888, 9]` |  |",
         r"| `slow` | Less than \<1> \| 2. |",
         "| `x` | a number | **required** | two lines |",
         r"- `len(ids) < 3`: give fewer than \<3>, otherwise.",

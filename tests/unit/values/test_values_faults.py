@@ -75,11 +75,20 @@ def test_what_extends_nothing_is_told_once(tmp_path: Path) -> None:
     ("offsets: {a: 1, b: 2, c: 3}", "5:12 RC3305 offsets has 3 entries, and must have at most 2"),
     ("offsets: {a b: x}", "5:18 RC3302 offsets[\"a b\"] must be a number, and is the text 'x'"),
     ("volum: 1", "5:3 RC3301 there is no parameter 'volum' (did you mean 'volume'?)"),
+    ("<<: {volume: 1}", '5:3 RC3301 there is no parameter \'["<<"]\' (YAML 1.2 has no merge keys: write the keys '
+     "themselves)"),
+    (f"big: {10 ** 50}", f"5:8 RC3303 big is 1{38 * '0'}…, and must be from -9223372036854775808 to "
+     "9223372036854775807 (long)"),
     ("volume: 1\n  volumee: 1", "6:3 RC3301 there is no parameter 'volumee' ('volume' is there already)"),
     ("period: {compute: 0}", "5:21 RC3303 period.compute is 0 ms, and must be at least 1 ms"),
 ])
 def test_one_fault(tmp_path: Path, line: str, fault: str) -> None:
     assert faults(tmp_path, f"{GOOD}  {line}\n") == [fault]
+
+
+def test_words_that_were_truths_in_yaml_1_1(tmp_path: Path) -> None:
+    (fault,) = faults(tmp_path, GOOD.replace("true", "Off"))
+    assert fault == "4:15 RC3302 Yolo.gpu must be true or false, and is the text 'Off' (write false)"
 
 
 def test_faults_deep_inside_and_all_at_once(tmp_path: Path) -> None:
