@@ -39,7 +39,7 @@ class DeploymentDocuments:
         for entry in model.entries:
             if entry.kind != PROCESS:
                 yield from self._follow_entry(model, entry)
-        for include in (*model.includes, *(group.include for group in model.groups if group.include)):
+        for include in _includes(model):
             yield from self._follow_include(model, include)
         for group in model.groups:
             if group.facade is not None:
@@ -110,9 +110,14 @@ class DeploymentDocuments:
             names.resolve()
             self.diagnostics += expansion.diagnostics + names.diagnostics
             self.diagnostics += deployment_groups.resolve(linked, expansion.placed)
-        for linked in self.program.deployments.values():
-            for other in linked.documents[1:]:
-                self.program.deployments[os.path.realpath(other.path)].is_included = True
+        for model in usable.values():
+            for path in filter(None, (paths.include_at(model, include.text) for include in _includes(model))):
+                if os.path.realpath(path) in usable:
+                    self.program.deployments[os.path.realpath(path)].is_included = True
+
+
+def _includes(model: Deployment) -> Iterable[Text]:
+    return (*model.includes, *(group.include for group in model.groups if group.include))
 
 
 def _counted(entry: Entry, text: Text) -> Iterable[Text]:

@@ -50,6 +50,8 @@ class Names:
                 else:
                     yield target
         yield from self.included.get(group, ())
+        if group in self.included:
+            yield from (inner for inner in self.root.groups.values() if inner.name.startswith(f"{group.name}."))
 
     def _fill(self, here: Placed, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
         """All instances in a group, those of its inner groups too."""
@@ -61,6 +63,7 @@ class Names:
                     self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))
                 group.broken = True
             elif id(target) not in seen and isinstance(target, LinkedGroup):
+                group.inner.append(target)
                 todo += inside.get(target, ())
             elif id(target) not in seen and isinstance(target, LinkedInstance):
                 group.members.append(target)

@@ -69,14 +69,15 @@ class Served:
 
 @dataclass(eq=False, slots=True)
 class LinkedGroup:
-    """A group by its full name. `members` are all instances in it, those of inner groups too. `serves` is what a closed
-    group offers; what an open one does is whatever its members implement."""
+    """A group by its full name. `members` are all instances in it, those of the groups `inner` too, which are all that
+    it holds. `serves` is what a closed group offers; what an open one does is whatever its members implement."""
 
     name: str
     group: Group
     document: Deployment
     scope: str = ""
     members: list[LinkedInstance] = field(default_factory=list)
+    inner: list[LinkedGroup] = field(default_factory=list)
     facade: LinkedComponent | None = None
     serves: list[Served] = field(default_factory=list)
     broken: bool = False
@@ -84,6 +85,11 @@ class LinkedGroup:
     @property
     def is_closed(self) -> bool:
         return self.group.is_closed
+
+    @property
+    def breadth(self) -> tuple[int, int]:
+        """A group that holds another one has more of it, even if both have the same members."""
+        return len(self.members), len(self.inner)
 
     def offers(self) -> Iterator[Served]:
         """What can be connected to through the group."""
@@ -150,8 +156,9 @@ class LinkedDeployment:
             group for group in (held[0].groups if held else ())
             if group is not target and group.is_closed and group not in source.groups
             and all(group in member.groups for member in held)
+            and not (isinstance(target, LinkedGroup) and group.breadth <= target.breadth)
         ]
-        return sorted(around, key=lambda group: -len(group.members))
+        return sorted(around, key=lambda group: group.breadth, reverse=True)
 
     def storms_for(self, source: LinkedInstance) -> list[LinkedStorm]:
         """The IceStorms whose scope `source` stands in, the nearest scope first."""

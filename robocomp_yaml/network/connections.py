@@ -125,7 +125,7 @@ class Connections:
     def _ambiguous(
         self, draft: Draft, name: str, interface: str, offers: list[Offer], span: Span, port: Port | None = None
     ) -> None:
-        shown = [offer.owner.name if _is_only(offer) else offer.full_name for offer in offers]
+        shown = [self._called(offer, draft) for offer in offers]
         more = f" and {len(shown) - _MANY} more" if len(shown) > _MANY else ""
         places = {offer.span: word for word, offer in reversed(list(zip(shown, offers[:_MANY], strict=False)))}
         related = [Related(f"'{word}' serves it", span) for span, word in reversed(places.items())]
@@ -134,6 +134,14 @@ class Connections:
             candidates=", ".join(shown[:_MANY]) + more, hint=f"write `connect: {{{name}: {shown[0]}}}`, or another",
             related=related + _required(port),
         ))
+
+    def _called(self, offer: Offer, draft: Draft) -> str:
+        """As `connect:` may name it: a member of a closed group by the group."""
+        for group in self.drafts.linked.closed_around(offer.owner.instance, draft.instance)[:1]:
+            for served in group.serves:
+                if self.drafts.of(served.instance) is offer.owner and served.adapter == offer.adapter:
+                    return f"{group.name}.{served.name}"
+        return offer.owner.name if _is_only(offer) else offer.full_name
 
     def _mismatch(self, draft: Draft, port: Port, offer: Offer, span: Span) -> None:
         if offer.port is None:

@@ -76,8 +76,8 @@ class Gates:
 
     @property
     def _outermost_first(self) -> list[LinkedGroup]:
-        """Of groups with the same members, the one that stands later in the document is taken to be the outer one."""
-        return sorted(reversed(self.drafts.linked.groups.values()), key=lambda group: -len(group.members))
+        """Of groups that have the same members, and do not hold each other, the later one is taken to be the outer."""
+        return sorted(self.drafts.linked.groups.values(), key=lambda group: group.breadth)[::-1]
 
     def connect(self) -> None:
         """Each gate to the members behind it, or to the gates of groups inside."""

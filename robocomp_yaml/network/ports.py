@@ -10,6 +10,7 @@ from robocomp_yaml.network.drafts import Drafts
 from robocomp_yaml.network.port_numbers import RESERVED, default_port, next_free
 
 STORM_PORT = 9999
+"""Of an IceStorm in an include with a name, which may be there several times, it is a default as all others."""
 
 
 def assign(drafts: Drafts) -> None:
@@ -17,8 +18,9 @@ def assign(drafts: Drafts) -> None:
     meet on a host, the later name moves on: so they depend on names alone, not on the order of the document."""
     taken: dict[str, set[int]] = {host.address: set(RESERVED) for host in drafts.hosts.values()}
     for storm in drafts.storms.values():
-        storm.manager = storm.linked.storm.port or STORM_PORT
-        taken[storm.host.address].add(storm.manager)
+        storm.manager = storm.linked.storm.port or (0 if storm.linked.scope else STORM_PORT)
+        if storm.manager:
+            taken[storm.host.address].add(storm.manager)
     for draft in drafts.drafts.values():
         for offer in draft.adapters:
             _fix(draft, offer)
@@ -28,10 +30,12 @@ def assign(drafts: Drafts) -> None:
         ports = taken[place.host.address if isinstance(place, StormDraft) else place.owner.host.address]
         number = next_free(default_port(*name), ports)
         ports.add(number)
-        if isinstance(place, StormDraft):
-            place.publish = number
-        else:
+        if isinstance(place, Offer):
             place.number = number
+        elif name[1] == MANAGER:
+            place.manager = number
+        else:
+            place.publish = number
 
 
 def _open(drafts: Drafts) -> Iterator[tuple[tuple[str, str], Offer | StormDraft]]:
@@ -42,6 +46,8 @@ def _open(drafts: Drafts) -> Iterator[tuple[tuple[str, str], Offer | StormDraft]
                 yield (draft.name, offer.adapter), offer
     for storm in drafts.storms.values():
         yield (storm.name, f"{MANAGER}.{PUBLISH}"), storm
+        if not storm.manager:
+            yield (storm.name, MANAGER), storm
 
 
 def _fix(draft: Draft, offer: Offer) -> None:

@@ -26,7 +26,8 @@ def check(network: Network) -> Iterator[Diagnostic]:
                     yield codes.PORT_CONFLICT.at(
                         endpoint.span, port=endpoint.port, name=_name(process, endpoint), other=_name(other, served),
                         host=f"host '{process.host}'" if network.hosts[process.host].span.file else "this machine",
-                        hint="give one of them another port",
+                        hint="give one of them another port" if endpoint.span != served.span else
+                        "leave the port out, and each of them gets one of its own",
                         related=[Related(f"{_name(other, served)} has it, too", served.span)],
                     )
                     break

@@ -211,6 +211,17 @@ def test_what_is_included_is_marked(link: Link, tmp_path: Path) -> None:
     assert {d.deployment.name: d.is_included for d in program.deployments.values()} == {"Head": False, "Arm": True}
 
 
+def test_what_an_include_would_get_is_not_missed_where_its_name_is_taken(tmp_path: Path) -> None:
+    write_tree(tmp_path, {
+        "arm.ddsl.yaml": "deployment: Arm\ncomponents: {elbow: {component: elbow}}\n",
+        "elbow/elbow.cdsl.yaml": "component: ElbowComp\nlanguage: python\nimports: [../Mouth]\nrequires: [Mouth]\n",
+        "Mouth.idsl.yaml": "module: RoboCompMouth\ninterfaces: {Mouth: {methods: {open: }}}\n",
+        "head.ddsl.yaml": "deployment: Head\ninclude: {arm: arm.ddsl.yaml}\n"
+                          "components: {arm: {program: sleep, args: [1]}}\n",
+    })
+    assert [found.code for found in analyse([str(tmp_path / "head.ddsl.yaml")]).diagnostics] == ["RC4001"]
+
+
 def test_values_that_name_no_component_are_good_for_several(link: Link, tmp_path: Path) -> None:
     write_tree(tmp_path, {
         "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\nparameters: other.pdsl.yaml\n",

@@ -193,6 +193,25 @@ def test_gates_of_groups_in_groups_stand_behind_each_other() -> None:
     assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
 
 
+def test_the_inner_of_two_groups_may_stand_later() -> None:
+    found = network(deployed(
+        "components:\n  speech: {component: speech, connect: {Mouth: face}}\n  mouth: {component: mouth}\ngroups:\n"
+        "  face: {components: [lips], expose: {Mouth: {member: mouth, rate: 5}}}\n"
+        "  lips: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo]}}}\n"
+    ))
+    assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
+
+
+def test_of_closed_groups_that_serve_it_the_groups_are_named() -> None:
+    (found,) = faults(deployed(
+        "components:\n  speech: {component: speech}\n  mouth: {component: mouth}\n  other: {component: mouth}\n"
+        "groups:\n  left: {components: [mouth], expose: {Mouth: mouth}}\n"
+        "  right: {components: [other], expose: {Lips: other.Mouth}}\n"
+    ))
+    assert found.message.endswith("several serve it: left.Mouth, right.Lips")
+    assert found.hint == "write `connect: {Mouth: left.Mouth}`, or another"
+
+
 def test_an_include_is_connected_inside_first() -> None:
     arm = "deployment: Arm\ncomponents:\n  speech: {component: speech}\n  mouth: {component: mouth}\n"
     found = network(deployed(
