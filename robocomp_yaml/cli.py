@@ -10,9 +10,9 @@ import importlib
 import io
 import os
 import sys
-from dataclasses import dataclass
 
 import click
+import msgspec
 
 from robocomp_yaml import __version__
 
@@ -30,8 +30,7 @@ COMMANDS = {
 }
 
 
-@dataclass(slots=True)
-class Options:
+class Options(msgspec.Struct):
     """What holds for every command. `verbosity`: -1 quiet, 0, 1 verbose; `color`: None = as the terminal wants."""
 
     color: bool | None = None

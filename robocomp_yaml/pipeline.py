@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from robocomp_yaml.check import checks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
@@ -23,8 +24,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
 
-@dataclass(slots=True)
-class Analysis:
+class Analysis(msgspec.Struct):
     """A program with its diagnostics, sorted, and what they were read from: the bytes of each document, and the paths
     at which an import was looked for in vain. `networks` are what the deployments come to, by real path."""
 
@@ -32,9 +32,9 @@ class Analysis:
     linker: Linker
     found: Found
     diagnostics: list[Diagnostic]
-    contents: dict[str, bytes] = field(default_factory=dict)
-    absent: set[str] = field(default_factory=set)
-    networks: dict[str, Network] = field(default_factory=dict)
+    contents: dict[str, bytes] = {}
+    absent: set[str] = set()
+    networks: dict[str, Network] = {}
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._outcome import File, Outcome
@@ -26,8 +27,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.link.program import LinkedComponent
 
 
-@dataclass(slots=True)
-class Run:
+class Run(msgspec.Struct):
     """One compile. `look_only` writes nothing."""
 
     paths: tuple[str, ...]
@@ -37,7 +37,7 @@ class Run:
     look_only: bool = False
     adopt: bool = False
     merge: bool = False
-    _schemas: dict[str, bytes] = field(default_factory=dict)
+    _schemas: dict[str, bytes] = {}
 
     def carry_out(self, *, with_diff: bool = False) -> tuple[Outcome, stamp.Stamp | None]:
         """What it came to; with a stamp where the same run need not be made again while nothing changes."""

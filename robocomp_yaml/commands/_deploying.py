@@ -7,10 +7,11 @@ import os
 import sys
 from collections.abc import Collection, Coroutine, Iterable
 from contextlib import ExitStack
-from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 import click
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options
@@ -34,8 +35,7 @@ T = TypeVar("T")
 INTERRUPTED = "interrupted: what runs goes on; `rcyaml deploy down` stops it"
 
 
-@dataclass(slots=True)
-class Opened:
+class Opened(msgspec.Struct):
     """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
     so far, of which some have been `shown`; `documents` were read. `lock` is held while it is changed."""
 
@@ -43,10 +43,10 @@ class Opened:
     network: Network
     engine: Engine
     format_: str
-    told: list[Diagnostic] = field(default_factory=list)
+    told: list[Diagnostic] = []
     documents: int = 0
-    shown: list[Diagnostic] = field(default_factory=list)
-    lock: ExitStack = field(default_factory=ExitStack)
+    shown: list[Diagnostic] = []
+    lock: ExitStack = msgspec.field(default_factory=ExitStack)
 
     @property
     def enabled(self) -> set[str]:

@@ -5,16 +5,15 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import click
+import msgspec
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.diag.diagnostic import Diagnostic, Related, has_errors
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.render import render
 from robocomp_yaml.diag.render.json import dumps, run_as_data
-from robocomp_yaml.diag.span import Span
 
 SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
 
@@ -31,8 +30,7 @@ _WOULD = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class File:
+class File(msgspec.Struct, frozen=True):
     """One file and what became of it: `action` as in `emit.changes`, `orig` where an earlier text is kept, `diff` its
     changes when they were asked for."""
 
@@ -43,8 +41,7 @@ class File:
     diff: str = ""
 
 
-@dataclass(slots=True)
-class Outcome:
+class Outcome(msgspec.Struct):
     """`documents` were looked at, `asked` of them named by the user, `compiled` of these compiled. `planned` when
     nothing was written, since only a look was wanted."""
 
@@ -61,22 +58,12 @@ class Outcome:
         return any(file.action in CHANGED for file in self.files)
 
     def as_data(self) -> dict[str, Any]:
-        files = [[file.root, file.path, file.action] for file in self.files]
-        told = [asdict(diagnostic) for diagnostic in self.diagnostics]
-        counts = [self.documents, self.asked, self.compiled]
-        return {"diagnostics": told, "files": files, "counts": counts}
+        return msgspec.to_builtins(self)  # type: ignore[no-any-return]
 
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> Outcome:
-        """The inverse of `as_data`, for an outcome in which nothing was written."""
-        told = [
-            Diagnostic(
-                d["code"], d["severity"], d["message"], Span(**d["span"]), d["hint"],
-                tuple(Related(r["message"], Span(**r["span"])) for r in d["related"]), d["more"],
-            )
-            for d in data["diagnostics"]
-        ]  # fmt: skip
-        return cls(told, [File(*file) for file in data["files"]], *data["counts"])
+        """The inverse of `as_data`. Raises ValueError."""
+        return msgspec.convert(data, cls)
 
     def settled(self, lasting: list[Diagnostic]) -> Outcome:
         """The outcome of the same run made again: nothing left to write, and only the `lasting` diagnostics."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from dataclasses import asdict
 
 import click
+from msgspec import to_builtins
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._deploying import Opened, end
@@ -38,7 +38,7 @@ def tell(ctx: click.Context, opened: Opened, name: str | None) -> None:
     asyncio.run(work())
     code = 0 if all(_can_run(opened.network, host, found) for host, found in answers.items()) else 1
     if opened.format_ == "json":
-        data = {host: [asdict(one) for one in found] for host, found in answers.items()}
+        data = {host: [to_builtins(one) for one in found] for host, found in answers.items()}
         end(ctx, opened, {"hosts": data}, code)
     for host, found in answers.items():
         click.echo(f"{host} ({opened.network.hosts[host].address}):")

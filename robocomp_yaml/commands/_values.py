@@ -7,11 +7,12 @@ import os
 import re
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
 import click
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.check.pdsl import values as check
 from robocomp_yaml.commands import _options
@@ -24,8 +25,10 @@ from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, parse
-from robocomp_yaml.values import paths, show as values_show
-from robocomp_yaml.values.edit import NotEditable, set_value as edit
+from robocomp_yaml.values import paths
+from robocomp_yaml.values import show as values_show
+from robocomp_yaml.values.edit import NotEditable
+from robocomp_yaml.values.edit import set_value as edit
 from robocomp_yaml.values.effective import Effective, effective
 from robocomp_yaml.values.judge import judge
 from robocomp_yaml.values.spell_yaml import flow
@@ -33,12 +36,11 @@ from robocomp_yaml.values.spell_yaml import flow
 _REFERENCE = re.compile(r"\{ *env *: *[A-Za-z_][A-Za-z0-9_]* *\}", re.ASCII)  # as `get` prints it
 
 
-@dataclass(slots=True)
-class Loaded:
+class Loaded(msgspec.Struct):
     """A values document with what it is about; `values` is None where it could not be read."""
 
     values: LinkedValues | None
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = []
     documents: int = 0
 
     @property
@@ -251,8 +253,8 @@ def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...]) -
 
         click.echo(toml_text(loaded.values, values), nl=False)
         return
-    from robocomp_yaml.values.property_text import property_text
     from robocomp_yaml.values.properties import properties
+    from robocomp_yaml.values.property_text import property_text
 
     sections, _ = properties(loaded.values, values)
     component = loaded.parameters.component

@@ -10,11 +10,11 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import click
+import msgspec
 
 from robocomp_yaml.commands import _options, _workspace
 
@@ -28,22 +28,19 @@ _LISTS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class InterfaceView:
+class InterfaceView(msgspec.Struct, frozen=True):
     modeline: str
     module: str
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class ComponentView:
+class ComponentView(msgspec.Struct, frozen=True):
     modeline: str
     name: str
     rows: list[str]
 
 
-@dataclass(frozen=True, slots=True)
-class NewDocument:
+class NewDocument(msgspec.Struct, frozen=True):
     path: Path
     text: str
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import msgspec
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.program import LinkedComponent, Port
@@ -15,8 +16,7 @@ if TYPE_CHECKING:
 _SUFFIX = "comp"
 
 
-@dataclass(frozen=True, slots=True)
-class DeploymentView:
+class DeploymentView(msgspec.Struct, frozen=True):
     modeline: str
     name: str
     rows: list[str]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import click
+import msgspec
 
 
-@dataclass(frozen=True, slots=True)
-class ParametersView:
+class ParametersView(msgspec.Struct, frozen=True):
     modeline: str
     component: str
 

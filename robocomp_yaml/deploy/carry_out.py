@@ -6,7 +6,8 @@ import asyncio
 import time
 from collections.abc import Awaitable, Callable, Iterable, Mapping
 from contextlib import aclosing
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step, in_order
@@ -20,8 +21,7 @@ STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "start
 _LOOK = 0.1  # seconds for which what was seen of the processes holds while many wait
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
+class Event(msgspec.Struct, frozen=True):
     """Something happened to a process; `seconds` since it began to happen, `text` what to add."""
 
     name: str
@@ -30,17 +30,16 @@ class Event:
     seconds: float = 0.0
 
 
-@dataclass(slots=True)
-class Outcome:
+class Outcome(msgspec.Struct):
     """`began` are the processes that were started, ready or not; `failed` why some are not ready; `skipped` are those
     that were not tried because of these, or because the time was over (`is_late`): then `late` are those of the failed
     that were still waited for."""
 
-    began: list[str] = field(default_factory=list)
-    failed: dict[str, Diagnostic] = field(default_factory=dict)
-    skipped: list[str] = field(default_factory=list)
+    began: list[str] = []
+    failed: dict[str, Diagnostic] = {}
+    skipped: list[str] = []
     is_late: bool = False
-    late: list[str] = field(default_factory=list)
+    late: list[str] = []
 
 
 Report = Callable[[Event], None]

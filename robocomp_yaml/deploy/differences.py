@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.network.network import ConfigFile, Process, Variable
@@ -18,8 +19,7 @@ _LIVE = ("after", "ready", "restart", "aliases", "groups", "endpoints", "folders
 """Fields that hold without a restart. Where an endpoint changes what the process does, its configuration changes."""
 
 
-@dataclass(frozen=True, slots=True)
-class Difference:
+class Difference(msgspec.Struct, frozen=True):
     """`old` and `new` are '' where there is nothing. `is_live` where it holds without a restart."""
 
     field: str

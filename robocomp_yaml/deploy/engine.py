@@ -7,8 +7,9 @@ Order, readiness, plan and rollback are not its business: they are the same for 
 from __future__ import annotations
 
 from collections.abc import AsyncGenerator, Collection, Iterable, Sequence
-from dataclasses import dataclass
 from typing import Protocol
+
+import msgspec
 
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -35,8 +36,7 @@ STOP_WITHIN = 5.0
 """Seconds that a process has to end when it is asked to, before it is killed."""
 
 
-@dataclass(frozen=True, slots=True)
-class Running:
+class Running(msgspec.Struct, frozen=True):
     """A process that the engine started, as it is now. `spec` is what it was started with (None where the engine
     cannot say: another version of rcyaml started it). `uptime` are seconds since its present run began, or since the
     last one ended, by a clock that nobody sets. `restarts` counts those that the engine made by itself, `last_exit`
@@ -61,8 +61,7 @@ class Running:
         return self.last_exit + again
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(msgspec.Struct, frozen=True):
     """A line that a process wrote on its standard output or error; `time` as in ISO 8601, '' where it is not known."""
 
     name: str

@@ -6,7 +6,9 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping
 from contextlib import aclosing
-from dataclasses import dataclass, field, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.deploy.carry_out import Outcome, Report, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Engine, Running
@@ -24,21 +26,19 @@ SHOWN_LINES = 10
 """Lines of a log that are shown with what failed."""
 
 
-@dataclass(slots=True)
-class Result:
+class Result(msgspec.Struct):
     """What came of an `up`. `undone` is what was done on failure, '' where nothing failed."""
 
     plan: Plan
-    outcome: Outcome = field(default_factory=Outcome)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    outcome: Outcome = msgspec.field(default_factory=Outcome)
+    diagnostics: list[Diagnostic] = []
     undone: str = ""
 
 
 Choose = Callable[[Result], Awaitable[str]]
 
 
-@dataclass(frozen=True, slots=True)
-class Status:
+class Status(msgspec.Struct, frozen=True):
     """A process of the network, or one that runs and is no longer part of it. `running` is None where it was never
     started."""
 

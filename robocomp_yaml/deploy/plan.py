@@ -8,7 +8,8 @@ Only programs that are not Ice follow when something that they are `after` resta
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.deploy.differences import Difference, differences
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, WAITING, Running
@@ -18,8 +19,7 @@ from robocomp_yaml.network.network import Network, Process
 START, STOP, RESTART, CHANGE, KEEP = "start", "stop", "restart", "change", "keep"
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(msgspec.Struct, frozen=True):
     """What happens to one process. `spec` is what it shall run with, None where it stops; `before` is what it runs
     with now. CHANGE takes over what needs no restart."""
 
@@ -35,11 +35,10 @@ class Step:
         return self.running.spec if self.running else None
 
 
-@dataclass(slots=True)
-class Plan:
+class Plan(msgspec.Struct):
     """Steps by name: those that stop for good, then the network's in its order."""
 
-    steps: dict[str, Step] = field(default_factory=dict)
+    steps: dict[str, Step] = {}
 
     def of(self, *actions: str) -> list[Step]:
         return [step for step in self.steps.values() if step.action in actions]

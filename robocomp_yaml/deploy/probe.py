@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.network.network import Host, Network
@@ -38,8 +39,7 @@ class ProbeFailed(Exception):
     """The host cannot be asked; the text says why."""
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(msgspec.Struct, frozen=True):
     """A program on a host. `path` is '' where the host does not have it; `missing` are libraries that it needs and the
     host lacks. `used_by` are the processes that run it."""
 

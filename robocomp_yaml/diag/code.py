@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
@@ -11,8 +12,7 @@ from robocomp_yaml.diag.span import Span
 Files = Mapping[str, "str | bytes | None"]
 
 
-@dataclass(frozen=True, slots=True)
-class Code:
+class Code(msgspec.Struct, frozen=True):
     """One kind of diagnostic. Ids are never reused.
 
     `message` is a format string for the facts given to `at`. `why` explains (Markdown). `wrong` and `right` are small

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class Span:
+class Span(msgspec.Struct, frozen=True, order=True):
     """From (line, column) to (end_line, end_column) of a file; lines and columns count from 1, in characters.
 
     The end is exclusive: a one-letter word at the start of a file is 1:1–1:2. `file` is the path as the user gave it

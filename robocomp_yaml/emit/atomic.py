@@ -9,7 +9,8 @@ import itertools
 import os
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
 from robocomp_yaml.emit.places import STATE, Root, contents, in_words
@@ -29,8 +30,7 @@ class WriteFailed(Exception):
         self.root, self.path, self.reason = root, path, reason
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(msgspec.Struct, frozen=True):
     """One file that changes: from `before` (None: nothing is there) to `after` (None: nothing shall be there).
 
     `mode` are the permissions, where a file that stands there has some already. `orig` is a name under which what
@@ -45,8 +45,7 @@ class Step:
     orig: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Batch:
+class Batch(msgspec.Struct, frozen=True):
     """The changes of one root (a folder without symlinks in its path)."""
 
     root: str
@@ -135,14 +134,13 @@ def _make_room_for_locks(count: int) -> None:
 _numbers = itertools.count()  # of all commits: two roots may have a folder in common
 
 
-@dataclass(slots=True)
-class _Commit:
+class _Commit(msgspec.Struct):
     """The commit of one batch, phase by phase. `at` is the path that it is busy with."""
 
     batch: Batch
     journal: Journal = Journal(())
     at: str = ""
-    made: list[str] = field(default_factory=list)
+    made: list[str] = []
     under_way: bool = False
 
     @property

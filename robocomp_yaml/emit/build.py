@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
@@ -25,12 +26,11 @@ if TYPE_CHECKING:
     from robocomp_yaml.model.interface import Module
 
 
-@dataclass(slots=True)
-class Build:
+class Build(msgspec.Struct):
     """The plans, and what kept documents from being compiled."""
 
-    plans: list[RootPlan] = field(default_factory=list)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    plans: list[RootPlan] = []
+    diagnostics: list[Diagnostic] = []
     compiled: int = 0
 
 
@@ -78,13 +78,12 @@ def _slice_folder(workspace: Workspace) -> str:
     return workspace.slice_folder or os.path.join(workspace.root, "slice")
 
 
-@dataclass(slots=True)
-class _State:
+class _State(msgspec.Struct):
     """Documents by path: those with errors, and those with an unresolved import that was lowered to less."""
 
-    faulty: set[str] = field(default_factory=set)
-    lowered: set[str] = field(default_factory=set)
-    _causes: dict[LinkedModule, str] = field(default_factory=dict)
+    faulty: set[str] = set()
+    lowered: set[str] = set()
+    _causes: dict[LinkedModule, str] = {}
 
     @classmethod
     def of(cls, diagnostics: Iterable[Diagnostic]) -> _State:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.atomic import Step
@@ -23,8 +25,7 @@ any more. REFUSED: it stays as it is, as a diagnostic says.
 WRITING = (CREATE, UPDATE, ADOPT, EDITED, MERGE, REMOVE)
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(msgspec.Struct, frozen=True):
     """What happens to one file. `path` can be opened from the user's folder, `orig` too ('' where nothing is kept)."""
 
     path: str
@@ -44,8 +45,7 @@ class Change:
         )
 
 
-@dataclass(slots=True)
-class RootChanges:
+class RootChanges(msgspec.Struct):
     """The changes below one output root, with the steps that make them. A `refused` root gets no steps.
 
     `settled` are the files that then hold what rcyaml wrote, with their content; `once` those that must only exist.
@@ -53,10 +53,10 @@ class RootChanges:
 
     root: str
     real: str
-    changes: list[Change] = field(default_factory=list)
-    steps: list[Step] = field(default_factory=list)
-    settled: dict[str, bytes] = field(default_factory=dict)
-    once: list[str] = field(default_factory=list)
+    changes: list[Change] = []
+    steps: list[Step] = []
+    settled: dict[str, bytes] = {}
+    once: list[str] = []
     refused: bool = False
 
     def refuse(self) -> None:
@@ -66,10 +66,9 @@ class RootChanges:
         self.changes = [replace(c, action=REFUSED, orig="") if c.action in WRITING else c for c in self.changes]
 
 
-@dataclass(slots=True)
-class Changes:
-    roots: list[RootChanges] = field(default_factory=list)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+class Changes(msgspec.Struct):
+    roots: list[RootChanges] = []
+    diagnostics: list[Diagnostic] = []
 
     def __iter__(self) -> Iterator[Change]:
         for root in self.roots:

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan
 from robocomp_yaml.emit.ports import IceEndpoint, Ports, interface_key
-from robocomp_yaml.source.properties import entry_line
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.source.properties import entry_line
 
 DEFAULT_PERIOD = 100
 

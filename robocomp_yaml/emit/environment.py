@@ -12,9 +12,10 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
 from importlib import metadata
 from pathlib import Path
+
+import msgspec
 
 from robocomp_yaml.diag.codes import uses as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -30,8 +31,7 @@ _WORDS = {
 _CLASSES = ("", "classes", "Classes")
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(msgspec.Struct, frozen=True):
     """`version` is '' where it is not known; `why` says what kept it from being looked for."""
 
     there: bool
@@ -39,12 +39,11 @@ class Found:
     why: str = ""
 
 
-@dataclass(slots=True)
-class _Looked:
+class _Looked(msgspec.Struct):
     """Answers, each asked for once."""
 
-    cmake: dict[tuple[str, str], Found] = field(default_factory=dict)
-    answers: dict[tuple[str, str], Found] = field(default_factory=dict)
+    cmake: dict[tuple[str, str], Found] = {}
+    answers: dict[tuple[str, str], Found] = {}
 
     def ask(self, library: Library) -> Found:
         key = (library.kind, library.name)

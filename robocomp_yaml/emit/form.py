@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from robocomp_yaml.emit.render import render
 
 PATH = "src/mainUI.ui"
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(msgspec.Struct, frozen=True):
     """`base` is a class of Qt; `is_main` says that its widgets stand in a central one."""
 
     base: str

@@ -11,7 +11,8 @@ import contextlib
 import json
 import os
 import re
-from dataclasses import asdict, dataclass
+
+import msgspec
 
 from robocomp_yaml.emit.places import STATE, Root, contents
 from robocomp_yaml.source.digest import digest
@@ -23,8 +24,7 @@ PART = "~"
 """Ends the name of a copy that is not complete yet."""
 
 
-@dataclass(frozen=True, slots=True)
-class Mark:
+class Mark(msgspec.Struct, frozen=True):
     """One file of a commit; paths are relative to the root, '' where there is none. `hash` is that of the new
     content. `created` when nothing stood at the path before."""
 
@@ -36,8 +36,7 @@ class Mark:
     created: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Journal:
+class Journal(msgspec.Struct, frozen=True):
     """`folders` are those that the commit makes, outer ones first."""
 
     marks: tuple[Mark, ...]
@@ -46,18 +45,17 @@ class Journal:
     def save(self, root: str) -> None:
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW
         with os.fdopen(os.open(os.path.join(root, JOURNAL), flags, 0o666), "w", encoding="utf-8") as file:
-            file.write(json.dumps(asdict(self)))
+            file.write(json.dumps(msgspec.to_builtins(self)))
 
 
 def load(root: str) -> tuple[Journal | None, bool]:
     """The journal that a dead commit left here, and whether that commit had come to its end."""
     for name, done in ((JOURNAL, False), (JOURNAL_DONE, True)):
         try:
-            raw = json.loads(contents(os.path.join(root, name)))
-            journal = Journal(tuple(Mark(**mark) for mark in raw["marks"]), tuple(raw["folders"]))
+            journal = msgspec.convert(json.loads(contents(os.path.join(root, name))), Journal)
         except FileNotFoundError:
             continue
-        except (OSError, ValueError, TypeError, KeyError, RecursionError):
+        except (OSError, ValueError, RecursionError):
             # Cut short: the process died while it wrote the journal, before it touched anything else.
             journal = Journal(())
         return journal if _is_sound(journal, Root(root)) else Journal(()), done
@@ -69,7 +67,7 @@ def _is_sound(journal: Journal, root: Root) -> bool:
     that is not ours."""
     for mark in journal.marks:
         names = (mark.path, mark.new, mark.old, mark.orig)
-        if not all(isinstance(name, str) for name in (*names, mark.hash)) or not mark.path:
+        if not mark.path:
             return False
         if not all(not name or _STAGED.fullmatch(os.path.basename(name)) for name in (mark.new, mark.old)):
             return False
@@ -77,7 +75,7 @@ def _is_sound(journal: Journal, root: Root) -> bool:
             return False
         if any(name and root.look(name, read=False).outside for name in names):
             return False
-    return all(isinstance(name, str) and not root.look(name, read=False).outside for name in journal.folders)
+    return all(not root.look(name, read=False).outside for name in journal.folders)
 
 
 def put_back(root: str, journal: Journal) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import os
 from contextlib import suppress
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.emit.places import STATE
 
@@ -18,8 +19,7 @@ class Unusable(Exception):
     """The manifest cannot be understood; the text says why."""
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(msgspec.Struct, frozen=True):
     """A file that rcyaml wrote: the digest of what it wrote, the documents it was written for (paths relative to the
     root), and whether it was written once, as the user's."""
 
@@ -28,9 +28,8 @@ class Entry:
     once: bool = False
 
 
-@dataclass(slots=True)
-class Manifest:
-    files: dict[str, Entry] = field(default_factory=dict)
+class Manifest(msgspec.Struct):
+    files: dict[str, Entry] = {}
 
     def text(self) -> str:
         """One line a file, so that versions compare well."""

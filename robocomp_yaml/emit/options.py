@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import Workspace
@@ -13,8 +14,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.emit.ports import Ports
 
 
-@dataclass(slots=True)
-class Options:
+class Options(msgspec.Struct):
     """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
     `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
     component's workspace (asked for only when a first `etc/config` is to be written)."""

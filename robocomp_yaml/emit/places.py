@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 import stat
-from dataclasses import dataclass, replace
+
+import msgspec
+from msgspec.structs import replace
 
 STATE = ".rcyaml"
 """The folder of a root in which rcyaml keeps what it must remember."""
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(msgspec.Struct, frozen=True):
     """What stands at a path. `data` is None where there is nothing, and where nobody asked for it; `mode` is that of a
     file, 0 for a link. `problem` says why nothing can be written there, `culprit` which part of the path it is that
     stands in the way; `outside` when it leads out of the root."""

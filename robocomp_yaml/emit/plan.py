@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import msgspec
 
 ALWAYS, ONCE = "always", "once"
 
 CONFIG = "etc/config"
 
 
-@dataclass(frozen=True, slots=True)
-class FilePlan:
+class FilePlan(msgspec.Struct, frozen=True):
     """One file below an output root. `path` is relative, with '/'. `policy` ALWAYS: ours, rewritten whenever it
     changes. ONCE: written if it is missing, then the user's."""
 
@@ -20,8 +19,7 @@ class FilePlan:
     executable: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Merge:
+class Merge(msgspec.Struct, frozen=True):
     """What becomes of a file of the user: `before` is what it held, and `base` what a later merge starts from."""
 
     before: bytes
@@ -29,16 +27,14 @@ class Merge:
     base: bytes
 
 
-@dataclass(slots=True)
-class Merges:
+class Merges(msgspec.Struct):
     """Merges by real root and path; in a `refused` root nothing may be written."""
 
-    files: dict[tuple[str, str], Merge] = field(default_factory=dict)
-    refused: set[str] = field(default_factory=set)
+    files: dict[tuple[str, str], Merge] = {}
+    refused: set[str] = set()
 
 
-@dataclass(slots=True)
-class RootPlan:
+class RootPlan(msgspec.Struct):
     """All that one owner (the path of a document relative to `root`, with '/') puts below the folder `root`.
 
     `partial` when only some of it was asked for (one target of several): what is not in `files` then stays.
@@ -46,5 +42,5 @@ class RootPlan:
 
     root: str
     owner: str
-    files: list[FilePlan] = field(default_factory=list)
+    files: list[FilePlan] = []
     partial: bool = False

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -22,13 +23,12 @@ from robocomp_yaml.source import properties
 from robocomp_yaml.source.properties import Entry
 
 
-@dataclass(slots=True)
-class Ports:
+class Ports(msgspec.Struct):
     """The endpoint of each adapter (real path of the component's document, interface's name) of a workspace, and which
     components implement an interface (module, name), in order of their paths."""
 
-    endpoints: dict[tuple[str, str], IceEndpoint] = field(default_factory=dict)
-    implementers: dict[tuple[str, str], list[tuple[LinkedComponent, str]]] = field(default_factory=dict)
+    endpoints: dict[tuple[str, str], IceEndpoint] = {}
+    implementers: dict[tuple[str, str], list[tuple[LinkedComponent, str]]] = {}
 
     def endpoint(self, linked: LinkedComponent, name: str) -> IceEndpoint:
         return self.endpoints[document(linked), name]

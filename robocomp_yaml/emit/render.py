@@ -1,6 +1,6 @@
 """Templates rendered from views.
 
-A view is a dataclass of ready strings (and lists of views); its fields are the template's names. Compiled templates are
+A view is a struct of ready strings (and lists of views); its fields are the template's names. Compiled templates are
 kept in the user's cache folder, since compiling them costs more than all the rest of a run.
 """
 
@@ -9,20 +9,20 @@ from __future__ import annotations
 import os
 import stat
 from contextlib import suppress
-from dataclasses import fields
 from functools import cache
 from pathlib import Path
 
+import msgspec
 from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, FileSystemLoader, StrictUndefined
 from jinja2.bccache import Bucket
+from msgspec.structs import asdict
 
 from robocomp_yaml import resources
 
 
-def render(name: str, view: object) -> str:
-    """The template `templates/NAME` filled in with the fields of `view`, a dataclass."""
-    values = {field.name: getattr(view, field.name) for field in fields(view)}  # type: ignore[arg-type]
-    return _environment().get_template(name).render(values)
+def render(name: str, view: msgspec.Struct) -> str:
+    """The template `templates/NAME` filled in with the fields of `view`."""
+    return _environment().get_template(name).render(asdict(view))
 
 
 class _Cache(FileSystemBytecodeCache):

@@ -1,8 +1,8 @@
 """The stamp of a whole run: what it read, found missing and left on the disk, so that the same run need not be made.
 
 A stamp is trusted only as far as contents go: every file of the user is hashed again, no time of change is looked
-at. Whatever cannot be made sure of makes a stamp stale, and a stale stamp costs nothing but the run. Only the standard
-library is imported, for this is what a run with nothing to do consists of.
+at. Whatever cannot be made sure of makes a stamp stale, and a stale stamp costs nothing but the run. Little is
+imported, for this is what a run with nothing to do consists of.
 """
 
 from __future__ import annotations
@@ -12,7 +12,9 @@ import json
 import os
 import stat
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, fields
+
+import msgspec
+from msgspec.structs import asdict
 
 import robocomp_yaml
 from robocomp_yaml.source.digest import digest
@@ -22,8 +24,7 @@ _KEPT = 32
 _DATA = ("schemas", "templates", "migrate")
 
 
-@dataclass(frozen=True, slots=True)
-class Stamp:
+class Stamp(msgspec.Struct, frozen=True):
     """All paths are as the run used them, relative to its working folder or absolute.
 
     `inputs`: of each file read, its real path and digest. `absent`: where it looked in vain. `folders`: of each folder
@@ -32,10 +33,10 @@ class Stamp:
     """
 
     tool: str
-    inputs: dict[str, list[str]]
+    inputs: dict[str, tuple[str, str]]
     absent: list[str]
     folders: dict[str, list[str]]
-    outputs: dict[str, list[str | bool]]
+    outputs: dict[str, tuple[str, bool]]
     present: list[str]
     replay: dict[str, object]
 
@@ -60,10 +61,10 @@ def take(
     try:
         return Stamp(
             tool(),
-            {path: [real.path(path), digest(data)] for path, data in inputs.items()},
+            {path: (real.path(path), digest(data)) for path, data in inputs.items()},
             sorted(absent),
             {folder: list(found) for folder, found in folders.items()},
-            {path: [digest(data), _may_run(os.lstat(path))] for path, data in outputs.items()},
+            {path: (digest(data), _may_run(os.lstat(path))) for path, data in outputs.items()},
             sorted(present),
             dict(replay),
         )
@@ -93,11 +94,8 @@ def load(folder: str, name: str) -> Stamp | None:
     """The stamp that a run with this key left below a folder, or None."""
     try:
         with open(_file(folder, name), "rb") as file:
-            stamp = Stamp(**json.load(file))
-        for pair in (*stamp.inputs.values(), *stamp.outputs.values()):
-            _first, _second = pair
-        return stamp
-    except (OSError, ValueError, TypeError, AttributeError, RecursionError):
+            return msgspec.convert(json.load(file), Stamp)
+    except (OSError, ValueError, RecursionError):
         return None
 
 
@@ -110,7 +108,7 @@ def save(folder: str, name: str, stamp: Stamp) -> None:
         _ignored_by_git(os.path.dirname(path))
         try:
             with open(part, "w", encoding="utf-8") as file:
-                file.write(json.dumps({f.name: getattr(stamp, f.name) for f in fields(stamp)}, separators=(",", ":")))
+                file.write(json.dumps(asdict(stamp), separators=(",", ":")))
             os.replace(part, path)
         finally:
             with contextlib.suppress(FileNotFoundError):

@@ -20,8 +20,8 @@ from robocomp_yaml.source.properties import unquoted
 from robocomp_yaml.source.tree import Scalar
 from robocomp_yaml.values.effective import Effective
 from robocomp_yaml.values.properties import Section, legacy_file, properties
-from robocomp_yaml.values.spelling import Template
 from robocomp_yaml.values.spell_yaml import quoted
+from robocomp_yaml.values.spelling import Template
 from robocomp_yaml.values.write import Where, node_of, step
 
 _NUMBER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][-+]?[0-9]+)?\Z")

@@ -8,7 +8,8 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
@@ -23,16 +24,14 @@ _OPERATORS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class File:
+class File(msgspec.Struct, frozen=True):
     """A file of the repository; one that is not compiled is a header, of which the folder counts."""
 
     path: str
     is_compiled: bool
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(msgspec.Struct, frozen=True):
     """`places` are folders, relative to the component's; `libraries` are commands of CMake."""
 
     source: str

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -14,20 +15,18 @@ from robocomp_yaml.emit.places import Root
 from robocomp_yaml.emit.plan import FilePlan, RootPlan
 
 
-@dataclass(slots=True)
-class Wanted:
+class Wanted(msgspec.Struct):
     plan: FilePlan
     owners: list[str]
 
 
-@dataclass(slots=True)
-class WantedRoot:
+class WantedRoot(msgspec.Struct):
     """All plans for one root. `owners` says of each owner whether its plan was partial."""
 
     root: Root
-    files: dict[str, Wanted] = field(default_factory=dict)
-    owners: dict[str, bool] = field(default_factory=dict)
-    contested: dict[tuple[str, str], list[str]] = field(default_factory=dict)
+    files: dict[str, Wanted] = {}
+    owners: dict[str, bool] = {}
+    contested: dict[tuple[str, str], list[str]] = {}
 
     def diagnostics(self) -> Iterator[Diagnostic]:
         """One for each two documents that want the same files with different contents, whatever the number."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import bisect
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
+import msgspec
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
@@ -20,8 +20,7 @@ _DOC = re.compile(r"///(?!/)|/\*\*(?![*/])")
 _BEHIND = re.compile(r"///<|/\*\*<")
 
 
-@dataclass(slots=True, eq=False)
-class _Place:
+class _Place(msgspec.Struct, eq=False):
     """A construct that comments can belong to; `parent` is the one around it."""
 
     start: int
@@ -31,13 +30,12 @@ class _Place:
     notes: Notes
 
 
-@dataclass(slots=True)
-class Placed:
+class Placed(msgspec.Struct):
     """The notes of each construct, by the identity of its tree, and those around the whole file."""
 
-    by_tree: dict[int, Notes] = field(default_factory=dict)
-    around: Notes = field(default_factory=Notes)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    by_tree: dict[int, Notes] = {}
+    around: Notes = msgspec.field(default_factory=Notes)
+    diagnostics: list[Diagnostic] = []
 
     def of(self, tree: Tree[Token]) -> Notes:
         return self.by_tree.get(id(tree), Notes())

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import importlib
 import unicodedata
-from dataclasses import dataclass, field
 
+import msgspec
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
@@ -19,8 +19,7 @@ from robocomp_yaml.legacy.reading import Source, read
 from robocomp_yaml.legacy.rules import Rules
 
 
-@dataclass(slots=True)
-class Converted:
+class Converted(msgspec.Struct):
     """A legacy file with what became of it. No draft: it is refused."""
 
     path: str
@@ -28,7 +27,7 @@ class Converted:
     source: Source | None = None
     parsed: Parsed | None = None
     draft: Draft | None = None
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = []
 
     @property
     def refused(self) -> bool:

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.legacy.yamltext import is_printable, scalar
 
@@ -16,15 +17,14 @@ GAP = None  # an empty line between comments; several are one
 Line = str | None
 
 
-@dataclass(slots=True)
-class Notes:
+class Notes(msgspec.Struct):
     """Comments of an entry, without '#': lines above it ('' is an empty line), at its end, and below all it holds.
     `doc` are the lines of its doc comments."""
 
-    head: list[str] = field(default_factory=list)
-    tail: list[str] = field(default_factory=list)
-    foot: list[str] = field(default_factory=list)
-    doc: list[str] = field(default_factory=list)
+    head: list[str] = []
+    tail: list[str] = []
+    foot: list[str] = []
+    doc: list[str] = []
 
     def __bool__(self) -> bool:
         return bool(self.head or self.tail or self.foot)
@@ -34,32 +34,28 @@ class Notes:
         self.head += [*other.head, *other.tail, *other.foot]
 
 
-@dataclass(frozen=True, slots=True)
-class Raw:
+class Raw(msgspec.Struct, frozen=True):
     """A scalar as it is spelled: a number, a boolean."""
 
     lexeme: str
 
 
-@dataclass(slots=True)
-class Name:
+class Name(msgspec.Struct):
     """The name of something, which may turn out to be spelled in another way."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Doc:
+class Doc(msgspec.Struct, frozen=True):
     """A text for people: if it is long it may be folded, and what reads it strips it."""
 
     text: str
 
 
-@dataclass(slots=True)
-class Map:
+class Map(msgspec.Struct):
     """`block`: never on one line. `limit`: the longest line that it may stand on, with its key."""
 
-    entries: list[Entry] = field(default_factory=list)
+    entries: list[Entry] = []
     block: bool = False
     limit: int = WIDTH
 
@@ -69,9 +65,8 @@ class Map:
         return entry
 
 
-@dataclass(slots=True)
-class List:
-    items: list[Entry] = field(default_factory=list)
+class List(msgspec.Struct):
+    items: list[Entry] = []
     block: bool = False
 
     def put(self, value: Value, notes: Notes | None = None) -> Entry:
@@ -83,11 +78,10 @@ class List:
 Value = str | Raw | Name | Doc | Map | List | None
 
 
-@dataclass(slots=True)
-class Entry:
+class Entry(msgspec.Struct):
     key: str
     value: Value
-    notes: Notes = field(default_factory=Notes)
+    notes: Notes = msgspec.field(default_factory=Notes)
 
 
 def text(document: Map, around: Notes) -> str:

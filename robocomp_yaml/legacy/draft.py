@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 
+import msgspec
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
@@ -19,8 +19,7 @@ from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import Settings
 
 
-@dataclass(frozen=True, slots=True)
-class ImportDraft:
+class ImportDraft(msgspec.Struct, frozen=True):
     """An import as the file spells it; `entry` is where its name goes."""
 
     path: str
@@ -32,8 +31,7 @@ class ImportDraft:
         return base_name(self.path)
 
 
-@dataclass(frozen=True, slots=True)
-class Reference:
+class Reference(msgspec.Struct, frozen=True):
     """A type that a module names: `module` is '' for one of its own. `written` is how the document names it."""
 
     module: str
@@ -42,17 +40,15 @@ class Reference:
     span: Span
 
 
-@dataclass(slots=True)
-class ModuleNames:
+class ModuleNames(msgspec.Struct):
     """What a module defines and refers to: enough to tell a reference that leads nowhere."""
 
     name: str
-    defined: set[str] = field(default_factory=set)
-    references: list[Reference] = field(default_factory=list)
+    defined: set[str] = set()
+    references: list[Reference] = []
 
 
-@dataclass(frozen=True, slots=True)
-class MachineDraft:
+class MachineDraft(msgspec.Struct, frozen=True):
     """The state machine that a component names: its path as the file spells it; `entry` is where the new one goes."""
 
     path: str
@@ -65,8 +61,7 @@ class MachineDraft:
         return re.sub(r"\.smdsl$", ".scxml", self.path, flags=re.IGNORECASE)
 
 
-@dataclass(slots=True)
-class Draft:
+class Draft(msgspec.Struct):
     """`text` is the whole document where it is no YAML."""
 
     document: Map
@@ -81,15 +76,14 @@ class Draft:
     """Of a manager or a launcher: its document is made once the run's components are known."""
 
 
-@dataclass(slots=True, eq=False)
-class Reader:
+class Reader(msgspec.Struct, eq=False):
     """What converters share: the file, its rules, where its comments belong, and what there is to say about it."""
 
     source: Source
     rules: Rules
     parsed: Parsed
     placed: Placed
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = []
 
     def span(self, node: Tree[Token] | Token) -> Span:
         if isinstance(node, Token):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from functools import cache
 
+import msgspec
 from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedInput
 from lark.lexer import PatternRE, PatternStr, TerminalDef
@@ -27,21 +27,19 @@ COMMENTS = ("LINE_COMMENT", "BLOCK_COMMENT")
 _IGNORED = re.compile(r"^%ignore (?!BLANK)(\w+)", re.MULTILINE)
 
 
-@dataclass(slots=True)
-class Parsed:
+class Parsed(msgspec.Struct):
     """`trivia` are comments and other tokens that no rule of the grammar takes, in order. No tree: there are errors."""
 
     tree: Tree[Token] | None
-    trivia: list[Token] = field(default_factory=list)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    trivia: list[Token] = []
+    diagnostics: list[Diagnostic] = []
 
     @property
     def comments(self) -> list[Token]:
         return [token for token in self.trivia if token.type in COMMENTS]
 
 
-@dataclass(slots=True)
-class _Parser:
+class _Parser(msgspec.Struct):
     lark: Lark
     trivia: list[Token]
     literals: dict[str, str]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic
@@ -20,14 +21,13 @@ CLASSES = ("blank", "converted", "comment", "repaired", "lost", "refused")
 _REPAIRS = {codes.REPAIRED.id: "repaired", codes.OVERLOAD.id: "repaired", codes.LOST.id: "lost"}
 
 
-@dataclass(slots=True)
-class Entry:
+class Entry(msgspec.Struct):
     """What became of one file. `skipped`: its document was left as it is, on purpose. `blocked`: it could not be
     written."""
 
     file: Converted
-    outputs: list[str] = field(default_factory=list)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    outputs: list[str] = []
+    diagnostics: list[Diagnostic] = []
     skipped: bool = False
     blocked: bool = False
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -16,13 +17,12 @@ from robocomp_yaml.source.discover import WORKSPACE_FILE
 INTERFACES = "idsl"
 
 
-@dataclass(slots=True)
-class Neighbours:
+class Neighbours(msgspec.Struct):
     """The interface files of a run by their stem, and where else a document may be found."""
 
     search: Search
-    by_stem: dict[str, list[Converted]] = field(default_factory=dict)
-    _listed: dict[str, dict[str, str]] = field(default_factory=dict)
+    by_stem: dict[str, list[Converted]] = {}
+    _listed: dict[str, dict[str, str]] = {}
 
     @classmethod
     def of(cls, files: Iterable[Converted], search: Search) -> Neighbours:

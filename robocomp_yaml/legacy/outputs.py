@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import difflib
 import json
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.emit.atomic import Batch, Step, WriteFailed, carry_out, recover
@@ -21,8 +22,7 @@ UPGRADED = "upgraded"
 """An older document of ours, which stays the user's."""
 
 
-@dataclass(slots=True)
-class Output:
+class Output(msgspec.Struct):
     """One file that shall stand at `path` below the root. `state` says what is, or was, to be done about it."""
 
     path: str
@@ -42,13 +42,12 @@ class Output:
         return "".join(difflib.unified_diff(old, new, name, shown))
 
 
-@dataclass(slots=True)
-class OutputRoot:
+class OutputRoot(msgspec.Struct):
     """All that one run writes below one folder."""
 
     root: Root
-    outputs: list[Output] = field(default_factory=list)
-    memory: dict[str, str] = field(default_factory=dict)
+    outputs: list[Output] = []
+    memory: dict[str, str] = {}
     remembered: bytes | None = None
     problem: str = ""
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import bisect
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
@@ -15,13 +16,12 @@ MAX_SOURCE = 4 << 20
 """Bytes. The largest legacy file known has 20 KiB."""
 
 
-@dataclass(slots=True, eq=False)
-class Source:
+class Source(msgspec.Struct, eq=False):
     """A legacy file's text, with '\\n' as its only line end, and places in it."""
 
     path: str
     text: str
-    _starts: list[int] = field(default_factory=list)
+    _starts: list[int] = []
 
     def __post_init__(self) -> None:
         self._starts = [0, *(at + 1 for at, char in enumerate(self.text) if char == "\n")]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
+
+import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
@@ -17,18 +18,17 @@ from robocomp_yaml.legacy.sources import LegacyFile
 from robocomp_yaml.source import workspace_files
 
 
-@dataclass(slots=True)
-class Migration:
+class Migration(msgspec.Struct):
     """`general` are diagnostics that belong to no legacy file alone."""
 
-    entries: list[Entry] = field(default_factory=list)
-    roots: dict[str, OutputRoot] = field(default_factory=dict)
-    general: list[Diagnostic] = field(default_factory=list)
-    homes: dict[str, list[Output]] = field(default_factory=dict)
+    entries: list[Entry] = []
+    roots: dict[str, OutputRoot] = {}
+    general: list[Diagnostic] = []
+    homes: dict[str, list[Output]] = {}
     """The documents of each workspace, whose first line names a schema there."""
-    upgrades: list[tuple[str, Output]] = field(default_factory=list)
+    upgrades: list[tuple[str, Output]] = []
     """Older documents of ours, by their paths."""
-    _documents: list[tuple[Entry, OutputRoot, Output]] = field(default_factory=list)
+    _documents: list[tuple[Entry, OutputRoot, Output]] = []
 
     @property
     def diagnostics(self) -> list[Diagnostic]:

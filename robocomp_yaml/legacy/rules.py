@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
+
+import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.source.tree import parse
@@ -15,8 +16,7 @@ from robocomp_yaml.source.tree import parse
 Texts = Mapping[str, str]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Files:
+class Files(msgspec.Struct, frozen=True, eq=False):
     """Which files of a folder may be of a format, by their names: surely, or only if their content says so too."""
 
     certain: re.Pattern[str]
@@ -33,8 +33,7 @@ class Files:
         return "perhaps" if os.path.basename(os.path.dirname(os.path.abspath(path))) == self.folder else ""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Rules:
+class Rules(msgspec.Struct, frozen=True, eq=False):
     """How one legacy format is read. `migrate/README.md` says what each key of the file means."""
 
     name: str
@@ -49,15 +48,15 @@ class Rules:
     names: re.Pattern[str]
     doc_strip: re.Pattern[str]
     doc_drop: str
-    words: Texts = field(default_factory=dict)
-    places: Texts = field(default_factory=dict)
-    repairs: Texts = field(default_factory=dict)
-    refusals: Texts = field(default_factory=dict)
-    losses: Texts = field(default_factory=dict)
-    keys: Texts = field(default_factory=dict)
-    values: Mapping[str, Texts] = field(default_factory=dict)
-    defaults: Texts = field(default_factory=dict)
-    code: Texts = field(default_factory=dict)
+    words: Texts = {}
+    places: Texts = {}
+    repairs: Texts = {}
+    refusals: Texts = {}
+    losses: Texts = {}
+    keys: Texts = {}
+    values: Mapping[str, Texts] = {}
+    defaults: Texts = {}
+    code: Texts = {}
     order: tuple[str, ...] = ()
     is_made: bool = False
     weak: bool = False
@@ -65,8 +64,8 @@ class Rules:
     by_content: bool = False
     files: Files | None = None
     foreign: tuple[tuple[re.Pattern[str], str], ...] = ()
-    invalid: Mapping[str, Any] = field(default_factory=dict)
-    sections: Mapping[str, re.Pattern[str]] = field(default_factory=dict)
+    invalid: Mapping[str, Any] = {}
+    sections: Mapping[str, re.Pattern[str]] = {}
     records: tuple[Mapping[str, Any], ...] = ()
     counts: re.Pattern[str] | None = None
     stop: frozenset[str] = frozenset()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.legacy.document import Notes
 
@@ -11,17 +12,16 @@ HEAD = '<?xml version="1.0" encoding="UTF-8"?>'
 NAMESPACE = "http://www.w3.org/2005/07/scxml"
 
 
-@dataclass(slots=True, eq=False)
-class ScxmlState:
+class ScxmlState(msgspec.Struct, eq=False):
     """`transitions` are names of states, with comments."""
 
     name: str
     final: bool = False
     parallel: bool = False
     initial: str = ""
-    states: list[ScxmlState] = field(default_factory=list)
-    transitions: list[tuple[str, Notes]] = field(default_factory=list)
-    notes: Notes = field(default_factory=Notes)
+    states: list[ScxmlState] = []
+    transitions: list[tuple[str, Notes]] = []
+    notes: Notes = msgspec.field(default_factory=Notes)
 
 
 def document(name: str, initial: str, states: list[ScxmlState], notes: Notes) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
@@ -20,8 +21,7 @@ from robocomp_yaml.source.discover import documents_below, kind_of
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 
 
-@dataclass(frozen=True, slots=True)
-class LegacyFile:
+class LegacyFile(msgspec.Struct, frozen=True):
     """A file to migrate. Its document goes to `folder` below `root`, an output root."""
 
     path: str
@@ -34,12 +34,11 @@ class LegacyFile:
         return os.path.normpath(os.path.join(self.root, self.folder, name))
 
 
-@dataclass(slots=True)
-class Found:
-    files: list[LegacyFile] = field(default_factory=list)
-    folders: list[str] = field(default_factory=list)
+class Found(msgspec.Struct):
+    files: list[LegacyFile] = []
+    folders: list[str] = []
     """The output roots of the folders given: each becomes a workspace."""
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = []
 
     def workspaces(self) -> list[str]:
         """The folders that are not below another one."""

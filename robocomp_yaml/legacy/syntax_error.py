@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
+import msgspec
 from lark import Token, Tree
 from lark.exceptions import UnexpectedInput, UnexpectedToken
 
@@ -22,8 +22,7 @@ _SILENT = re.compile(r'//[^\n]*|/\*[\s\S]*?\*/|#[^\n]*|"(?:[^"\\\n]|\\.)*"')
 _LAST = re.compile(r'(?:\w+|"[^"]*"|\S)\Z')
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(msgspec.Struct, frozen=True):
     """`rest` is the text without the statement at fault, as long as before; None: nothing more can be found out."""
 
     diagnostic: Diagnostic

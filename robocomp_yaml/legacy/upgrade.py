@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cache
+
+import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import migration as codes
@@ -22,8 +23,7 @@ MAX_DOCUMENT = 4 << 20
 _FILE = "upgrades.yaml"
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(msgspec.Struct, frozen=True):
     """A key that has another name now."""
 
     kind: str
@@ -33,10 +33,9 @@ class Change:
     reason: str
 
 
-@dataclass(slots=True)
-class Upgraded:
+class Upgraded(msgspec.Struct):
     text: str
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = []
 
 
 @cache

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 from pathlib import Path
+
+import msgspec
 
 from robocomp_yaml.diag.codes import cdsl, idsl, machines
 from robocomp_yaml.legacy.document import List, Map, Notes, text
@@ -16,12 +17,11 @@ from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
 
-@dataclass(slots=True)
-class Workspaces:
+class Workspaces(msgspec.Struct):
     """`new` are folders that will be workspaces after this run."""
 
-    new: list[str] = field(default_factory=list)
-    _known: dict[str, Workspace] = field(default_factory=dict)
+    new: list[str] = []
+    _known: dict[str, Workspace] = {}
 
     def of(self, document: str) -> Workspace:
         """The workspace of a document that is, or will be, there."""

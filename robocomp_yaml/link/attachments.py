@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
@@ -23,18 +24,17 @@ SUFFIX = ".pdsl.yaml"
 _NAMES_COMPONENT = re.compile(rb"^component:[ \t]*[\"']?([^\"'#\r\n]+?)[\"']?[ \t]*(?:#.*)?\r?$", re.MULTILINE)
 
 
-@dataclass(slots=True)
-class Attachments:
+class Attachments(msgspec.Struct):
     """Follows the references between components, parameters and values. Keys of the tables are real paths; `absent`
     collects the paths at which a document would be found if it were there."""
 
     documents: Documents
     program: Program
     absent: set[str]
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    _parameters_of: dict[str, list[tuple[str, Span]]] = field(default_factory=dict)  # component: its PDSLs
-    _component_of: dict[str, str] = field(default_factory=dict)  # PDSL or values: what `component:` names
-    _extends: dict[str, list[str]] = field(default_factory=dict)
+    diagnostics: list[Diagnostic] = []
+    _parameters_of: dict[str, list[tuple[str, Span]]] = {}  # component: its PDSLs
+    _component_of: dict[str, str] = {}  # PDSL or values: what `component:` names
+    _extends: dict[str, list[str]] = {}
 
     def follow(self, document: Document) -> Iterator[Document]:
         """The documents that a document refers to."""

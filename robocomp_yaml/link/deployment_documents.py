@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -20,16 +21,15 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Text
 
 
-@dataclass(slots=True)
-class DeploymentDocuments:
+class DeploymentDocuments(msgspec.Struct):
     """Follows what deployments name; `absent` collects the paths at which a document would be found if it were
     there."""
 
     documents: Documents
     program: Program
     absent: set[str]
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    _deployments: dict[str, Deployment] = field(default_factory=dict)
+    diagnostics: list[Diagnostic] = []
+    _deployments: dict[str, Deployment] = {}
 
     def follow(self, document: Document) -> Iterator[Document]:
         """The documents that a deployment names."""

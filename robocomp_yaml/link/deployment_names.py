@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -15,14 +16,13 @@ from robocomp_yaml.link.expand_deployments import Placed
 from robocomp_yaml.model.deployment import INDEX, PROCESS, Entry, Number, Pair, Text
 
 
-@dataclass(slots=True)
-class Names:
+class Names(msgspec.Struct):
     """Resolves what the documents of a deployment name. `included` are the members that groups have by an include."""
 
     root: LinkedDeployment
     placed: Iterable[Placed]
     included: Mapping[LinkedGroup, Iterable[LinkedInstance]]
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = []
 
     def resolve(self) -> None:
         inside: dict[LinkedGroup, list[Target]] = {}

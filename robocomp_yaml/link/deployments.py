@@ -7,14 +7,14 @@ there once for each, with `{i}` filled in everywhere. Ports and connections are 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port
 from robocomp_yaml.model.deployment import Deployment, Entry, Exposed, Group, Host, Storm
 
 
-@dataclass(eq=False, slots=True)
-class LinkedInstance:
+class LinkedInstance(msgspec.Struct, eq=False):
     """An instance of an entry of `components:`. `entry` has this instance's texts (only its ports are not counted up);
     `number` counts from 0, None for an entry without `instances:`. `scope` is what full names begin with where the
     entry stands: '' or `arm.`; `document` is where that is.
@@ -36,14 +36,13 @@ class LinkedInstance:
     folder: str = ""
     host: Host | None = None
     process: LinkedInstance | None = None
-    after: list[LinkedInstance | LinkedStorm] = field(default_factory=list)
-    groups: list[LinkedGroup] = field(default_factory=list)
+    after: list[LinkedInstance | LinkedStorm] = []
+    groups: list[LinkedGroup] = []
     broken: bool = False
     """Whether something about it has been reported, so that what depends on it is not judged."""
 
 
-@dataclass(eq=False, slots=True)
-class LinkedStorm:
+class LinkedStorm(msgspec.Struct, eq=False):
     """An entry of `services:` by its full name."""
 
     name: str
@@ -54,8 +53,7 @@ class LinkedStorm:
     broken: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Served:
+class Served(msgspec.Struct, frozen=True):
     """An interface that a group serves: `name` to those outside, `adapter` to the member `instance`, which has an entry
     of this name under `implements` (its `port`) or, for a program, under `endpoints:`. `rule` is the entry of `expose:`
     with a rate or access rule, else None."""
@@ -67,8 +65,7 @@ class Served:
     rule: Exposed | None = None
 
 
-@dataclass(eq=False, slots=True)
-class LinkedGroup:
+class LinkedGroup(msgspec.Struct, eq=False):
     """A group by its full name. `members` are all instances in it, those of the groups `inner` too, which are all that
     it holds. `serves` is what a closed group offers; what an open one does is whatever its members implement."""
 
@@ -76,10 +73,10 @@ class LinkedGroup:
     group: Group
     document: Deployment
     scope: str = ""
-    members: list[LinkedInstance] = field(default_factory=list)
-    inner: list[LinkedGroup] = field(default_factory=list)
+    members: list[LinkedInstance] = []
+    inner: list[LinkedGroup] = []
     facade: LinkedComponent | None = None
-    serves: list[Served] = field(default_factory=list)
+    serves: list[Served] = []
     broken: bool = False
 
     @property
@@ -113,8 +110,7 @@ def offers(instance: LinkedInstance) -> Iterator[Served]:
 Target = LinkedInstance | LinkedStorm | LinkedGroup
 
 
-@dataclass(eq=False, slots=True)
-class LinkedDeployment:
+class LinkedDeployment(msgspec.Struct, eq=False):
     """One DDSL document with its includes, in the order of the documents. `real` is its real path. `hosts` is empty
     where everything runs on this machine. `names` are, by scope, the names that stand in it and what they mean: an
     entry with instances stands for all of them. `is_included` when another document builds on this one, so that what
@@ -122,12 +118,12 @@ class LinkedDeployment:
 
     deployment: Deployment
     real: str
-    hosts: dict[str, Host] = field(default_factory=dict)
-    instances: dict[str, LinkedInstance] = field(default_factory=dict)
-    storms: dict[str, LinkedStorm] = field(default_factory=dict)
-    groups: dict[str, LinkedGroup] = field(default_factory=dict)
-    names: dict[str, dict[str, list[Target]]] = field(default_factory=dict)
-    documents: list[Deployment] = field(default_factory=list)
+    hosts: dict[str, Host] = {}
+    instances: dict[str, LinkedInstance] = {}
+    storms: dict[str, LinkedStorm] = {}
+    groups: dict[str, LinkedGroup] = {}
+    names: dict[str, dict[str, list[Target]]] = {}
+    documents: list[Deployment] = []
     is_included: bool = False
     broken: bool = False
 

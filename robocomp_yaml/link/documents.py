@@ -5,9 +5,10 @@ from __future__ import annotations
 import importlib
 import os
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
@@ -42,8 +43,7 @@ def builder(kind: str) -> Callable[[Mapping, str], Model]:
     return build
 
 
-@dataclass(slots=True)
-class Document:
+class Document(msgspec.Struct):
     """A document as far as it could be read: `model` is None where it has errors of its own. `real` is its real
     path, `module` the name of the module it defines, as far as that can be told."""
 
@@ -54,16 +54,15 @@ class Document:
     module: str = ""
 
 
-@dataclass(slots=True)
-class Documents:
+class Documents(msgspec.Struct):
     """The documents of a run by real path, with all that is wrong with each by itself. `overlay` has contents, by
     real path, that count instead of the disk's."""
 
     on_read: Callable[[str], None] = lambda path: None
-    read: dict[str, Document] = field(default_factory=dict)
-    contents: dict[str, bytes] = field(default_factory=dict)
-    overlay: dict[str, bytes] = field(default_factory=dict)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    read: dict[str, Document] = {}
+    contents: dict[str, bytes] = {}
+    overlay: dict[str, bytes] = {}
+    diagnostics: list[Diagnostic] = []
 
     def get(self, path: str, kind: str = "") -> Document:
         """The document at a path, read at the first call; `kind` is for one whose name does not say it."""

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import ddsl as codes
@@ -22,8 +23,7 @@ from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment
 from robocomp_yaml.model.instances import instance as instance_of
 
 
-@dataclass(slots=True)
-class Placed:
+class Placed(msgspec.Struct):
     """A document in its scope, and what it put there. `chain` are the real paths of the documents around it, the
     outermost first, and `span` is where it is included. `hosts` are its own or, where it has none, those around it;
     `only` is the host of what names none. `is_whole` when nothing has errors that could hide a name of this scope.
@@ -33,10 +33,10 @@ class Placed:
     scope: str = ""
     chain: tuple[str, ...] = ()
     span: Span | None = None
-    hosts: Mapping[str, Host] = field(default_factory=dict)
+    hosts: Mapping[str, Host] = {}
     only: Host | None = None
-    instances: list[LinkedInstance] = field(default_factory=list)
-    groups: list[LinkedGroup] = field(default_factory=list)
+    instances: list[LinkedInstance] = []
+    groups: list[LinkedGroup] = []
     is_whole: bool = True
 
     @property
@@ -45,18 +45,17 @@ class Placed:
         return not self.chain
 
 
-@dataclass(slots=True)
-class Expansion:
+class Expansion(msgspec.Struct):
     """Puts documents in their places. `deployments` are those that could be read, by real path; `placed` are those
     that this one consists of, and `included` is what groups have from the documents that they include."""
 
     root: LinkedDeployment
     program: Program
     deployments: Mapping[str, Deployment]
-    placed: list[Placed] = field(default_factory=list)
-    included: dict[LinkedGroup, list[LinkedInstance]] = field(default_factory=dict)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    _in_order: list[LinkedInstance] = field(default_factory=list)
+    placed: list[Placed] = []
+    included: dict[LinkedGroup, list[LinkedInstance]] = {}
+    diagnostics: list[Diagnostic] = []
+    _in_order: list[LinkedInstance] = []
 
     def run(self) -> None:
         self._place(Placed(self.root.deployment))

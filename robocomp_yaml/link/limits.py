@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from math import isfinite
 from typing import Any
+
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -34,7 +35,7 @@ Found = list[Diagnostic]
 
 def limited(type_: Type, limits: Limits, found: Found) -> Type:
     """The type with more limits; what is wrong with them goes to `found`."""
-    for key in Limits.__slots__:
+    for key in Limits.__struct_fields__:
         node = getattr(limits, key)
         if node is not None:
             type_ = _STEPS[key](type_, node, found)

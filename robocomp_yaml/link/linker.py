@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 from types import ModuleType
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -19,21 +20,20 @@ from robocomp_yaml.model.interface import Import, Module
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.attachments import Attachments
-    from robocomp_yaml.model.component import Component
     from robocomp_yaml.link.deployment_documents import DeploymentDocuments
+    from robocomp_yaml.model.component import Component
 
 
-@dataclass(slots=True)
-class Linker:
+class Linker(msgspec.Struct):
     """Links the documents of one run; `diagnostics` collects what is wrong with references."""
 
     documents: Documents
     search: Search
-    program: Program = field(default_factory=Program)
-    workspaces: dict[str, Workspace] = field(default_factory=dict)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    _by_folder: dict[str, Workspace] = field(default_factory=dict)
-    _found: dict[str, list[str]] = field(default_factory=dict)  # real path: those of the modules it imports
+    program: Program = msgspec.field(default_factory=Program)
+    workspaces: dict[str, Workspace] = {}
+    diagnostics: list[Diagnostic] = []
+    _by_folder: dict[str, Workspace] = {}
+    _found: dict[str, list[str]] = {}  # real path: those of the modules it imports
 
     def link(self, paths: Iterable[str]) -> Program:
         """The program of these documents and of all that they import."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
@@ -22,16 +23,15 @@ MAX_INCLUDED = 8  # machines that invoke machines, each from its own file
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
-@dataclass(slots=True)
-class MachineReader:
+class MachineReader(msgspec.Struct):
     """Reads a machine; `overlay` has contents, by real path, that count instead of the disk's. `contents` are the bytes
     of each file read, `absent` are the paths that there are not."""
 
-    overlay: Mapping[str, bytes] = field(default_factory=dict)
-    contents: dict[str, bytes] = field(default_factory=dict)
-    absent: set[str] = field(default_factory=set)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    _open: list[str] = field(default_factory=list)
+    overlay: Mapping[str, bytes] = {}
+    contents: dict[str, bytes] = {}
+    absent: set[str] = set()
+    diagnostics: list[Diagnostic] = []
+    _open: list[str] = []
 
     def of(self, component: Component) -> StateMachine | None:
         """The machine that a component's document names; None where it cannot be built."""

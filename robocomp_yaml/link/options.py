@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from functools import cache
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import options as codes
@@ -18,8 +20,7 @@ from robocomp_yaml.source.tree import Node, Scalar, parse
 _LISTS = ("implements", "requires", "publishes", "subscribes")
 
 
-@dataclass(frozen=True, slots=True)
-class Meaning:
+class Meaning(msgspec.Struct, frozen=True):
     """`imports` and, by list, interfaces that an option adds; `left` is what it asked for besides."""
 
     imports: tuple[str, ...]

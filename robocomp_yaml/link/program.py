@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from robocomp_yaml.model.interface import (
     Constant,
@@ -25,8 +26,7 @@ if TYPE_CHECKING:
 Definition = Constant | TypeDefinition | ExceptionType | Interface
 
 
-@dataclass(eq=False, slots=True)
-class LinkedModule:
+class LinkedModule(msgspec.Struct, eq=False):
     """A module with its direct imports, in the document's order. Compared by identity: two documents may define a
     module of the same name, and each importer sees the one that it imports.
 
@@ -35,10 +35,10 @@ class LinkedModule:
     """
 
     module: Module
-    imports: list[LinkedModule] = field(default_factory=list)
-    unresolved: set[str] = field(default_factory=set)
-    _own: dict[str, Definition] = field(default_factory=dict)
-    _found: dict[str, tuple[LinkedModule, Definition] | None] = field(default_factory=dict)
+    imports: list[LinkedModule] = []
+    unresolved: set[str] = set()
+    _own: dict[str, Definition] = {}
+    _found: dict[str, tuple[LinkedModule, Definition] | None] = {}
 
     def __post_init__(self) -> None:
         for definition in self.module.definitions:
@@ -80,8 +80,7 @@ class LinkedModule:
         return list(done.values())
 
 
-@dataclass(frozen=True, slots=True)
-class Port:
+class Port(msgspec.Struct, frozen=True):
     """An entry of a component's four lists with the interface it names. `scope` is the module that defines it."""
 
     use: Use
@@ -93,8 +92,7 @@ class Port:
         return self.use.name
 
 
-@dataclass(eq=False, slots=True)
-class LinkedParameters:
+class LinkedParameters(msgspec.Struct, eq=False):
     """A component's parameters with their document, if there is one; `broken` when some have no usable type (then
     values are not judged). `component` is None for a document that no component was found for. `compiled` is for what
     is made of them once and used often (validators)."""
@@ -103,7 +101,7 @@ class LinkedParameters:
     document: ParameterDocument | None = None
     component: LinkedComponent | None = None
     broken: bool = False
-    compiled: dict[object, Any] = field(default_factory=dict)
+    compiled: dict[object, Any] = {}
 
 
 def _only_the_period() -> LinkedParameters:
@@ -112,14 +110,13 @@ def _only_the_period() -> LinkedParameters:
     return LinkedParameters(of_no_document(None))
 
 
-@dataclass(eq=False, slots=True)
-class LinkedValues:
+class LinkedValues(msgspec.Struct, eq=False):
     """A values document with the documents that it extends, the most general first. `parameters` is None where the
     component is not known; `is_extended` when another document builds on this one, so that it need not be complete;
     `broken` when a layer is missing."""
 
     document: ValuesDocument
-    extends: list[LinkedValues] = field(default_factory=list)
+    extends: list[LinkedValues] = []
     parameters: LinkedParameters | None = None
     is_extended: bool = False
     broken: bool = False
@@ -134,19 +131,18 @@ class LinkedValues:
         return list(done.values())
 
 
-@dataclass(eq=False, slots=True)
-class LinkedComponent:
+class LinkedComponent(msgspec.Struct, eq=False):
     """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled). `machine` is
     its state machine, from `machine_files` where it does not stand in the component's document."""
 
     component: Component
-    imports: list[LinkedModule] = field(default_factory=list)
+    imports: list[LinkedModule] = []
     implements: tuple[Port, ...] = ()
     requires: tuple[Port, ...] = ()
     publishes: tuple[Port, ...] = ()
     subscribes: tuple[Port, ...] = ()
     broken: bool = False
-    parameters: LinkedParameters = field(default_factory=_only_the_period)
+    parameters: LinkedParameters = msgspec.field(default_factory=_only_the_period)
     machine: StateMachine | None = None
     machine_files: tuple[str, ...] = ()
 
@@ -166,16 +162,15 @@ class LinkedComponent:
         return list(done.values())
 
 
-@dataclass(slots=True)
-class Program:
+class Program(msgspec.Struct):
     """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported)."""
 
-    modules: dict[str, LinkedModule] = field(default_factory=dict)
-    components: dict[str, LinkedComponent] = field(default_factory=dict)
-    parameters: dict[str, LinkedParameters] = field(default_factory=dict)
-    values: dict[str, LinkedValues] = field(default_factory=dict)
-    deployments: dict[str, LinkedDeployment] = field(default_factory=dict)
-    asked: set[str] = field(default_factory=set)
+    modules: dict[str, LinkedModule] = {}
+    components: dict[str, LinkedComponent] = {}
+    parameters: dict[str, LinkedParameters] = {}
+    values: dict[str, LinkedValues] = {}
+    deployments: dict[str, LinkedDeployment] = {}
+    asked: set[str] = set()
     documents: int = 0
 
     def asked_components(self) -> set[str]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import Definition
@@ -30,8 +31,7 @@ KINDS: dict[type, str] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
+class Name(msgspec.Struct, frozen=True):
     """An identifier where it is introduced; `kind` in the user's words."""
 
     kind: str

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
@@ -17,8 +18,7 @@ from robocomp_yaml.source.tree import Mapping, Scalar, parse
 SUFFIX = ".idsl.yaml"
 
 
-@dataclass(slots=True)
-class Workspace:
+class Workspace(msgspec.Struct):
     """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
     look for imports in, `slice_folder` is where Slice goes (both joined with the root), `content` the bytes of the
     file, `lint` a severity (or 'off') by code."""
@@ -28,7 +28,7 @@ class Workspace:
     interfaces: tuple[str, ...] = ()
     slice_folder: str = ""
     content: bytes = b""
-    lint: dict[str, str] = field(default_factory=dict)
+    lint: dict[str, str] = {}
 
 
 def root_above(folder: str, absent: set[str] | None = None) -> str | None:
@@ -87,16 +87,15 @@ def _idle_settings(tree: Mapping, root: str) -> Iterator[Diagnostic]:
             yield codes.WORKSPACE_SETTING.at(value.span, problem=f"'{value.data}' is no severity")
 
 
-@dataclass(slots=True)
-class Search:
+class Search(msgspec.Struct):
     """Looks imports up: beside the document, in the workspace's folders, then in the extra ones (`-I`, RCYAML_PATH).
 
     `absent` collects the paths at which nothing was found, so that a later run can tell whether the answer still holds.
     """
 
     extra: tuple[str, ...] = ()
-    absent: set[str] = field(default_factory=set)
-    _names: dict[str, tuple[frozenset[str], dict[str, str]]] = field(default_factory=dict)
+    absent: set[str] = set()
+    _names: dict[str, tuple[frozenset[str], dict[str, str]]] = {}
 
     def find(self, name: str, document: str, workspace: Workspace) -> tuple[str | None, bool]:
         """The path of an imported document, or None; and whether its name differs in case."""

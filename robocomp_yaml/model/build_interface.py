@@ -17,10 +17,12 @@ from robocomp_yaml.model.interface import (
     Member,
     Method,
     Module,
-    Sequence as SequenceType,
     Struct,
     TypeDefinition,
     TypeRef,
+)
+from robocomp_yaml.model.interface import (
+    Sequence as SequenceType,
 )
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 

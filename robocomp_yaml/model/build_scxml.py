@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.scxml_shape import OURS, ours
@@ -38,8 +39,7 @@ Include = Callable[[str, Span], str | None]
 IncludeMachine = Callable[[str, Span], StateMachine | None]
 
 
-@dataclass(frozen=True, slots=True)
-class Files:
+class Files(msgspec.Struct, frozen=True):
     """What `src` names, read by the caller, who also tells of what cannot be read (then it is None)."""
 
     text: Include

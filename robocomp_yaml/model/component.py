@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.interface import Import, _span
+from robocomp_yaml.model.interface import Import
+from robocomp_yaml.model.located import Located
 
 if TYPE_CHECKING:
     from robocomp_yaml.model.statemachine import StateMachine
@@ -14,8 +14,7 @@ if TYPE_CHECKING:
 WAIT, FAIL, IGNORE = "wait", "fail", "ignore"
 
 
-@dataclass(frozen=True, slots=True)
-class Use:
+class Use(Located, frozen=True):
     """An entry of `implements`, `requires`, `publishes` or `subscribes`.
 
     `interface` is as written: `Camera`, or `RoboCompCamera.Camera` / `Camera.Camera`. `name` is the interface's name,
@@ -29,38 +28,34 @@ class Use:
     absent: str = WAIT
     timeout: float | None = None
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Language:
+class Language(Located, frozen=True):
     """`name` is 'python' or 'cpp'; `standard` is C++'s (17, 20, …) or None."""
 
     name: str
     standard: int | None = None
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Gui:
+class Gui(Located, frozen=True):
     toolkit: str
     base: str
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Option:
+class Option(Located, frozen=True):
     """An option of the legacy component generator."""
 
     name: str
-    span: Span = _span()
+    span: Span = Span("")
 
 
 CMAKE, PKG_CONFIG, LINK, PIP = "cmake", "pkg-config", "link", "pip"
 
 
-@dataclass(frozen=True, slots=True)
-class Library:
+class Library(Located, frozen=True):
     """A library that the component's own code needs. `kind` is CMAKE, PKG_CONFIG, LINK or PIP; `version` is as
     written, '' for any; `entry` counts the entries of the document."""
 
@@ -68,20 +63,18 @@ class Library:
     name: str
     version: str = ""
     entry: int = 0
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Source:
+class Source(Located, frozen=True):
     """A file of the user's repository, or (`is_class`) a folder of shared classes; by a relative path."""
 
     path: str
     is_class: bool = False
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Component:
+class Component(Located, frozen=True):
     """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written,
     or ''; `machine` is the state machine that stands in the document."""
 
@@ -103,6 +96,6 @@ class Component:
     sources: tuple[Source, ...] = ()
     libraries: tuple[Library, ...] = ()
     doc: str = ""
-    machine_span: Span = _span()
-    span: Span = _span()
-    parameters_span: Span = _span()
+    machine_span: Span = Span("")
+    span: Span = Span("")
+    parameters_span: Span = Span("")

@@ -10,7 +10,8 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 ALWAYS, NEVER, IN, GUARD, NOT, AND, OR = "always", "never", "in", "guard", "not", "and", "or"
 
@@ -31,8 +32,7 @@ class NotInLanguage(ValueError):
     """The text is not of this language; the message says what is not."""
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
+class Condition(msgspec.Struct, frozen=True):
     """`name` is a guard's, or a state's."""
 
     kind: str

@@ -5,10 +5,8 @@ Names and paths are as written; `{i}` still stands in the strings of an entry th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.interface import _span
+from robocomp_yaml.model.located import Located
 from robocomp_yaml.source.tree import Mapping
 
 COMPONENT, PROGRAM, PROCESS = "component", "program", "process"
@@ -17,69 +15,62 @@ ARGUMENT = "argument"
 INDEX = "{i}"
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Located, frozen=True):
     """A text of the document and its place: a path, a name, an argument."""
 
     text: str
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Host:
+class Host(Located, frozen=True):
     """An entry of `hosts:`. `user` is for ssh, '' for the caller's own."""
 
     name: str
     address: Text
     user: str = ""
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Storm:
+class Storm(Located, frozen=True):
     """An entry of `services:`: an IceStorm. `port` is None where none is given."""
 
     name: str
     host: Text | None = None
     port: int | None = None
     doc: str = ""
-    span: Span = _span()
-    port_span: Span = _span()
+    span: Span = Span("")
+    port_span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Variable:
+class Variable(Located, frozen=True):
     """A variable of the environment: `value`, or the caller's variable `source`."""
 
     name: str
     value: str = ""
     source: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(Located, frozen=True):
     """A port: that of the interface `name`, which is '' for `port:`."""
 
     name: str
     number: int
-    span: Span = _span()
-    name_span: Span = _span()
+    span: Span = Span("")
+    name_span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Pair:
+class Pair(Located, frozen=True):
     """A key and its text: of `connect`, `topics`, `endpoints` or `expose`. `span` is the text's place."""
 
     name: str
     text: str
-    span: Span = _span()
-    name_span: Span = _span()
+    span: Span = Span("")
+    name_span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Ready:
+class Ready(Located, frozen=True):
     """When others may start: `port` listens, `command` exits with 0, a line of output matches `log`; with none of
     these, what is served answers a ping. `within` are seconds, None where nothing is said."""
 
@@ -87,22 +78,20 @@ class Ready:
     port: int | None = None
     command: tuple[str, ...] = ()
     log: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Restart:
+class Restart(Located, frozen=True):
     """`policy` is NEVER, ON_FAILURE or ALWAYS; the others are None where nothing is said. Times are seconds."""
 
     policy: str = ON_FAILURE
     delay: float | None = None
     tries: int | None = None
     within: float | None = None
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Located, frozen=True):
     """An entry of `components:`. `kind` is the key that says what it is: COMPONENT, PROGRAM, or PROCESS (a second name
     of another entry's process); `target` is that key's value. `program` of a component is its `executable:`.
 
@@ -133,12 +122,11 @@ class Entry:
     instances: int | None = None
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
-    span: Span = _span()
-    instances_span: Span = _span()
+    span: Span = Span("")
+    instances_span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Exposed:
+class Exposed(Located, frozen=True):
     """An entry of a group's `expose:`: `name` is served by a member (`member.Interface` where its interface's name
     differs). A `rate` (calls a second, at most) or `allow` (the methods that may be called; None: all) asks for a
     proxy in between."""
@@ -147,16 +135,15 @@ class Exposed:
     member: Text
     rate: float | None = None
     allow: tuple[Text, ...] | None = None
-    span: Span = _span()
-    rate_span: Span = _span()
+    span: Span = Span("")
+    rate_span: Span = Span("")
 
     @property
     def has_rule(self) -> bool:
         return self.rate is not None or self.allow is not None
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Located, frozen=True):
     """An entry of `groups:`, or of `include:` in its form with names. `members` are names of this document, and
     `include` another deployment's document; `facade` is the CDSL of `as:`. `host` is for members that name none."""
 
@@ -167,7 +154,7 @@ class Group:
     exposed: tuple[Exposed, ...] = ()
     host: Text | None = None
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
     @property
     def is_closed(self) -> bool:
@@ -175,8 +162,7 @@ class Group:
         return self.facade is not None or bool(self.exposed)
 
 
-@dataclass(frozen=True, slots=True)
-class Deployment:
+class Deployment(Located, frozen=True):
     """One DDSL document. `includes` are those without a name: what they hold counts as if it stood here. `extra` is the
     plain data of `x-rcmanager:`."""
 
@@ -189,4 +175,4 @@ class Deployment:
     includes: tuple[Text, ...] = ()
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")

@@ -12,8 +12,9 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from dataclasses import dataclass, field
 from keyword import kwlist
+
+from robocomp_yaml.model.located import Located
 
 MAX_LENGTH = 2000
 MAX_DEPTH = 50
@@ -41,105 +42,90 @@ class NotInLanguage(ValueError):
         self.index, self.hint = index, hint
 
 
-def _at() -> int:
-    return field(compare=False, kw_only=True, default=0)
-
-
-@dataclass(frozen=True, slots=True)
-class Literal:
+class Literal(Located, frozen=True):
     """A number, a text, true or false."""
 
     value: bool | int | float | str
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Listing:
+class Listing(Located, frozen=True):
     """`[a, b]`, for `in`."""
 
     items: tuple[Expression, ...]
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
+class Name(Located, frozen=True):
     """A parameter, a group, or the variable of a `for`."""
 
     name: str
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Attribute:
+class Attribute(Located, frozen=True):
     of: Expression
     name: str
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Index:
+class Index(Located, frozen=True):
     """An entry of a list by its number, or of a map by its key."""
 
     of: Expression
     index: Expression
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Unary:
+class Unary(Located, frozen=True):
     """`operator` is 'not', '-' or '+'."""
 
     operator: str
     operand: Expression
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Binary:
+class Binary(Located, frozen=True):
     """`operator` is one of + - * / % (`/` gives a fraction, `%` takes the divisor's sign, as in Python)."""
 
     operator: str
     left: Expression
     right: Expression
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Compare:
+class Compare(Located, frozen=True):
     """`first < second <= third`: each pair must hold. Operators: < <= > >= == != in 'not in'."""
 
     first: Expression
     rest: tuple[tuple[str, Expression], ...]
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Logic:
+class Logic(Located, frozen=True):
     """`operator` is 'and' or 'or'."""
 
     operator: str
     operands: tuple[Expression, ...]
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Each:
+class Each(Located, frozen=True):
     """`element for variable in source if condition`: the argument of all, any, sum, min, max or unique."""
 
     element: Expression
     variable: str
     source: Expression
     condition: Expression | None = None
-    at: int = _at()
+    at: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Call:
+class Call(Located, frozen=True):
     """`function` is one of FUNCTIONS."""
 
     function: str
     arguments: tuple[Expression | Each, ...]
-    at: int = _at()
+    at: int = 0
 
 
 Expression = Literal | Listing | Name | Attribute | Index | Unary | Binary | Compare | Logic | Call

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass, replace
 from typing import TypeVar
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.deployment import INDEX, Entry
@@ -25,8 +27,8 @@ def _filled(part: Part, number: str) -> Part:
         filled = tuple(_filled(item, number) for item in part)
     elif isinstance(part, Node):
         filled = _tree(part, number)
-    elif is_dataclass(part) and not isinstance(part, type | Span):
-        filled = replace(part, **{f.name: _filled(getattr(part, f.name), number) for f in fields(part)})
+    elif isinstance(part, msgspec.Struct) and not isinstance(part, Span):
+        filled = replace(part, **{name: _filled(getattr(part, name), number) for name in part.__struct_fields__})
     return filled  # type: ignore[return-value]
 
 

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.located import Located
 
 BASIC_TYPES = ("bool", "byte", "short", "int", "long", "float", "double", "string")
 
 
-def _span() -> Span:
-    return field(compare=False, repr=False, kw_only=True, default=Span(""))  # type: ignore[return-value]
-
-
-@dataclass(frozen=True, slots=True)
-class TypeRef:
+class TypeRef(Located, frozen=True):
     """A type as a document names it: `float`, `Pose`, `CommonTypes.Pose` or `RoboCompCommonTypes.Pose`."""
 
     text: str
-    span: Span = _span()
+    span: Span = Span("")
 
     @property
     def is_basic(self) -> bool:
@@ -35,17 +30,15 @@ class TypeRef:
         return self.text.rpartition(".")[2]
 
 
-@dataclass(frozen=True, slots=True)
-class Literal:
+class Literal(Located, frozen=True):
     """A value as spelled (`lexeme`: `.9`, `2000.`, `True`, without quotes) and as understood."""
 
     value: bool | int | float | str
     lexeme: str
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Member:
+class Member(Located, frozen=True):
     """A member of a struct or exception, or a parameter of a method (which has no default)."""
 
     name: str
@@ -53,75 +46,67 @@ class Member:
     doc: str = ""
     unit: str = ""
     default: Literal | None = None
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Struct:
+class Struct(Located, frozen=True):
     name: str
     members: tuple[Member, ...]
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Enumerator:
+class Enumerator(Located, frozen=True):
     """`value` is None where the author gave none (then: one more than the one before, from 0)."""
 
     name: str
     value: int | None = None
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Enum:
+class Enum(Located, frozen=True):
     name: str
     enumerators: tuple[Enumerator, ...]
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Sequence:
+class Sequence(Located, frozen=True):
     name: str
     element: TypeRef
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Map:
+class Map(Located, frozen=True):
     name: str
     key: TypeRef
     value: TypeRef
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
 TypeDefinition = Struct | Enum | Sequence | Map
 
 
-@dataclass(frozen=True, slots=True)
-class ExceptionType:
+class ExceptionType(Located, frozen=True):
     name: str
     members: tuple[Member, ...]
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Constant:
+class Constant(Located, frozen=True):
     name: str
     type: TypeRef
     value: Literal
     doc: str = ""
     unit: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Method:
+class Method(Located, frozen=True):
     """`returns` is None for a method that returns nothing. `legacy_name` is its name in legacy Slice, where it differs
     (an overload, which IDSL cannot say)."""
 
@@ -135,7 +120,7 @@ class Method:
     legacy_name: str = ""
     returns_doc: str = ""
     returns_unit: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
     @property
     def can_be_published(self) -> bool:
@@ -143,27 +128,24 @@ class Method:
         return self.returns is None and not self.outputs and not self.throws
 
 
-@dataclass(frozen=True, slots=True)
-class Interface:
+class Interface(Located, frozen=True):
     """An entry of `interfaces:`, or of `topics:` (`is_topic`)."""
 
     name: str
     methods: tuple[Method, ...]
     is_topic: bool = False
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Import:
+class Import(Located, frozen=True):
     """An entry of `imports:`: a name without suffix, or a path, as written."""
 
     text: str
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Module:
+class Module(Located, frozen=True):
     """One IDSL document. `path` is the document as opened; `stem` its name without `.idsl.yaml`.
 
     Each tuple keeps the author's order.
@@ -178,7 +160,7 @@ class Module:
     interfaces: tuple[Interface, ...] = ()
     topics: tuple[Interface, ...] = ()
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
     @property
     def stem(self) -> str:

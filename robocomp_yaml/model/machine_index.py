@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.model.statemachine import (
@@ -22,13 +23,12 @@ from robocomp_yaml.model.statemachine import (
 _MANY = 500
 
 
-@dataclass(slots=True)
-class MachineIndex:
+class MachineIndex(msgspec.Struct):
     """States are told apart by identity: an id may be missing, or, in a faulty machine, stand twice."""
 
     machine: StateMachine
-    by_id: dict[str, State] = field(default_factory=dict)
-    parents: dict[int, State] = field(default_factory=dict)
+    by_id: dict[str, State] = {}
+    parents: dict[int, State] = {}
 
     def __post_init__(self) -> None:
         todo = [self.machine.root]

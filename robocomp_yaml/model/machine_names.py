@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model.machine_index import MachineIndex
@@ -23,8 +24,7 @@ ROBOCOMPS = frozenset(
 _DEFAULT_MACHINE = "defaultMachine"
 
 
-@dataclass(frozen=True, slots=True)
-class Named:
+class Named(msgspec.Struct, frozen=True):
     """A part of a machine, under the name that it has in the document and in code."""
 
     kind: str

@@ -8,11 +8,13 @@ range's limits are compared before anything is narrowed.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+import msgspec
+
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.interface import Literal, _span
+from robocomp_yaml.model.interface import Literal
+from robocomp_yaml.model.located import Located
 from robocomp_yaml.model.pattern import Pattern
 from robocomp_yaml.model.pdsl import Spelling
 from robocomp_yaml.source.tree import Node
@@ -31,8 +33,7 @@ INTEGERS = ("int", "long")
 BASIC_TYPES = ("bool", *LIMITS, "string")
 
 
-@dataclass(frozen=True, slots=True)
-class Bound:
+class Bound(msgspec.Struct, frozen=True):
     """One end of a range; `is_open` when the value itself is not allowed."""
 
     value: Number
@@ -40,11 +41,10 @@ class Bound:
     lexeme: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Range:
+class Range(Located, frozen=True):
     low: Bound | None = None
     high: Bound | None = None
-    span: Span = _span()
+    span: Span = Span("")
 
     def holds(self, value: Number) -> bool:
         low, high = self.low, self.high
@@ -63,13 +63,12 @@ class Range:
         return " and ".join(parts)
 
 
-@dataclass(frozen=True, slots=True)
-class Size:
+class Size(Located, frozen=True):
     """How many entries: from `least` to `most` (None: any number)."""
 
     least: int = 0
     most: int | None = None
-    span: Span = _span()
+    span: Span = Span("")
 
     def holds(self, count: int) -> bool:
         return self.least <= count and (self.most is None or count <= self.most)
@@ -83,8 +82,7 @@ class Size:
         return f"from {self.least} to {self.most}" if self.least else f"at most {self.most}"
 
 
-@dataclass(frozen=True, slots=True)
-class BasicType:
+class BasicType(msgspec.Struct, frozen=True):
     """`values` are the only ones allowed (none: any)."""
 
     name: str
@@ -102,8 +100,7 @@ class BasicType:
         return self.name in INTEGERS
 
 
-@dataclass(frozen=True, slots=True)
-class EnumType:
+class EnumType(msgspec.Struct, frozen=True):
     """`allowed` are the enumerators that the place allows, in order: all of them where nothing is said."""
 
     name: str
@@ -116,23 +113,20 @@ class EnumType:
         return tuple(name for name, _ in self.enumerators)
 
 
-@dataclass(frozen=True, slots=True)
-class ListType:
+class ListType(msgspec.Struct, frozen=True):
     element: Type
     size: Size = Size()
     unique: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class MapType:
+class MapType(msgspec.Struct, frozen=True):
     """Values by name: the keys are texts."""
 
     element: Type
     size: Size = Size()
 
 
-@dataclass(frozen=True, slots=True)
-class RecordType:
+class RecordType(msgspec.Struct, frozen=True):
     """A struct (`name` is its own), or a group (`name` is ''), whose members stand directly in their parent."""
 
     name: str
@@ -151,16 +145,14 @@ ScalarType = BasicType | EnumType
 Type = ScalarType | ListType | MapType | RecordType
 
 
-@dataclass(frozen=True, slots=True)
-class Default:
+class Default(Located, frozen=True):
     """A default as plain data. `node` is where it stands; None for one that a document did not write."""
 
     data: object
-    node: Node | None = field(default=None, compare=False, repr=False)
+    node: Node | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Member:
+class Member(Located, frozen=True):
     """A parameter, or a member of a group or struct. `code_name` is the name in code before a language's escaping.
 
     Required when it has neither a default nor is optional; a group has neither, its members may.
@@ -173,7 +165,7 @@ class Member:
     optional: bool = False
     editable: bool = False
     code_name: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
     @property
     def is_group(self) -> bool:
@@ -191,23 +183,21 @@ class Member:
         return unit_of(self.type)
 
 
-@dataclass(frozen=True, slots=True)
-class Constraint:
+class Constraint(Located, frozen=True):
     """What must hold between parameters, and what to say otherwise."""
 
     expression: Expression
     text: str
     otherwise: str = ""
-    node: Node | None = field(default=None, compare=False, repr=False)
-    span: Span = _span()
+    node: Node | None = None
+    span: Span = Span("")
 
     @property
     def message(self) -> str:
         return self.otherwise or f"this must hold: {self.text}"
 
 
-@dataclass(frozen=True, slots=True)
-class Parameters:
+class Parameters(msgspec.Struct, frozen=True):
     """All the parameters of a component, as one group. `types` are the enums and structs by name, in the document's
     order; `spellings` the legacy table by dotted path."""
 

@@ -8,8 +8,9 @@ read differently: classes as sorted ranges, shorthands spelled out (ASCII), anch
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 from functools import cache
+
+import msgspec
 
 MAX_COUNT = 1000
 _SHORTHANDS = {
@@ -31,8 +32,7 @@ class NotPortable(ValueError):
         self.index = index
 
 
-@dataclass(frozen=True, slots=True)
-class Pattern:
+class Pattern(msgspec.Struct, frozen=True):
     """`text` is as written; `portable` is the same without anchors, for `^(?:…)$` in any engine."""
 
     text: str
@@ -66,13 +66,12 @@ def parse(text: str) -> Pattern:
     return Pattern(text, portable)
 
 
-@dataclass(slots=True)
-class _Parser:
+class _Parser(msgspec.Struct):
     text: str
     shift: int
     at: int = 0
     depth: int = 0
-    out: list[str] = field(default_factory=list)
+    out: list[str] = []
 
     def fail(self, problem: str, index: int | None = None) -> NotPortable:
         return NotPortable(problem, (self.at if index is None else index) + self.shift)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.interface import Literal, _span
+from robocomp_yaml.model.interface import Literal
+from robocomp_yaml.model.located import Located
 from robocomp_yaml.source.tree import Mapping, Node
 
 # The keys that say what a type is, in the order in which they are looked at.
 KINDS = ("type", "list", "map", "group", "enum", "struct")
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(msgspec.Struct, frozen=True):
     """The nodes of the keys that limit a type's values, as they stand there; None where a key is missing."""
 
     range: Node | None = None
@@ -24,8 +24,7 @@ class Limits:
     unit: Node | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Spec:
+class Spec(Located, frozen=True):
     """What a document says about a type. `kinds` are those of KINDS that stand there, with their places: exactly one
     when nothing is wrong. `name` goes with 'type', `element` with 'list' and 'map', `members` with 'group' and
     'struct', `enumerators` with 'enum'."""
@@ -37,15 +36,14 @@ class Spec:
     enumerators: tuple[tuple[Literal, str], ...] = ()
     limits: Limits = Limits()
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
     @property
     def kind(self) -> str:
         return self.kinds[0][0] if self.kinds else ""
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Located, frozen=True):
     """A parameter, or a member of a group or struct. `editable` is None where nothing is said."""
 
     name: str
@@ -56,21 +54,19 @@ class Entry:
     editable: bool | None = None
     code_name: str = ""
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Located, frozen=True):
     """An entry of `constraints:`. `that` is the expression's node: diagnostics point into it."""
 
     that: Node
     otherwise: str = ""
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Spelling:
+class Spelling(Located, frozen=True):
     """An entry of `legacy:`: how properties spell the parameter at `path`.
 
     A scalar has just `key`. For rows, `key` holds `{i}` (or members' names in braces) and `columns` say what a row
@@ -86,11 +82,10 @@ class Spelling:
     separators: tuple[str, ...] = ()
     trailing: bool = False
     count: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterDocument:
+class ParameterDocument(Located, frozen=True):
     """One PDSL document. `component` is a path to a CDSL or a plain name, as written, or ''."""
 
     path: str
@@ -100,12 +95,11 @@ class ParameterDocument:
     rules: tuple[Rule, ...] = ()
     legacy: tuple[Spelling, ...] = ()
     doc: str = ""
-    span: Span = _span()
-    component_span: Span = _span()
+    span: Span = Span("")
+    component_span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class ValuesDocument:
+class ValuesDocument(Located, frozen=True):
     """One values document: a layer of a component's values. `root` is its tree, which has the schema's shape;
     `extends` are paths as written, the most general first, with their places."""
 
@@ -113,7 +107,7 @@ class ValuesDocument:
     root: Mapping
     component: str = ""
     extends: tuple[Literal, ...] = ()
-    span: Span = _span()
+    span: Span = Span("")
 
     def section(self, *keys: str) -> Mapping | None:
         """The mapping under these keys, one inside the other."""

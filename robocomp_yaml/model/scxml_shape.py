@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -17,8 +18,7 @@ OURS = "urn:robocomp:statemachine"
 DURATION = re.compile(r"\+?(\d+(?:\.\d*)?|\.\d+)\s*(ms|s)")
 
 
-@dataclass(frozen=True, slots=True)
-class Shape:
+class Shape(msgspec.Struct, frozen=True):
     """`one` are groups of attributes of which at most one is given; a group that starts with '!' needs one."""
 
     attributes: str = ""

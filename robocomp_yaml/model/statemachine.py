@@ -8,64 +8,56 @@ of names of actions. With `python`, expressions are Python's, run by the compone
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.located import Located
 
 STATE, PARALLEL, FINAL, HISTORY = "state", "parallel", "final", "history"
 NULL, PYTHON = "null", "python"
 
 
-def _span() -> Span:
-    return field(default=Span(""), compare=False, repr=False)
-
-
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Located, frozen=True):
     """A piece of the document with its place: a name, or an expression."""
 
     text: str
-    span: Span = _span()
+    span: Span = Span("")
 
     def __str__(self) -> str:
         return self.text
 
 
-@dataclass(frozen=True, slots=True)
-class Value:
+class Value(Located, frozen=True):
     """What may be given as an expression or as it stands; `machine` where it is a whole machine."""
 
     expr: Text | None = None
     literal: str | None = None
     machine: StateMachine | None = None
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Param:
+class Param(Located, frozen=True):
     """A named value of an event or of an invocation; from `location` where it has no value."""
 
     name: str
     value: Value
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Payload:
+class Payload(msgspec.Struct, frozen=True):
     """What goes along: named values, or one content."""
 
     params: tuple[Param, ...] = ()
     content: Value | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Raise:
+class Raise(Located, frozen=True):
     event: Text
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Send:
+class Send(Located, frozen=True):
     """`event`, `target`, `type` and `delay` are literals or, in the fields beside them, expressions. `delay` is as
     spelled: `100ms`, `1.5s`."""
 
@@ -76,60 +68,53 @@ class Send:
     id: str = ""
     id_location: Text | None = None
     payload: Payload = Payload()
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Cancel:
+class Cancel(Located, frozen=True):
     id: Value
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Log:
+class Log(Located, frozen=True):
     label: str
     value: Value | None = None
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Assign:
+class Assign(Located, frozen=True):
     location: Text
     value: Value
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Script:
+class Script(Located, frozen=True):
     """A piece of the data model's language; with `null`, names of actions."""
 
     code: Text
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class If:
+class If(Located, frozen=True):
     """Conditions with what is done under them; the last one may have none."""
 
     branches: tuple[tuple[Text | None, Block], ...]
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Foreach:
+class Foreach(Located, frozen=True):
     array: Text
     item: Text
     index: Text | None
     actions: Block
-    span: Span = _span()
+    span: Span = Span("")
 
 
 Action = Raise | Send | Cancel | Log | Assign | Script | If | Foreach
 Block = tuple[Action, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Transition:
+class Transition(Located, frozen=True):
     """Without `events` it is taken as soon as its condition holds; without `targets` the state stays."""
 
     events: tuple[Text, ...] = ()
@@ -137,18 +122,16 @@ class Transition:
     targets: tuple[Text, ...] = ()
     internal: bool = False
     actions: Block = ()
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Data:
+class Data(Located, frozen=True):
     id: Text
     value: Value
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Invoke:
+class Invoke(Located, frozen=True):
     """A machine that runs while its state is active."""
 
     type: Value
@@ -158,11 +141,10 @@ class Invoke:
     payload: Payload = Payload()
     autoforward: bool = False
     finalize: Block | None = None
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+class State(Located, frozen=True):
     """A state, of a `kind`; `id` is '' where it has none. `initial` is what is entered with it. A history's `initial`
     is what it stands for before anything is remembered."""
 
@@ -178,11 +160,10 @@ class State:
     invokes: tuple[Invoke, ...] = ()
     done: Payload = Payload()
     doc: str = ""
-    span: Span = _span()
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class StateMachine:
+class StateMachine(Located, frozen=True):
     """`root` holds the states. `events` are those that the component's code is said to fire; empty: any. `inline` where
     the machine stands in the CDSL, the document at `path`; `strays` are then names under `transitions:` that no state
     has."""
@@ -196,7 +177,7 @@ class StateMachine:
     events: tuple[Text, ...] = ()
     inline: bool = False
     strays: tuple[Text, ...] = ()
-    span: Span = _span()
+    span: Span = Span("")
 
     @property
     def states(self) -> Iterator[State]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
+
+import msgspec
 
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import LinkedValues
@@ -17,14 +18,13 @@ Read = Callable[[str], "bytes | None"]
 _DIALECT_B = ("Endpoints.", "Proxies.", "Period.", "Agent.")
 
 
-@dataclass(slots=True)
-class Base:
+class Base(msgspec.Struct):
     """`values` are None for a flat file, of which `flat` is the text and `properties` what Ice makes of it; without
     either there is nothing to build on."""
 
     values: LinkedValues | None = None
     flat: str | None = None
-    properties: dict[str, str] = field(default_factory=dict)
+    properties: dict[str, str] = {}
 
     @property
     def dialect(self) -> str:

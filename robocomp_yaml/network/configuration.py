@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -28,14 +29,13 @@ _PARAMETERS = "What the deployment sets"
 _TITLE = "Where this component and the others are"
 
 
-@dataclass(slots=True)
-class Configuration:
+class Configuration(msgspec.Struct):
     """The text for one draft, None where something is wrong with it."""
 
     draft: Draft
     base: Base
     text: str | None = None
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = []
 
     def make(self) -> None:
         values = self.base.values

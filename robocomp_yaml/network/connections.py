@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import msgspec
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
@@ -22,18 +22,17 @@ from robocomp_yaml.network.targets import Targets
 _MANY = 6
 
 
-@dataclass(slots=True)
-class Connections:
+class Connections(msgspec.Struct):
     """`found` are the lines of the graph, `needs` says who waits for whom."""
 
     drafts: Drafts
     contents: Contents
     gates: Gates
     targets: Targets
-    found: list[Connection] = field(default_factory=list)
-    needs: list[Need] = field(default_factory=list)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    _providers: Providers = field(default_factory=Providers)
+    found: list[Connection] = []
+    needs: list[Need] = []
+    diagnostics: list[Diagnostic] = []
+    _providers: Providers = msgspec.field(default_factory=Providers)
 
     def resolve(self) -> None:
         for draft in self.drafts.drafts.values():

@@ -6,8 +6,10 @@ values, exceptions, and units where both sides give one. Documentation and defau
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence as Items
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from collections.abc import Sequence as Items
+
+import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import Definition, LinkedModule, Port
@@ -24,8 +26,7 @@ from robocomp_yaml.model.interface import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Difference:
+class Difference(msgspec.Struct, frozen=True):
     """`message` tells the first side from the second; the places are those of the two interfaces' own documents."""
 
     message: str
@@ -33,11 +34,10 @@ class Difference:
     second: Span
 
 
-@dataclass(slots=True)
-class Contents:
+class Contents(msgspec.Struct):
     """Compares interfaces, each pair once."""
 
-    _known: dict[tuple[int, str, int, str], Difference | None] = field(default_factory=dict)
+    _known: dict[tuple[int, str, int, str], Difference | None] = {}
 
     def difference(self, first: Port, second: Port) -> Difference | None:
         """The first difference of two interfaces; None for equal ones."""
@@ -59,13 +59,12 @@ def name_of(port: Port) -> tuple[str, str]:
     return port.scope.module.name, port.interface.name
 
 
-@dataclass(slots=True)
-class _Pair:
+class _Pair(msgspec.Struct):
     """Two modules, each of whose definitions are compared; `seen` are the pairs of types that were."""
 
     first: LinkedModule
     second: LinkedModule
-    seen: set[tuple[str, str]] = field(default_factory=set)
+    seen: set[tuple[str, str]] = set()
 
     def interfaces(self, first: Interface, second: Interface) -> Iterator[Difference]:
         names = self.first.module.name, self.second.module.name

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedInstance, LinkedStorm
@@ -28,8 +28,7 @@ def listening(host: Host, number: int) -> str:
     return f"tcp -h {spelled_host(address)} -p {number}"
 
 
-@dataclass(eq=False, slots=True)
-class Offer:
+class Offer(msgspec.Struct, eq=False):
     """An interface that a draft serves on the adapter `adapter`. `port` is the entry of the component's `implements`;
     None where only a name is known: of a program's endpoint, and of CommonBehavior. `given` is the endpoint as the
     document spells it; else `number` is its port, 0 as long as it has none."""
@@ -71,16 +70,14 @@ class Offer:
         return Endpoint(self.adapter, self.interface.lower(), found.port, self.text, found.protocol, module, self.span)
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(msgspec.Struct, frozen=True):
     """A text that a configuration gets, and the place in the deployment that it comes from."""
 
     text: str
     span: Span
 
 
-@dataclass(eq=False, slots=True)
-class Draft:
+class Draft(msgspec.Struct, eq=False):
     """An instance on its way to become a process. `aliases` are the entries that are a second name of it. `hears` are
     the adapters for events of topics that the document gives ports to; nobody else needs to know them. `proxies` by
     proxy name, `topics` (full names by the port's name) and `manager` (the proxy of its IceStorm) are what its
@@ -88,11 +85,11 @@ class Draft:
 
     instance: LinkedInstance
     host: Host
-    aliases: list[LinkedInstance] = field(default_factory=list)
-    offers: list[Offer] = field(default_factory=list)
-    hears: list[Offer] = field(default_factory=list)
-    proxies: dict[str, Given] = field(default_factory=dict)
-    topics: dict[str, Given] = field(default_factory=dict)
+    aliases: list[LinkedInstance] = []
+    offers: list[Offer] = []
+    hears: list[Offer] = []
+    proxies: dict[str, Given] = {}
+    topics: dict[str, Given] = {}
     manager: Given | None = None
 
     @property
@@ -108,8 +105,7 @@ class Draft:
         return [*self.offers, *self.hears]
 
 
-@dataclass(eq=False, slots=True)
-class StormDraft:
+class StormDraft(msgspec.Struct, eq=False):
     """An IceStorm, with the ports of its topic manager and of its publishers."""
 
     linked: LinkedStorm

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.link import deployments
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance
@@ -14,15 +15,14 @@ from robocomp_yaml.network.network import LOOPBACK, Host
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
 
 
-@dataclass(slots=True)
-class Drafts:
+class Drafts(msgspec.Struct):
     """Instances and IceStorms in the documents' order. `complete` is False where something could not be read, so that
     what is missing may be there."""
 
     linked: LinkedDeployment
-    hosts: dict[str, Host] = field(default_factory=dict)
-    drafts: dict[LinkedInstance, Draft] = field(default_factory=dict)
-    storms: dict[deployments.LinkedStorm, StormDraft] = field(default_factory=dict)
+    hosts: dict[str, Host] = {}
+    drafts: dict[LinkedInstance, Draft] = {}
+    storms: dict[deployments.LinkedStorm, StormDraft] = {}
     complete: bool = True
 
     def of(self, instance: LinkedInstance) -> Draft | None:

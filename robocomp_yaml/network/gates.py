@@ -7,7 +7,8 @@ itself, with the rules in it, so that it runs wherever there is Python with Ice.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.diag.span import Span
@@ -22,14 +23,13 @@ PROGRAM = "templates/gate/gate.py"
 _TABLE = "SERVED = ()\n"
 
 
-@dataclass(slots=True)
-class Gates:
+class Gates(msgspec.Struct):
     """The gates of a network, by group. `found` and `needs` are theirs, as those of `Connections`."""
 
     drafts: Drafts
-    found: list[Connection] = field(default_factory=list)
-    needs: list[Need] = field(default_factory=list)
-    _of: dict[LinkedGroup, Draft] = field(default_factory=dict)
+    found: list[Connection] = []
+    needs: list[Need] = []
+    _of: dict[LinkedGroup, Draft] = {}
 
     def place(self) -> None:
         """Adds a draft for each gate, on the host of the member that it leads to first."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.source import properties
 
@@ -11,8 +12,7 @@ _ENDPOINT = re.compile(r"\s*(tcp|udp|ssl|ws|wss|default)\b((?:\"[^\"]*\"|[^:\"])
 _OPTION = re.compile(r"-(\w)\s+(\"[^\"]*\"|\S+)")
 
 
-@dataclass(frozen=True, slots=True)
-class IceEndpoint:
+class IceEndpoint(msgspec.Struct, frozen=True):
     """Where an adapter listens: the first endpoint of its property. `host` is '' for all interfaces."""
 
     port: int

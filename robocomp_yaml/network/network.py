@@ -7,9 +7,11 @@ starts, shows or exports a network reads this and no document. Paths are absolut
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.located import Located
 
 COMPONENT, PROGRAM, ICESTORM = "component", "program", "icestorm"
 NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
@@ -17,23 +19,17 @@ PROXY, TOPIC = "proxy", "topic"
 LOOPBACK = "localhost"
 
 
-def _nowhere() -> Span:
-    return Span("")
-
-
-@dataclass(frozen=True, slots=True)
-class Host:
+class Host(Located, frozen=True):
     """A machine; `address` is a name or an IP address, LOOPBACK where the document names no hosts. `user` is for ssh,
     '' for the caller's own."""
 
     name: str
     address: str = LOOPBACK
     user: str = ""
-    span: Span = field(default_factory=_nowhere, compare=False)
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Variable:
+class Variable(msgspec.Struct, frozen=True):
     """A variable of a process's environment: `value`, or that of the caller's variable `source`, which is read when
     the process starts and never written or printed."""
 
@@ -42,8 +38,7 @@ class Variable:
     source: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Endpoint:
+class Endpoint(Located, frozen=True):
     """What a process serves: an interface at an address. `identity` is Ice's identity, '' for a plain port; `module`
     is the interface's module, '' where it is not known. `text` is the adapter's own spelling: `tcp -p 10001`."""
 
@@ -53,11 +48,10 @@ class Endpoint:
     text: str
     protocol: str = "tcp"
     module: str = ""
-    span: Span = field(default_factory=_nowhere, compare=False)
+    span: Span = Span("")
 
 
-@dataclass(frozen=True, slots=True)
-class Readiness:
+class Readiness(msgspec.Struct, frozen=True):
     """What must hold before those that depend on a process start: every proxy of `pings` answers, or something listens
     on `port`, or `command` exits with 0, or a line of output matches the regular expression `log`. With none of these
     a process is ready once it runs. `within` are seconds."""
@@ -69,8 +63,7 @@ class Readiness:
     log: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Restart:
+class Restart(msgspec.Struct, frozen=True):
     """What happens when a process ends by itself: `policy` is NEVER, ON_FAILURE or ALWAYS. Restarts wait `delay`
     seconds, twice as long each time up to `longest`, and stop after `tries` within `window` seconds."""
 
@@ -81,8 +74,7 @@ class Restart:
     window: float = 60.0
 
 
-@dataclass(frozen=True, slots=True)
-class ConfigFile:
+class ConfigFile(msgspec.Struct, frozen=True):
     """A file written for one process in the deployment's own folder, below `config/`; `path` is relative to that
     folder. It may hold what nobody else should read: its mode is 0600."""
 
@@ -90,8 +82,7 @@ class ConfigFile:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Process:
+class Process(Located, frozen=True, forbid_unknown_fields=True):
     """One process of the network. `command` is the program and its arguments (no shell ever sees them), its first an
     absolute path, or a bare name that PATH finds; the placeholder CONFIG in an argument stands for the absolute path
     of `config`. `after` are the processes that must be ready before. `aliases` are further names of the same process.
@@ -120,15 +111,14 @@ class Process:
     """The component's name in its CDSL, '' for other programs."""
     extra: tuple[tuple[str, object], ...] = ()
     """What only an exporter needs: the entries of `x-rcmanager`; below `aliases`, those of its other names."""
-    span: Span = field(default_factory=_nowhere, compare=False)
+    span: Span = Span("")
 
 
 CONFIG = "{config}"
 """In an argument of a command: the path of the process's configuration."""
 
 
-@dataclass(frozen=True, slots=True)
-class Connection:
+class Connection(Located, frozen=True):
     """A line of the graph: the process `source` uses the interface that `target` serves, through its proxy `port`
     (`kind` PROXY); or it publishes (`is_out`) or is subscribed to the topic `topic` by `port`, and `target` is the
     IceStorm that carries it (TOPIC). `target` is '' for something outside, which `proxy` names."""
@@ -141,11 +131,10 @@ class Connection:
     topic: str = ""
     is_out: bool = False
     proxy: str = ""
-    span: Span = field(default_factory=_nowhere, compare=False)
+    span: Span = Span("")
 
 
-@dataclass(slots=True)
-class Network:
+class Network(msgspec.Struct):
     """A deployment's processes by name, in the document's order. `path` is its document; `folder` is the deployment's
     own folder, where all that is derived, logged and remembered of it lies. `order` are the enabled processes in
     waves: each process stands in the first wave behind all that it is `after`."""
@@ -153,10 +142,10 @@ class Network:
     name: str
     path: str
     folder: str
-    hosts: dict[str, Host] = field(default_factory=dict)
-    processes: dict[str, Process] = field(default_factory=dict)
-    connections: list[Connection] = field(default_factory=list)
-    order: list[tuple[str, ...]] = field(default_factory=list)
+    hosts: dict[str, Host] = {}
+    processes: dict[str, Process] = {}
+    connections: list[Connection] = []
+    order: list[tuple[str, ...]] = []
     extra: tuple[tuple[str, object], ...] = ()
     """What only an exporter needs of the document as such: the entries of its `x-rcmanager`."""
 

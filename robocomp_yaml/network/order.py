@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
+
+import msgspec
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -14,8 +15,7 @@ from robocomp_yaml.model.component import FAIL, IGNORE, WAIT
 AFTER = "after"
 
 
-@dataclass(frozen=True, slots=True)
-class Need:
+class Need(msgspec.Struct, frozen=True):
     """`source` starts after `target`. `absent` is what it does when the other is not there yet (IGNORE, WAIT or FAIL),
     '' where nobody knows; `port` is its proxy, AFTER for what the document says by `after:`."""
 

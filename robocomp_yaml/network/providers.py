@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.network.draft import Draft, Offer
 from robocomp_yaml.network.drafts import is_broken
 
 
-@dataclass(slots=True)
-class Providers:
+class Providers(msgspec.Struct):
     """Offers by interface; `_within` has them by interface and by what holds them, an include or a closed group, so
     that a large deployment of many alike is searched as fast as a small one."""
 
-    _every: dict[str, list[Offer]] = field(default_factory=dict)
-    _within: dict[tuple[str, str], list[Offer]] = field(default_factory=dict)
+    _every: dict[str, list[Offer]] = {}
+    _within: dict[tuple[str, str], list[Offer]] = {}
 
     def add(self, draft: Draft) -> None:
         """Takes in what a component implements, and what a program has an endpoint for."""

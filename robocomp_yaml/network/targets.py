@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -14,8 +15,7 @@ from robocomp_yaml.network.draft import Draft, Offer
 from robocomp_yaml.network.drafts import Drafts, is_broken
 
 
-@dataclass(frozen=True, slots=True)
-class Named:
+class Named(msgspec.Struct, frozen=True):
     """`served` are offers by the names under which they are served; `interface` is what stands behind the target's
     name, or ''."""
 
@@ -30,10 +30,9 @@ class Named:
         ]
 
 
-@dataclass(slots=True)
-class Targets:
+class Targets(msgspec.Struct):
     drafts: Drafts
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    diagnostics: list[Diagnostic] = []
 
     def named(self, draft: Draft, pair: Pair) -> Named | None:
         """What an entry of `connect:` names; None where that has been told to be wrong."""

@@ -8,11 +8,12 @@ end may also name a topic of an include in its scope (`left/State`), or one of n
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass, replace
+
+import msgspec
+from msgspec.structs import replace
 
 
-@dataclass(frozen=True, slots=True)
-class NamedEnd:
+class NamedEnd(msgspec.Struct, frozen=True):
     """An end of a topic: `name` is how its document calls it, in `scope` ('' or `arm.hand.`)."""
 
     owner: str
@@ -21,8 +22,7 @@ class NamedEnd:
     is_out: bool
 
 
-@dataclass(frozen=True, slots=True)
-class _Visit:
+class _Visit(msgspec.Struct, frozen=True):
     """An end that looks for others in `scope` by `name`. Where it finds none in a scope that its own name led it to, it
     goes back to `home`, where it is called `spelled`, and from there outwards."""
 

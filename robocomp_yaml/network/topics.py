@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -18,8 +19,7 @@ from robocomp_yaml.network.order import Need
 from robocomp_yaml.network.topic_names import NamedEnd, full_names
 
 
-@dataclass(frozen=True, slots=True)
-class _End:
+class _End(msgspec.Struct, frozen=True):
     """A port at one end of the topic that its document calls `name`; `storm` is None, and `manager` given, where the
     IceStorm is none of ours."""
 
@@ -36,17 +36,16 @@ class _End:
         return NamedEnd(self.draft.name, self.draft.instance.scope, self.name, self.is_out)
 
 
-@dataclass(slots=True)
-class Topics:
+class Topics(msgspec.Struct):
     """As `Connections`: `found` are the lines of the graph, `needs` says who waits for whom."""
 
     drafts: Drafts
     contents: Contents
     base_of: Callable[[Draft], Base]
-    found: list[Connection] = field(default_factory=list)
-    needs: list[Need] = field(default_factory=list)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    _ends: dict[tuple[str, str], list[_End]] = field(default_factory=dict)
+    found: list[Connection] = []
+    needs: list[Need] = []
+    diagnostics: list[Diagnostic] = []
+    _ends: dict[tuple[str, str], list[_End]] = {}
 
     def resolve(self) -> None:
         every: list[_End] = []

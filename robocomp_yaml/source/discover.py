@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -46,15 +47,14 @@ def _is_ours(path: str) -> bool:
         return False
 
 
-@dataclass(slots=True)
-class Found:
+class Found(msgspec.Struct):
     """Documents in the order of their paths; `folders` are those that were asked for, `roots` the folders below them
     into which something was compiled."""
 
-    documents: list[str] = field(default_factory=list)
-    folders: list[str] = field(default_factory=list)
-    roots: list[str] = field(default_factory=list)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    documents: list[str] = []
+    folders: list[str] = []
+    roots: list[str] = []
+    diagnostics: list[Diagnostic] = []
 
 
 def discover(paths: list[str] | tuple[str, ...]) -> Found:

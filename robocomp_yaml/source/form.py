@@ -5,16 +5,16 @@ Read without trust: no DTD and no entities; the parser keeps no stack, so depth 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from xml.parsers import expat
+
+import msgspec
 
 from robocomp_yaml.diag.codes import forms as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
 
-@dataclass(slots=True)
-class Form:
+class Form(msgspec.Struct):
     """`class_name` is the text of `<class>`, `widget` the class of the outermost widget and `name` how it is called;
     each is '' where there is none. The spans are those of their tags."""
 

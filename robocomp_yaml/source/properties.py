@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 _BLANKS = " \t\r\n"
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(msgspec.Struct, frozen=True):
     """One `key=value` line. `line` and `column` (of the key) count from 1."""
 
     key: str
@@ -17,8 +16,7 @@ class Entry:
     column: int = 1
 
 
-@dataclass(frozen=True, slots=True)
-class Properties:
+class Properties(msgspec.Struct, frozen=True):
     """A property file as Ice understands it: its entries in order, and the lines that Ice drops with a warning."""
 
     entries: tuple[Entry, ...]

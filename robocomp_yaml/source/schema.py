@@ -7,7 +7,8 @@ the user's words is made. A subschema's `errorMessage` (yaml-language-server sho
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence as Path
+from collections.abc import Iterator
+from collections.abc import Sequence as Path
 from functools import cache
 from typing import Any
 

@@ -7,7 +7,6 @@ word on what is wrong. Both compose recursively, libyaml in C without a guard: t
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
 from ruamel.yaml.cyaml import CParser
 from ruamel.yaml.error import MarkedYAMLError
@@ -52,11 +51,12 @@ _WORDS = (
 )
 
 
-@dataclass(slots=True)
 class Refused(Exception):
     """The text cannot be composed at all."""
 
-    diagnostic: Diagnostic
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(diagnostic.message)
+        self.diagnostic = diagnostic
 
 
 class _Composer(CParser):  # type: ignore[misc]

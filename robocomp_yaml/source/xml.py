@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import bisect
 import re
-from dataclasses import dataclass, field
 from xml.parsers import expat
+
+import msgspec
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -24,8 +25,7 @@ _TAG = re.compile(r"<[^\s/>]+")
 _ATTRIBUTE = re.compile(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
 
 
-@dataclass(slots=True)
-class Element:
+class Element(msgspec.Struct):
     """`name` and `namespace` are apart; an attribute of a namespace is called 'namespace name'; `content` are texts and
     elements in their order. It is spelled in `source` from `start` to `end`, in bytes."""
 
@@ -33,8 +33,8 @@ class Element:
     namespace: str
     attributes: dict[str, str]
     span: Span
-    places: dict[str, Span] = field(default_factory=dict)
-    content: list[str | Element] = field(default_factory=list)
+    places: dict[str, Span] = {}
+    content: list[str | Element] = []
     source: bytes = b""
     start: int = 0
     end: int = 0

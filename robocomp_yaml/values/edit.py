@@ -7,8 +7,9 @@ mapping that it belongs to. What would touch more than that (a list over many li
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Any
+
+import msgspec
 
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values.spell_yaml import quoted, scalar, single_quoted
@@ -25,8 +26,7 @@ class NotEditable(Exception):
         self.node = node
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(msgspec.Struct, frozen=True):
     """`text` is the whole document after the change; `was` what stood there before, or ''."""
 
     text: str

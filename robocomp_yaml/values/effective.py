@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any
+
+import msgspec
 
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -20,8 +21,7 @@ from robocomp_yaml.values.normalize import fits, normalized
 from robocomp_yaml.values.usable import is_usable
 
 
-@dataclass(slots=True)
-class Effective:
+class Effective(msgspec.Struct):
     """`data` are the values with all defaults, references as `{"env": NAME}`; `place` is where they stand."""
 
     data: dict[str, Any]

@@ -9,8 +9,9 @@ messages, examples and snippets for them; the second, for tools, says what each 
 from __future__ import annotations
 
 import copy
-from dataclasses import dataclass, field
 from typing import Any
+
+import msgspec
 
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.parameters import (
@@ -95,12 +96,11 @@ def _ports(component: LinkedComponent) -> dict[str, list[str]]:
     return {"endpoints": [*served, "CommonBehavior"], "proxies": [port.name for port in component.requires]}
 
 
-@dataclass(slots=True)
-class _Maker:
+class _Maker(msgspec.Struct):
     """Makes schemas in one mode; structs go to `definitions`."""
 
     mode: str
-    definitions: dict[str, Schema] = field(default_factory=lambda: {"env": _REFERENCE})
+    definitions: dict[str, Schema] = msgspec.field(default_factory=lambda: {"env": _REFERENCE})
 
     @property
     def for_editors(self) -> bool:

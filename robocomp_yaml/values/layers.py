@@ -6,16 +6,16 @@ The result remembers for each value its node, and those that it overrode.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
 from typing import Any
+
+import msgspec
 
 from robocomp_yaml.link.program import LinkedValues
 from robocomp_yaml.model.parameters import ListType, MapType, RecordType, Type
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
-@dataclass(slots=True)
-class Place:
+class Place(msgspec.Struct):
     """A merged value. `node` is what the last layer says (of a merged mapping: its last one), `key` the key it stands
     behind; `entries` are those of a merged mapping, None for lists and plain values. `overrode` are the nodes of
     earlier layers that it replaces, the latest first."""
@@ -23,7 +23,7 @@ class Place:
     node: Node
     key: Scalar | None
     entries: dict[str, Place] | None = None
-    overrode: list[Node] = field(default_factory=list)
+    overrode: list[Node] = []
 
 
 Given = tuple[Scalar | None, Node]

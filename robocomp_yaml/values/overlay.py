@@ -5,7 +5,7 @@ Lists merge with nothing, so a path into one makes a copy of the list that it ch
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import msgspec
 
 from robocomp_yaml.model.parameters import ListType, MapType, Member, RecordType, Type
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, mapping_at, sequence_at, text_at
@@ -15,20 +15,18 @@ from robocomp_yaml.values.layers import Place
 Entries = dict[str, tuple[Scalar, Node]]
 
 
-@dataclass(frozen=True, slots=True)
-class NoEntry:
+class NoEntry(msgspec.Struct, frozen=True):
     """A path that leads nowhere: `key` spells it."""
 
     key: Scalar
     problem: str
 
 
-@dataclass(slots=True)
-class Overlay:
+class Overlay(msgspec.Struct):
     """`root` has the entries of the layer; `faults` are paths into lists that are not there."""
 
     root: Mapping
-    faults: list[NoEntry] = field(default_factory=list)
+    faults: list[NoEntry] = []
 
 
 def overlay(settings: Mapping, type_: RecordType, base: Place | None) -> Overlay:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -19,12 +21,11 @@ CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
 _OF_PORTS = ("endpoints", "proxies", "topics")
 
 
-@dataclass(slots=True)
-class Section:
+class Section(msgspec.Struct):
     """The properties that belong together, with what they are about."""
 
     title: str
-    properties: list[Property] = field(default_factory=list)
+    properties: list[Property] = []
 
 
 def dialect(values: LinkedValues) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
+
+import msgspec
 
 from robocomp_yaml.model.parameters import (
     ListType,
@@ -22,8 +23,7 @@ from robocomp_yaml.values.spell_yaml import flow
 from robocomp_yaml.values.write import Path, Where, node_of, step
 
 
-@dataclass(frozen=True, slots=True)
-class Shown:
+class Shown(msgspec.Struct, frozen=True):
     """A plain value, or an empty list or map. `node` is where it is given; None for a default, whose node (if a
     document wrote it) is `default`. `overrode` are the nodes of earlier layers, the latest first."""
 

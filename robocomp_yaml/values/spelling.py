@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.model.parameters import (
     BasicType,
@@ -24,8 +25,7 @@ from robocomp_yaml.model.pdsl import Spelling
 _HOLE = re.compile(r"\{([A-Za-z0-9_][A-Za-z0-9_-]*)\}")
 
 
-@dataclass(frozen=True, slots=True)
-class Template:
+class Template(msgspec.Struct, frozen=True):
     """A property's name with holes: `JointMotor.M{i}`, `ID:{from}-{to}`."""
 
     text: str

@@ -6,8 +6,9 @@ What no property can say is a fault at its line. Rows are read back before they 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 from typing import Any
+
+import msgspec
 
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -37,8 +38,7 @@ Path = tuple[Step, ...]
 _EMPTY_OPTIONAL = "an optional one that is empty cannot be told from one that is left out"
 
 
-@dataclass(frozen=True, slots=True)
-class Property:
+class Property(msgspec.Struct, frozen=True):
     """One line of a property file. `read` gives what a text in its place would mean (None for texts that mean just
     themselves), so that another spelling of the same value can stand there."""
 
@@ -48,8 +48,7 @@ class Property:
     read: Callable[[str], Any] | None = None
 
 
-@dataclass(slots=True)
-class Writer:
+class Writer(msgspec.Struct):
     """Writes the parameters. `only_given`: defaults are left out. `quote`: text stands in double quotes, as in flat
     TOML. `head` is where faults are shown that have no line of their own."""
 
@@ -57,7 +56,7 @@ class Writer:
     head: Span
     only_given: bool = False
     quote: bool = False
-    faults: list[Diagnostic] = field(default_factory=list)
+    faults: list[Diagnostic] = []
 
     def write(self, data: dict[str, Any], place: Place | None) -> list[Property]:
         return list(self.record(self.parameters.root, data, place, (), "", "", top=True))

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
+from msgspec.structs import replace
 from processes import Ports
 from robocomp_yaml.deploy.carry_out import GONE, READY, STARTING, STOPPING
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP

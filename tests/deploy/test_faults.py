@@ -9,10 +9,10 @@ import signal
 import socket
 import subprocess
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from processes import Ports, until
 import robocomp_yaml.deploy

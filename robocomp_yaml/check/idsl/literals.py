@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link import numbers
 from robocomp_yaml.link.program import LinkedModule, Program
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.model.interface import Enum, ExceptionType, Literal, Struct, TypeRef
 
 RANGES = {"byte": (0, 255), "short": (-(2**15), 2**15 - 1), "int": (-(2**31), 2**31 - 1), "long": (-(2**63), 2**63 - 1)}

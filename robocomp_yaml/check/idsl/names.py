@@ -7,8 +7,9 @@ Python forgets.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import lru_cache
+
+import msgspec
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
@@ -26,13 +27,12 @@ UNESCAPED_IN_PYTHON = frozenset(("False", "True", "as", "async", "await", "nonlo
 LONGEST_NAME = 200
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(msgspec.Struct, frozen=True):
     """Why Slice does not take a word; `facts` fill the code's message beside the word and its kind."""
 
     code: Code
     hint: str = "choose another name"
-    facts: Mapping[str, str] = field(default_factory=dict)
+    facts: Mapping[str, str] = {}
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

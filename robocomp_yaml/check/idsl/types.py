@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.link.references import exceptions_of, kind_of, types_of
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Module, TypeDefinition, TypeRef
 
 # How other languages call the basic types.

@@ -6,7 +6,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -41,8 +42,7 @@ from robocomp_yaml.source.tree import Scalar
 BOOL, WHOLE, NUMBER, TEXT = BasicType("bool"), BasicType("long"), BasicType("double"), BasicType("string")
 
 
-@dataclass(frozen=True, slots=True)
-class Scope:
+class Scope(msgspec.Struct, frozen=True):
     """The names of the parameters, and of the variables of `for` around the place."""
 
     root: RecordType

@@ -7,8 +7,9 @@ import os
 import threading
 import time
 from collections.abc import Callable, Collection
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from robocomp_yaml.deploy.icegrid import descriptors
 from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed

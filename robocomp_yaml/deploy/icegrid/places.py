@@ -9,8 +9,9 @@ from __future__ import annotations
 import json
 import socket
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any
+
+import msgspec
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.local.obstacles import is_here
@@ -24,16 +25,14 @@ _ROOT = "state/icegrid"
 _WANTED, _SPECS, _REGISTRY, _NODES = (f"{_ROOT}/{name}.json" for name in ("wanted", "specs", "registry", "nodes"))
 
 
-@dataclass(frozen=True, slots=True)
-class Registry:
+class Registry(msgspec.Struct, frozen=True):
     """Where the registry of a deployment listens."""
 
     address: str
     port: int
 
 
-@dataclass(frozen=True, slots=True)
-class Places:
+class Places(msgspec.Struct, frozen=True):
     """The files of one deployment's engine, by the deployment's folder."""
 
     folder: str
@@ -110,7 +109,7 @@ class Places:
 def _spec(data: dict[str, Any]) -> Spec | None:
     try:
         return Spec.of_data(data)
-    except (KeyError, TypeError, ValueError):
+    except ValueError:
         return None
 
 

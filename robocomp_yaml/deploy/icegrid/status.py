@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.deploy.engine import (
     ENDED,
@@ -25,8 +26,7 @@ _ALIVE = ("Active", "Activating", "Deactivating")
 _FINAL = (GIVEN_UP, ENDED)
 
 
-@dataclass(frozen=True, slots=True)
-class Told:
+class Told(msgspec.Struct, frozen=True):
     """What `run` tells: `runner` is its own pid, `since` milliseconds since its host started, `at` the microseconds of
     its clock."""
 

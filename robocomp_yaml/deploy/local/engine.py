@@ -155,7 +155,7 @@ _DONE = {"start": "started", "stop": "stopped"}
 def _running(entry: dict[str, Any]) -> Running:
     try:
         spec = Spec.of_data(entry["spec"])
-    except (KeyError, TypeError, ValueError):
+    except ValueError:
         spec = None
     process = entry["spec"]["process"]
     kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu")

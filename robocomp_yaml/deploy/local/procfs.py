@@ -8,7 +8,8 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
+
+import msgspec
 
 MARK = "RCYAML_PROCESS"
 """The variable by which everything that a process of a deployment started is known: `FOLDER:NAME`."""
@@ -19,8 +20,7 @@ _LISTEN = "0A"
 _MOMENT = 0.02  # seconds
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(msgspec.Struct, frozen=True):
     """A process: `start` is in clock ticks since boot, so that (pid, start) is never used twice."""
 
     pid: int

@@ -5,8 +5,9 @@ Nothing overlaps by construction: each row and column, and each channel and gap 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from itertools import accumulate
+
+import msgspec
 
 from robocomp_yaml.emit.graphs.grid import Area, Grid, grid_of
 from robocomp_yaml.emit.graphs.measure import shortened, width
@@ -28,23 +29,21 @@ _LABEL_BAND, _HOST_TITLE, _HEAD = 18.0, 26.0, 44.0
 Point = tuple[float, float]
 
 
-@dataclass(slots=True)
-class Block:
+class Block(msgspec.Struct):
     """A rectangle, and the lines of text in it."""
 
     x: float
     y: float
     width: float
     height: float
-    texts: list[str] = field(default_factory=list)
+    texts: list[str] = []
 
     @property
     def middle(self) -> float:
         return self.x + self.width / 2
 
 
-@dataclass(slots=True)
-class Way:
+class Way(msgspec.Struct):
     """A net's way from one source: its corners from the source to the target."""
 
     net: Net
@@ -52,16 +51,15 @@ class Way:
     points: list[Point]
 
 
-@dataclass(slots=True)
-class Geometry:
+class Geometry(msgspec.Struct):
     """`labels` are the nets' ports, above their targets."""
 
     width: float = 0.0
     height: float = 0.0
-    nodes: dict[str, Block] = field(default_factory=dict)
-    hosts: dict[str, Block] = field(default_factory=dict)
-    ways: list[Way] = field(default_factory=list)
-    labels: list[tuple[Net, Point]] = field(default_factory=list)
+    nodes: dict[str, Block] = {}
+    hosts: dict[str, Block] = {}
+    ways: list[Way] = []
+    labels: list[tuple[Net, Point]] = []
 
 
 def geometry_of(picture: Picture) -> Geometry:

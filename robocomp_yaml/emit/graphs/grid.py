@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.emit.graphs.layers import layers
 from robocomp_yaml.emit.graphs.picture import Line, Picture
@@ -17,8 +18,7 @@ MOST_COLUMNS = 12
 _SWEEPS = 4
 
 
-@dataclass(frozen=True, slots=True)
-class Area:
+class Area(msgspec.Struct, frozen=True):
     """The cells of a host, its first and last row and column; `name` is '' for what is outside."""
 
     name: str
@@ -28,12 +28,11 @@ class Area:
     right: int
 
 
-@dataclass(slots=True)
-class Grid:
+class Grid(msgspec.Struct):
     """`cells` are (row, column) by node."""
 
-    cells: dict[str, tuple[int, int]] = field(default_factory=dict)
-    areas: list[Area] = field(default_factory=list)
+    cells: dict[str, tuple[int, int]] = {}
+    areas: list[Area] = []
     rows: int = 0
     columns: int = 0
 

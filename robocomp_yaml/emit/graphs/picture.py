@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+import msgspec
 
 COMPONENT, PROGRAM, ICESTORM, TOPIC, OUTSIDE = "component", "program", "icestorm", "topic", "outside"
 _EVERYBODYS = "CommonBehavior"
 USES, PUBLISHES, SUBSCRIBES, AFTER = "uses", "publishes", "subscribes", "after"
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(msgspec.Struct, frozen=True):
     """A problem, as the diagnostics say it."""
 
     code: str
@@ -19,16 +19,14 @@ class Fault:
     message: str
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+class Box(msgspec.Struct, frozen=True):
     """A host. `title` is what stands on it."""
 
     name: str
     title: str
 
 
-@dataclass(frozen=True, slots=True)
-class Node:
+class Node(msgspec.Struct, frozen=True):
     """`box` is the name of a box, '' for what is outside. `about` are short lines below the name. `serves` are
     interfaces with their ports, 0 where none is known."""
 
@@ -48,8 +46,7 @@ class Node:
         return [f"{name} {port}" if port else name for name, port in own]
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(msgspec.Struct, frozen=True):
     """From `source`, which needs something, to `target`, which has it: `label` says what. Of a topic both who publishes
     and who subscribes are sources; what flows, flows to the topic (PUBLISHES) or from it (SUBSCRIBES)."""
 
@@ -60,14 +57,13 @@ class Line:
     faults: tuple[Fault, ...] = ()
 
 
-@dataclass(slots=True)
-class Picture:
+class Picture(msgspec.Struct):
     """`faults` are those that belong to nothing in the picture."""
 
     name: str
-    boxes: list[Box] = field(default_factory=list)
-    nodes: dict[str, Node] = field(default_factory=dict)
-    lines: list[Line] = field(default_factory=list)
+    boxes: list[Box] = []
+    nodes: dict[str, Node] = {}
+    lines: list[Line] = []
     faults: tuple[Fault, ...] = ()
 
     def inside(self, box: str) -> list[Node]:

@@ -8,14 +8,14 @@ the channel below it to a gap, in the gap to the channel above its target, and i
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.emit.graphs.grid import Grid
 from robocomp_yaml.emit.graphs.picture import Fault, Picture
 
 
-@dataclass(slots=True, eq=False)
-class Branch:
+class Branch(msgspec.Struct, eq=False):
     """A net's way from one source. `gap` is the gap before that column, None where no gap is needed."""
 
     source: str
@@ -23,12 +23,11 @@ class Branch:
     gap: int | None = None
 
 
-@dataclass(slots=True, eq=False)
-class Net:
+class Net(msgspec.Struct, eq=False):
     target: str
     label: str
     kind: str
-    branches: list[Branch] = field(default_factory=list)
+    branches: list[Branch] = []
 
     @property
     def faults(self) -> tuple[Fault, ...]:
@@ -39,16 +38,15 @@ Run = tuple[int, Net]
 """A net in a channel (by the row below it), or in a gap (by the column behind it)."""
 
 
-@dataclass(slots=True)
-class Routes:
+class Routes(msgspec.Struct):
     """`channels` and `gaps` are the tracks of each run, counted from 0; `channel_tracks` and `gap_tracks` how many
     there are in each."""
 
-    nets: list[Net] = field(default_factory=list)
-    channels: dict[Run, int] = field(default_factory=dict)
-    gaps: dict[Run, int] = field(default_factory=dict)
-    channel_tracks: dict[int, int] = field(default_factory=dict)
-    gap_tracks: dict[int, int] = field(default_factory=dict)
+    nets: list[Net] = []
+    channels: dict[Run, int] = {}
+    gaps: dict[Run, int] = {}
+    channel_tracks: dict[int, int] = {}
+    gap_tracks: dict[int, int] = {}
 
 
 def routes_of(picture: Picture, grid: Grid) -> Routes:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+import msgspec
 
 if TYPE_CHECKING:
     from tree_sitter import Node
@@ -12,8 +13,7 @@ if TYPE_CHECKING:
 CLASS = "SpecificWorker"
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(msgspec.Struct, frozen=True):
     """A word of the text; counted as in a span."""
 
     line: int
@@ -21,8 +21,7 @@ class Place:
     end_column: int
 
 
-@dataclass(frozen=True, slots=True)
-class Signature:
+class Signature(msgspec.Struct, frozen=True):
     """`parameters` and `returns` with blanks made alike; `names` are those of the parameters. A call with `least` to
     `most` arguments fits; `most` is None where there is no limit."""
 
@@ -33,8 +32,7 @@ class Signature:
     most: int | None
 
 
-@dataclass(frozen=True, slots=True)
-class Method:
+class Method(msgspec.Struct, frozen=True):
     """A method of the class: declared in its body, or (C++) defined outside of it.
 
     `first` and `end` are the lines from its first to behind its last, from 0, decorators with it. `signature` is None
@@ -50,16 +48,14 @@ class Method:
     nested: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Import:
+class Import(msgspec.Struct, frozen=True):
     """What a line brings in, and the line that would bring just this."""
 
     key: str
     line: str
 
 
-@dataclass(frozen=True, slots=True)
-class Code:
+class Code(msgspec.Struct, frozen=True):
     """A file. `members` stand in the class, `definitions` outside. `place` is that of the class's name, None where the
     file does not have the class; `body_end` the line before which its body ends, and `unit` one step of indentation.
     `bases` are the classes that it inherits from. `import_end` is the line behind the last import, or where one may

@@ -4,22 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.emit.specific.code import Code, Method, Signature
 
 
-@dataclass(frozen=True, slots=True)
-class Lacking:
+class Lacking(msgspec.Struct, frozen=True):
     """A method of a skeleton's file that the user's files do not have."""
 
     skeleton: Code
     method: Method
 
 
-@dataclass(frozen=True, slots=True)
-class Outdated:
+class Outdated(msgspec.Struct, frozen=True):
     """A method of the user that no longer fits; `wanted` is the skeleton's."""
 
     code: Code
@@ -28,8 +27,7 @@ class Outdated:
     wanted: Method
 
 
-@dataclass(frozen=True, slots=True)
-class Gone:
+class Gone(msgspec.Struct, frozen=True):
     """A method that no skeleton has any more, at its places; `renamed` is what it may be called now."""
 
     name: str
@@ -37,11 +35,10 @@ class Gone:
     renamed: str = ""
 
 
-@dataclass(slots=True)
-class Comparison:
-    lacking: list[Lacking] = field(default_factory=list)
-    outdated: list[Outdated] = field(default_factory=list)
-    gone: list[Gone] = field(default_factory=list)
+class Comparison(msgspec.Struct):
+    lacking: list[Lacking] = []
+    outdated: list[Outdated] = []
+    gone: list[Gone] = []
 
     @property
     def is_complete(self) -> bool:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import cache
 
 import tree_sitter_cpp
+from msgspec.structs import replace
 from tree_sitter import Language, Node, Parser
 
 from robocomp_yaml.emit.specific.code import (

@@ -10,7 +10,9 @@ from __future__ import annotations
 import warnings
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.emit.specific import entries, threeway
 from robocomp_yaml.emit.specific.code import Code, Import
@@ -20,8 +22,7 @@ from robocomp_yaml.emit.specific.reading import read
 from robocomp_yaml.emit.specific.threeway import Conflict
 
 
-@dataclass(frozen=True, slots=True)
-class Side:
+class Side(msgspec.Struct, frozen=True):
     """A file of the user with the skeletons of before (None where it is not known) and of now."""
 
     path: str
@@ -30,8 +31,7 @@ class Side:
     new: str
 
 
-@dataclass(frozen=True, slots=True)
-class Result:
+class Result(msgspec.Struct, frozen=True):
     """`text` is the merge, and `base` what a later one starts from. With `reason`, there is none."""
 
     path: str

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from robocomp_yaml.emit.plan import FilePlan
 
 
-@dataclass(frozen=True, slots=True)
-class Own:
+class Own(msgspec.Struct, frozen=True):
     """A file of the user that a plan has a skeleton for. Texts are None where they are no UTF-8; `base` also where
     there is none, or none is needed. A link is not written through."""
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.manifest import BASE
@@ -15,14 +17,13 @@ from robocomp_yaml.emit.specific.own import Own
 SOURCES = "src"
 
 
-@dataclass(slots=True)
-class Review:
+class Review(msgspec.Struct):
     """`contents` and `absent` are what it read and looked for in vain."""
 
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    merges: Merges = field(default_factory=Merges)
-    contents: dict[str, bytes] = field(default_factory=dict)
-    absent: set[str] = field(default_factory=set)
+    diagnostics: list[Diagnostic] = []
+    merges: Merges = msgspec.field(default_factory=Merges)
+    contents: dict[str, bytes] = {}
+    absent: set[str] = set()
 
 
 def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:

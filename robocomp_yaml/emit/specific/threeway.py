@@ -7,8 +7,10 @@ import os
 import shutil
 import subprocess
 import tempfile
-from dataclasses import dataclass, replace
 from pathlib import Path
+
+import msgspec
+from msgspec.structs import replace
 
 YOURS, BASE, NEW = "yours", "as generated before", "as generated now"
 _OPEN, _OLD, _MIDDLE, _CLOSE = (mark * 7 for mark in "<|=>")
@@ -16,8 +18,7 @@ LF = "\n"
 _SECONDS = 30  # more than git takes for any file that someone wrote
 
 
-@dataclass(frozen=True, slots=True)
-class Conflict:
+class Conflict(msgspec.Struct, frozen=True):
     """Lines that both sides changed: where they stand in the user's text (from 0, the line behind them), and how."""
 
     first: int
@@ -25,8 +26,7 @@ class Conflict:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Merged:
+class Merged(msgspec.Struct, frozen=True):
     """`text` is the merge, with the user's side of each conflict."""
 
     text: str

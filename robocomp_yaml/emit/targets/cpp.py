@@ -6,9 +6,10 @@ small generated part, the user's skeleton and the files for CMake.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
@@ -33,8 +34,7 @@ _CMAKE_TARGETS = frozenset(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(msgspec.Struct, frozen=True):
     """What the templates show: each file is about the same few things."""
 
     source: str

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.check.pdsl.expressions import Scope, type_of
 from robocomp_yaml.emit.targets.cpp_literals import value
@@ -41,8 +42,7 @@ def _function(variable: str, body: str, capture: str = "&") -> str:
     return f"[{capture}]({VALUE}{f' {variable}' if used else ''}) {{ return {body}; }}"
 
 
-@dataclass(frozen=True, slots=True)
-class _Writer:
+class _Writer(msgspec.Struct, frozen=True):
     scope: Scope
 
     def code(self, expression: Expression) -> str:

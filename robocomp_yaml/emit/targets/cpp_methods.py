@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.emit.targets.cpp_names import ice_name, parameter
 from robocomp_yaml.emit.targets.cpp_text import IN, comment, declaration, one_line
@@ -16,8 +17,7 @@ _NOT_PUBLISHED = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class MethodView:
+class MethodView(msgspec.Struct, frozen=True):
     """A method of the worker: in GenericWorker, which has it so that a user's class without it still compiles, and in
     the user's class. That says no `override`: a method that an interface has no more would be an error then."""
 
@@ -30,8 +30,7 @@ class MethodView:
     stub: list[str]
 
 
-@dataclass(frozen=True, slots=True)
-class OperationView:
+class OperationView(msgspec.Struct, frozen=True):
     """An operation of a servant."""
 
     declaration: str

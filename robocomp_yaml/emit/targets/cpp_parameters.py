@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.emit.parameter_facts import inside, records
 from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.cpp_kinds import kind, pattern_count, spelling
-from robocomp_yaml.emit.targets.cpp_literals import number, string, text as quoted, value
+from robocomp_yaml.emit.targets.cpp_literals import number, string, value
+from robocomp_yaml.emit.targets.cpp_literals import text as quoted
 from robocomp_yaml.emit.targets.cpp_members import documented, plain_type, set_name
 from robocomp_yaml.emit.targets.cpp_names import Names
 from robocomp_yaml.emit.targets.cpp_text import IN, comment, folded, one_line
@@ -30,8 +32,7 @@ _TYPES_TAKEN = ("Values", "table", "fromValue", "toValue", "of")
 _METHODS_TAKEN = ("Parameters", "change", "listen", "live_", "now", "set")
 
 
-@dataclass(frozen=True, slots=True)
-class EnumView:
+class EnumView(msgspec.Struct, frozen=True):
     name: str
     names: str
     comment: str
@@ -39,8 +40,7 @@ class EnumView:
     literals: list[str]
 
 
-@dataclass(frozen=True, slots=True)
-class MemberView:
+class MemberView(msgspec.Struct, frozen=True):
     comment: str
     field: str
     kind: str
@@ -48,8 +48,7 @@ class MemberView:
     write: str
 
 
-@dataclass(frozen=True, slots=True)
-class RecordView:
+class RecordView(msgspec.Struct, frozen=True):
     name: str
     comment: str
     function: str
@@ -57,8 +56,7 @@ class RecordView:
     members: list[MemberView]
 
 
-@dataclass(frozen=True, slots=True)
-class GetterView:
+class GetterView(msgspec.Struct, frozen=True):
     comment: str
     declaration: str
     definition: str
@@ -66,15 +64,13 @@ class GetterView:
     setter_definitions: list[str]
 
 
-@dataclass(frozen=True, slots=True)
-class ConstraintView:
+class ConstraintView(msgspec.Struct, frozen=True):
     text: str
     otherwise: str
     value: str
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(msgspec.Struct, frozen=True):
     source: str
     name: str
     comment: str

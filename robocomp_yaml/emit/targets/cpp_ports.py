@@ -6,7 +6,8 @@ All that is here goes to the templates as it is.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.emit.targets.cpp_methods import MethodView, OperationView, call, method_view, operation_view, scoped
 from robocomp_yaml.emit.targets.cpp_names import Names, ice_name, proxy, qualified
@@ -15,8 +16,7 @@ from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.model.interface import Method
 
 
-@dataclass(frozen=True, slots=True)
-class ServiceView:
+class ServiceView(msgspec.Struct, frozen=True):
     """An implemented or subscribed port; `new_methods` are those that no earlier port has brought. `declared` are pairs
     of an operation and an exception that it declares, in braces; `statement` serves a port that has none."""
 
@@ -31,8 +31,7 @@ class ServiceView:
     new_methods: list[MethodView]
 
 
-@dataclass(frozen=True, slots=True)
-class AccessorView:
+class AccessorView(msgspec.Struct, frozen=True):
     """A proxy that the worker has, and the statement that makes it."""
 
     name: str

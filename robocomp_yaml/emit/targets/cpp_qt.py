@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from functools import cache
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit import form
@@ -21,8 +23,7 @@ _WINDOW_FILES = ("windowworker.h",)  # of the folder qt, only for windows whose 
 _MACHINE_FILES = ("machine.cpp", "machine.h")  # of the folder robocomp, only for components with a state machine
 
 
-@dataclass(frozen=True, slots=True)
-class QtView:
+class QtView(msgspec.Struct, frozen=True):
     """What a component needs of Qt: `modules` for find_package, `libraries` to link, `base` the class of its window."""
 
     modules: str
@@ -30,16 +31,14 @@ class QtView:
     base: str
 
 
-@dataclass(frozen=True, slots=True)
-class Enumerators:
+class Enumerators(msgspec.Struct, frozen=True):
     """The enumerators of a module, as they were called before they had scopes."""
 
     module: str
     constants: list[str]
 
 
-@dataclass(frozen=True, slots=True)
-class RobocompView:
+class RobocompView(msgspec.Struct, frozen=True):
     """What only code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods`
     are declared for those who override them; `legacy_sources` are names that RoboComp's own files have in `src/`."""
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
+
+import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit.machines import lower, text
@@ -15,20 +16,17 @@ from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.statemachine import State, StateMachine
 
 
-@dataclass(frozen=True, slots=True)
-class EventView:
+class EventView(msgspec.Struct, frozen=True):
     name: str
     method: str
 
 
-@dataclass(frozen=True, slots=True)
-class StateView:
+class StateView(msgspec.Struct, frozen=True):
     name: str
     comment: str
 
 
-@dataclass(frozen=True, slots=True)
-class MachineView:
+class MachineView(msgspec.Struct, frozen=True):
     """What the worker has of a machine: states, names of guards and actions; `called` are all actions, also those that
     every worker has. `fires` is an example of how to fire an event. `member` and `signals` are for code for RoboComp's
     own tool."""
@@ -42,8 +40,7 @@ class MachineView:
     signals: list[str]
 
 
-@dataclass(frozen=True, slots=True)
-class TablesView:
+class TablesView(msgspec.Struct, frozen=True):
     source: str
     events: list[EventView]
     functions: str

@@ -9,9 +9,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from functools import cache
 from typing import TYPE_CHECKING
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit.plan import ONCE, FilePlan
@@ -32,16 +34,14 @@ DEFAULT_PERIOD = 100
 BEHAVIOR = "RoboCompCommonBehavior"
 
 
-@dataclass(frozen=True, slots=True)
-class SliceModule:
+class SliceModule(msgspec.Struct, frozen=True):
     """A Slice module: the name Ice gives it, and the variable that holds it."""
 
     name: str
     variable: str
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(msgspec.Struct, frozen=True):
     """What the templates show: each file is about the same few things.
 
     `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `stage`,

@@ -4,7 +4,8 @@ parameter may be missing. The meaning is that of `values.evaluate`."""
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.check.pdsl.expressions import Scope, find_member, type_of
 from robocomp_yaml.emit.targets.python_text import literal
@@ -29,8 +30,7 @@ _OURS = ("unique", "keys", "values")  # the functions that are not Python's
 _TAKEN = frozenset(("p", "constraints", "all", "any", "len", "min", "max", "abs", "sum"))
 
 
-@dataclass(frozen=True, slots=True)
-class Code:
+class Code(msgspec.Struct, frozen=True):
     """Python for an expression; `may_miss` when its value may be None: unknown."""
 
     text: str
@@ -42,8 +42,7 @@ def lambda_of(expression: Expression, root: RecordType) -> str:
     return f"lambda p: {_Writer(Scope(root)).code(expression).text}"
 
 
-@dataclass(frozen=True, slots=True)
-class _Writer:
+class _Writer(msgspec.Struct, frozen=True):
     scope: Scope
 
     def code(self, expression: Expression) -> Code:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.emit.parameter_facts import facts, inside, records
 from robocomp_yaml.emit.plan import FilePlan
@@ -33,37 +34,32 @@ _TAKEN = (
 ).split()
 
 
-@dataclass(frozen=True, slots=True)
-class EnumView:
+class EnumView(msgspec.Struct, frozen=True):
     name: str
     literal: str
     docstring: str
 
 
-@dataclass(frozen=True, slots=True)
-class MemberView:
+class MemberView(msgspec.Struct, frozen=True):
     name: str
     hint: str
     declaration: str
     docstring: str
 
 
-@dataclass(frozen=True, slots=True)
-class RecordView:
+class RecordView(msgspec.Struct, frozen=True):
     name: str
     docstring: str
     members: list[MemberView]
 
 
-@dataclass(frozen=True, slots=True)
-class ConstraintView:
+class ConstraintView(msgspec.Struct, frozen=True):
     text: str
     otherwise: str
     value: str
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(msgspec.Struct, frozen=True):
     source: str
     title: str
     imports: list[str]

@@ -6,7 +6,8 @@ All that is here goes to the templates as it is.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.emit.targets.python_names import (
     WORKER_ATTRIBUTES,
@@ -25,8 +26,7 @@ from robocomp_yaml.model.interface import Method, TypeRef
 IN = "    "
 
 
-@dataclass(frozen=True, slots=True)
-class MethodView:
+class MethodView(msgspec.Struct, frozen=True):
     """A method of the worker that a servant calls; `value` is what its stub returns, '' where there is nothing;
     `plain_signature` has no hints."""
 
@@ -41,8 +41,7 @@ class MethodView:
     value: str
 
 
-@dataclass(frozen=True, slots=True)
-class ServedView:
+class ServedView(msgspec.Struct, frozen=True):
     """An implemented or subscribed port. `new_methods` are those that no earlier port has brought."""
 
     name: str
@@ -54,8 +53,7 @@ class ServedView:
     new_methods: list[MethodView]
 
 
-@dataclass(frozen=True, slots=True)
-class AccessorView:
+class AccessorView(msgspec.Struct, frozen=True):
     """A proxy that the worker has. `absent` and `timeout` are '' where the run time's default holds."""
 
     name: str

@@ -6,8 +6,9 @@ The part that evaluates Python text is copied only where the machine's data mode
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import cache
+
+import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit.machines import lower, text
@@ -22,20 +23,17 @@ from robocomp_yaml.model.statemachine import PYTHON, State, StateMachine
 _SCRIPTING = "scripting.py"
 
 
-@dataclass(frozen=True, slots=True)
-class EventView:
+class EventView(msgspec.Struct, frozen=True):
     name: str
     method: str
 
 
-@dataclass(frozen=True, slots=True)
-class StateView:
+class StateView(msgspec.Struct, frozen=True):
     name: str
     docstring: str
 
 
-@dataclass(frozen=True, slots=True)
-class MachineView:
+class MachineView(msgspec.Struct, frozen=True):
     """What the worker has of a machine: states, names of guards and actions. `fires` is an example of an event.
     `member` and `signals` are for code for RoboComp's own tool."""
 
@@ -47,8 +45,7 @@ class MachineView:
     signals: list[str]
 
 
-@dataclass(frozen=True, slots=True)
-class TablesView:
+class TablesView(msgspec.Struct, frozen=True):
     source: str
     name: str
     scripting: bool

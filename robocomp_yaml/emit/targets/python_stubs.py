@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.emit.targets.python_names import module_variable, parameters, proxy_method, python_name
 from robocomp_yaml.emit.targets.python_text import about, docstring, signature
@@ -14,16 +15,14 @@ from robocomp_yaml.model.interface import Constant, Enum, ExceptionType, Interfa
 IN = "    "
 
 
-@dataclass(frozen=True, slots=True)
-class MethodStub:
+class MethodStub(msgspec.Struct, frozen=True):
     """A method as its caller sees it."""
 
     signature: str
     docstring: str
 
 
-@dataclass(frozen=True, slots=True)
-class ClassStub:
+class ClassStub(msgspec.Struct, frozen=True):
     """A class: `header` from its name to the colon, its attributes, and its methods."""
 
     header: str
@@ -32,8 +31,7 @@ class ClassStub:
     methods: list[MethodStub]
 
 
-@dataclass(frozen=True, slots=True)
-class ModuleStub:
+class ModuleStub(msgspec.Struct, frozen=True):
     """A Slice module, shown as a class: that is a name space, too."""
 
     variable: str

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 
+import msgspec
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
@@ -26,14 +26,13 @@ _ENTITY = re.compile(r"&(?:#x(?P<hex>[0-9a-fA-F]+);|#(?P<decimal>[0-9]+);|(?P<na
 _SSH = re.compile(r"ssh\s+(?P<user>[\w.-]+)@(?P<host>\S+)")
 
 
-@dataclass(slots=True, eq=False)
-class _Element:
+class _Element(msgspec.Struct, eq=False):
     name: str
     tree: Tree[Token]
     notes: Notes
-    attributes: dict[str, str] = field(default_factory=dict)
-    places: dict[str, Token] = field(default_factory=dict)
-    children: list[_Element] = field(default_factory=list)
+    attributes: dict[str, str] = {}
+    places: dict[str, Token] = {}
+    children: list[_Element] = []
 
     def get(self, name: str) -> str:
         return self.attributes.get(name, "")

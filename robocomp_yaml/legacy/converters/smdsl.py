@@ -5,8 +5,7 @@ Blocks are put together by the names of states: a block's parent may be any stat
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+import msgspec
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
@@ -16,8 +15,7 @@ from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.scxmltext import ScxmlState, document
 
 
-@dataclass(slots=True, eq=False)
-class _Block:
+class _Block(msgspec.Struct, eq=False):
     """A machine, or what stands inside of the state `name`."""
 
     tree: Tree[Token]
@@ -25,7 +23,7 @@ class _Block:
     parallel: bool
     initial: str = ""
     final: str = ""
-    states: list[ScxmlState] = field(default_factory=list)
+    states: list[ScxmlState] = []
 
 
 def convert(reader: Reader) -> Draft | None:

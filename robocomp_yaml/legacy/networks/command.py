@@ -5,7 +5,8 @@ from __future__ import annotations
 import posixpath
 import re
 import shlex
-from dataclasses import dataclass
+
+import msgspec
 
 LOCAL = "localhost"
 LOOPBACK = frozenset((LOCAL, "127.0.0.1", "::1"))
@@ -16,8 +17,7 @@ _OPTION = re.compile(r"(?P<option>--Ice\.Config)=(?P<path>.+)", re.DOTALL)
 _CONFIG = re.compile(r"(?:^|/)(?:etc/[^/]+|[^/]*config[^/]*|[^/]+\.(?:conf|cfg|toml|ini))$", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
-class Command:
+class Command(msgspec.Struct, frozen=True):
     """`words` are the program and its arguments, without its configuration, which `config` names. `config_as` is the
     option that takes it, '' where it is an argument."""
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import posixpath
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.document import List, Map, Name, Value
@@ -15,14 +16,13 @@ from robocomp_yaml.source.text import decode, read_bytes
 from robocomp_yaml.source.tree import parse
 
 
-@dataclass(frozen=True, slots=True)
-class Known:
+class Known(msgspec.Struct, frozen=True):
     """A component's document at `path`; `implements` and `requires` are interfaces, the latter by proxy name."""
 
     name: str
     path: str
     implements: tuple[str, ...] = ()
-    requires: Mapping[str, str] = field(default_factory=dict)
+    requires: Mapping[str, str] = {}
 
 
 def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[Known]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import managers as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -24,17 +25,16 @@ def build(network: NetworkDraft, known: Sequence[Known], site: Site, key: str) -
     return builder.document(), builder.said
 
 
-@dataclass(slots=True, eq=False)
-class _Builder:
+class _Builder(msgspec.Struct, eq=False):
     network: NetworkDraft
     known: Sequence[Known]
     site: Site
     key: str
-    said: list[Diagnostic] = field(default_factory=list)
-    by_alias: dict[str, Node] = field(default_factory=dict)
-    owners: dict[str, Node] = field(default_factory=dict)
+    said: list[Diagnostic] = []
+    by_alias: dict[str, Node] = {}
+    owners: dict[str, Node] = {}
     """By the name of a node, the node whose process it is too."""
-    waits: dict[str, set[str]] = field(default_factory=dict)
+    waits: dict[str, set[str]] = {}
     """By the name of a process's first node, those that it waits for."""
 
     def document(self) -> Map:

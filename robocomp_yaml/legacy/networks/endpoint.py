@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+import msgspec
 
 TOPIC_MANAGER = "IceStorm/TopicManager"
 _PROXY = re.compile(r"\s*(?P<identity>[^\s:@]+)\s*:\s*(?P<protocol>tcp|udp|ssl|default|ws|wss)\b(?P<options>[^:]*)")
 _OPTION = re.compile(r"-(?P<name>\w+)(?:\s+(?P<value>[^\s-]\S*))?")
 
 
-@dataclass(frozen=True, slots=True)
-class Endpoint:
+class Endpoint(msgspec.Struct, frozen=True):
     """`options` are those but host and port, as they are spelled."""
 
     identity: str

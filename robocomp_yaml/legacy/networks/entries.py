@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import posixpath
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.legacy.document import Entry, List, Map, Raw
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, Command
@@ -15,8 +16,7 @@ from robocomp_yaml.legacy.networks.node import Node
 COMMON = "CommonBehavior"
 
 
-@dataclass(frozen=True, slots=True)
-class Site:
+class Site(msgspec.Struct, frozen=True):
     """Where a document will stand, and what each legacy file of the run becomes (by its real path)."""
 
     document: str

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import Map, Notes
@@ -14,8 +15,7 @@ from robocomp_yaml.legacy.networks.endpoint import Endpoint
 _NO_NAME = re.compile(r"[^A-Za-z0-9_-]+[^A-Za-z0-9_]*")
 
 
-@dataclass(slots=True, eq=False)
-class Node:
+class Node(msgspec.Struct, eq=False):
     """`alias` is its name in the file, `name` that in the document. `command` is None where nothing starts it.
     `interface` is what its endpoint is called. `after` are the aliases that it depends on. `extra` is what only an
     exporter needs. `by_key` are comments by the key that they belong to."""
@@ -25,25 +25,24 @@ class Node:
     span: Span
     command: Command | None = None
     endpoint: Endpoint | None = None
-    endpoint_span: Span = field(default_factory=lambda: Span(""))
+    endpoint_span: Span = msgspec.field(default_factory=lambda: Span(""))
     interface: str = ""
-    after: list[tuple[str, Span, Notes]] = field(default_factory=list)
-    notes: Notes = field(default_factory=Notes)
-    by_key: dict[str, Notes] = field(default_factory=dict)
-    extra: Map = field(default_factory=Map)
+    after: list[tuple[str, Span, Notes]] = []
+    notes: Notes = msgspec.field(default_factory=Notes)
+    by_key: dict[str, Notes] = {}
+    extra: Map = msgspec.field(default_factory=Map)
     is_shared: bool = False
     """Whether its process has several names."""
 
 
-@dataclass(slots=True, eq=False)
-class NetworkDraft:
+class NetworkDraft(msgspec.Struct, eq=False):
     """`users` are the names for ssh by host; `extra` is what only an exporter needs of the network as such."""
 
     name: str
     nodes: list[Node]
-    users: dict[str, str] = field(default_factory=dict)
-    notes: Notes = field(default_factory=Notes)
-    extra: Map = field(default_factory=Map)
+    users: dict[str, str] = {}
+    notes: Notes = msgspec.field(default_factory=Notes)
+    extra: Map = msgspec.field(default_factory=Map)
 
 
 def safe_name(text: str, taken: Collection[str] = ()) -> str:

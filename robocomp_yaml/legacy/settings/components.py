@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Map
@@ -19,8 +20,7 @@ from robocomp_yaml.legacy.settings.values_document import Links, values_document
 from robocomp_yaml.legacy.sources import LegacyFile
 
 
-@dataclass(frozen=True, slots=True)
-class Inferred:
+class Inferred(msgspec.Struct, frozen=True):
     """A PDSL to be written, with the config whose ledger entry names it."""
 
     path: str

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import Notes
@@ -19,27 +20,24 @@ _ZEROS = re.compile(r"[+-]?0[0-9]+\Z")
 _BOOL = re.compile(r"(?:true|false|True|False)\Z")
 
 
-@dataclass(frozen=True, slots=True)
-class Leaf:
+class Leaf(msgspec.Struct, frozen=True):
     """A plain value: how it is spelled, and the type that this spelling has."""
 
     text: str
     kind: str = STRING
 
 
-@dataclass(slots=True)
-class Item:
+class Item(msgspec.Struct):
     """A value with the comments that stand at it."""
 
     value: Tree
-    notes: Notes = field(default_factory=Notes)
+    notes: Notes = msgspec.field(default_factory=Notes)
 
 
 Tree = Leaf | list[Item] | dict[str, Item]
 
 
-@dataclass(slots=True)
-class Setting:
+class Setting(msgspec.Struct):
     """One entry. `key` is the property's name; `path` its parts. `raw` is the property's value as Ice reads it, ''
     where there is no such thing; `value` is without quotes."""
 
@@ -56,12 +54,11 @@ class Setting:
         return self.value.text if isinstance(self.value, Leaf) else ""
 
 
-@dataclass(slots=True)
-class Settings:
+class Settings(msgspec.Struct):
     """A whole config: `settings` in the order of the file, each key once."""
 
     dialect: str
-    settings: list[Setting] = field(default_factory=list)
+    settings: list[Setting] = []
 
 
 def settle_head(found: Settings, around: Notes) -> None:

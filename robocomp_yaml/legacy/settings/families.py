@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.settings.entries import Item, Leaf, Setting, guess
@@ -18,8 +19,7 @@ _RANGE = re.compile(r"(?P<stem>[^\d].*?[^\w]|[A-Za-z_]+)(?P<from>\d+)-(?P<to>\d+
 _FREE = re.compile(r"[{}\s]")
 
 
-@dataclass(slots=True)
-class _Row:
+class _Row(msgspec.Struct):
     config: Config
     setting: Setting
     index: str

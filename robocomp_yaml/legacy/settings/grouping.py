@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.span import Span
@@ -21,8 +22,7 @@ _PARTS = ("implements", "requires", "publishes", "subscribes")
 Good = Sequence[tuple[LegacyFile, Entry]]
 
 
-@dataclass(slots=True)
-class Component:
+class Component(msgspec.Struct):
     """A component with its configs. `document`: its CDSL; '' where it has none, and is called as its config.
     `declared`: what the PDSL at `parameters` says already; None where it is to be inferred."""
 
@@ -31,7 +31,7 @@ class Component:
     parameters: str
     ports: Ports = Ports()
     declared: declared.Types | None = None
-    configs: list[tuple[LegacyFile, Entry]] = field(default_factory=list)
+    configs: list[tuple[LegacyFile, Entry]] = []
 
 
 def first_half(path: str) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
@@ -17,8 +18,7 @@ _LABEL = re.compile(r"\s*[A-Za-z_][\w. ]*?\s*[:=]\s*(?=\S)")
 _COLUMN_GAP = re.compile(r"\t| {2,}|,")
 
 
-@dataclass(frozen=True, slots=True)
-class Column:
+class Column(msgspec.Struct, frozen=True):
     name: str
     doc: str = ""
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
@@ -15,18 +16,16 @@ from robocomp_yaml.legacy.settings.sorting import Sorted
 Path = tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Guesses:
+class Guesses(msgspec.Struct, frozen=True):
     """What the user knows better (`--names`, `--rules`): columns by the key of their rows, types by parameter, and
     keys whose values are plain text, no lists."""
 
-    names: Mapping[str, Sequence[str]] = field(default_factory=dict)
-    types: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, Sequence[str]] = {}
+    types: Mapping[str, str] = {}
     text: frozenset[str] = frozenset()
 
 
-@dataclass(slots=True)
-class Config:
+class Config(msgspec.Struct):
     """One config of a component. `sorted` loses what becomes part of a plan."""
 
     name: str
@@ -39,37 +38,34 @@ class Config:
         return self.sorted.parameters
 
 
-@dataclass(slots=True)
-class Given:
+class Given(msgspec.Struct):
     """A parameter's value in one config, and the settings that hold it there."""
 
     item: Item
-    settings: list[Setting] = field(default_factory=list)
+    settings: list[Setting] = []
 
     @property
     def line(self) -> int:
         return min((setting.span.line for setting in self.settings), default=0)
 
 
-@dataclass(slots=True)
-class Spelled:
+class Spelled(msgspec.Struct):
     """How a flat file spells a parameter: an entry of the PDSL's legacy table."""
 
     key: str = ""
-    fields: dict[str, str] = field(default_factory=dict)
+    fields: dict[str, str] = {}
     first: int = 0
-    columns: list[str] = field(default_factory=list)
+    columns: list[str] = []
     separator: str = ","
-    separators: list[str] = field(default_factory=list)
+    separators: list[str] = []
     trailing: bool = False
 
 
-@dataclass(slots=True)
-class Plan:
+class Plan(msgspec.Struct):
     """A parameter. `built_in`: every component has it, so that no PDSL has to define it. `guessed` says what."""
 
     path: Path
-    given: dict[str, Given] = field(default_factory=dict)
+    given: dict[str, Given] = {}
     spelled: Spelled | None = None
     shape: Shape | None = None
     docs: tuple[Column, ...] = ()

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 _NO_ROW = re.compile(r"""[\[\](){}"';]|://""")
 _NO_LIST = re.compile(r"""[\[\](){}"']|://""")
@@ -27,8 +28,7 @@ def are_rows(texts: Sequence[str]) -> bool:
     return not all(len(row) == 2 and all(map(_WHOLE.match, row)) for row in map(cells, texts))
 
 
-@dataclass(frozen=True, slots=True)
-class Split:
+class Split(msgspec.Struct, frozen=True):
     """A text as a list: of texts, or of lists of texts."""
 
     parts: list[str] | list[list[str]]

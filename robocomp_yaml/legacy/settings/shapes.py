@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.legacy.document import List, Map, Raw, Value
 from robocomp_yaml.legacy.settings.entries import DOUBLE, FLOAT, INT, LONG, STRING, Leaf, Tree
@@ -11,25 +13,21 @@ from robocomp_yaml.legacy.settings.entries import DOUBLE, FLOAT, INT, LONG, STRI
 _NUMBERS = (INT, LONG, FLOAT, DOUBLE)
 
 
-@dataclass(frozen=True, slots=True)
-class Scalar:
+class Scalar(msgspec.Struct, frozen=True):
     kind: str
 
 
-@dataclass(frozen=True, slots=True)
-class ListOf:
+class ListOf(msgspec.Struct, frozen=True):
     element: Shape
 
 
-@dataclass(frozen=True, slots=True)
-class Field:
+class Field(msgspec.Struct, frozen=True):
     name: str
     shape: Shape
     optional: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Record:
+class Record(msgspec.Struct, frozen=True):
     fields: tuple[Field, ...]
 
 

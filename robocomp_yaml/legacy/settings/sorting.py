@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+
+import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -18,8 +19,7 @@ _OWN = "x-"
 _WORD = re.compile(r"[A-Za-z_]\w*\Z")
 
 
-@dataclass(frozen=True, slots=True)
-class Ports:
+class Ports(msgspec.Struct, frozen=True):
     """The interfaces that a component names, as far as its document is known."""
 
     implements: frozenset[str] = frozenset()
@@ -33,8 +33,7 @@ class Ports:
         ) or key == "CommonBehavior"
 
 
-@dataclass(frozen=True, slots=True)
-class Named:
+class Named(msgspec.Struct, frozen=True):
     """A setting under its name in a section. `key`: the property, where the name does not say it."""
 
     name: str
@@ -42,20 +41,19 @@ class Named:
     key: str = ""
 
 
-@dataclass(slots=True)
-class Sorted:
+class Sorted(msgspec.Struct):
     """The settings of one file by section."""
 
     dialect: str
-    parameters: list[Setting] = field(default_factory=list)
-    endpoints: list[Named] = field(default_factory=list)
-    proxies: list[Named] = field(default_factory=list)
-    manager: list[Named] = field(default_factory=list)
-    prefixes: list[Named] = field(default_factory=list)
-    names: list[Named] = field(default_factory=list)
-    ice: list[Named] = field(default_factory=list)
-    properties: list[Named] = field(default_factory=list)
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    parameters: list[Setting] = []
+    endpoints: list[Named] = []
+    proxies: list[Named] = []
+    manager: list[Named] = []
+    prefixes: list[Named] = []
+    names: list[Named] = []
+    ice: list[Named] = []
+    properties: list[Named] = []
+    diagnostics: list[Diagnostic] = []
 
     def put(self, section: list[Named], name: str, setting: Setting) -> None:
         """Under its name in a section, where one that starts with `x-` would be the user's own."""

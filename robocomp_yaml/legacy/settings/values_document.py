@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from robocomp_yaml.legacy.document import Entry, Map, Value
 from robocomp_yaml.legacy.settings import rows
@@ -14,8 +15,7 @@ from robocomp_yaml.legacy.settings.sorting import Named
 from robocomp_yaml.source.properties import unquoted
 
 
-@dataclass(frozen=True, slots=True)
-class Links:
+class Links(msgspec.Struct, frozen=True):
     """What a values document says of itself: its component, the file it was, and the document it comes after."""
 
     component: str

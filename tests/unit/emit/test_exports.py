@@ -7,12 +7,12 @@ import shlex
 import shutil
 import subprocess
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from msgspec.structs import replace
 from networks import large, speaking
 from rcmanager_facts import facts
 from ruamel.yaml import YAML

@@ -6,9 +6,9 @@ import os
 import shutil
 import stat
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
 import pytest
 from jinja2 import Environment, UndefinedError, nodes
 
@@ -32,8 +32,7 @@ ALLOWED = (
 )
 
 
-@dataclass(frozen=True)
-class View:
+class View(msgspec.Struct, frozen=True):
     """What the templates of these tests show."""
 
     name: str

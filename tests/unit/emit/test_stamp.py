@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from robocomp_yaml.emit import stamp
@@ -138,9 +139,9 @@ def test_old_stamps_go() -> None:
     assert len(names) == 33 and names[0] == ".gitignore"
 
 
-def test_only_the_standard_library_is_imported() -> None:
+def test_little_is_imported() -> None:
     code = "import sys, robocomp_yaml.emit.stamp as s; print(*(m.partition('.')[0] for m in sys.modules))"
     out = subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, check=True, env={
-        "PYTHONPATH": str(Path(stamp.__file__).parents[2])
+        "PYTHONPATH": f"{Path(stamp.__file__).parents[2]}:{Path(msgspec.__file__).parents[1]}"
     })
-    assert set(out.stdout.split()) - sys.stdlib_module_names <= {"robocomp_yaml", "__main__"}
+    assert set(out.stdout.split()) - sys.stdlib_module_names <= {"robocomp_yaml", "__main__", "msgspec", "typing_extensions"}

@@ -1,0 +1,25 @@
+"""What stands at a place in a document."""
+
+from __future__ import annotations
+
+import msgspec
+
+_PLACES = frozenset({"span", "node", "at"})
+
+
+class Located(msgspec.Struct, frozen=True, eq=False):
+    """Equal to another one of the same content, wherever the two stand: `span`, `node` and `at` do not count."""
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return all(getattr(self, name) == getattr(other, name) for name in self._content())
+
+    def __ne__(self, other: object) -> bool:  # a struct has its own, which knows nothing of the other
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash(tuple(getattr(self, name) for name in self._content()))
+
+    def _content(self) -> list[str]:
+        return [name for name in self.__struct_fields__ if name not in _PLACES]
