@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Iterator
 
 from robocomp_yaml.check import modules_of
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.network.base import Read
 from robocomp_yaml.network.derive import derive
@@ -37,12 +36,12 @@ def of_environment(
     for, about programs and addresses."""
     from robocomp_yaml.check.ddsl import files, hosts
 
-    def every(real: str, linked: LinkedDeployment) -> Iterator[Diagnostic]:
-        yield from files.missing(networks[real], linked, environment=environment)
+    def every(network: Network) -> Iterator[Diagnostic]:
+        yield from files.missing(network, environment=environment)
         if environment:
-            yield from hosts.unresolved(networks[real])
+            yield from hosts.unresolved(network)
 
-    found = [every(real, linked) for real, linked in program.deployments.items() if not linked.is_included]
+    found = [every(networks[real]) for real, linked in program.deployments.items() if not linked.is_included]
     return one_per_cause(fault for faults in found for fault in faults)
 
 

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.network.network import ConfigFile, Process, Variable
@@ -15,8 +16,7 @@ from robocomp_yaml.source import properties
 _SECRET = re.compile(r"pass(word|wd|phrase)?|secret|token|credential|api_?key|private", re.IGNORECASE)
 HIDDEN = "(hidden)"
 
-_LIVE = ("after", "ready", "restart", "aliases", "groups", "endpoints", "folders")
-"""Fields that hold without a restart. Where an endpoint changes what the process does, its configuration changes."""
+_LISTS = ("after", "aliases", "groups", "folders")
 
 
 class Difference(msgspec.Struct, frozen=True):
@@ -92,9 +92,43 @@ def _files(old: dict[str, str], new: dict[str, str]) -> Iterator[Difference]:
 
 
 def _live(before: Process, after: Process) -> Iterator[Difference]:
-    for name in _LIVE:
-        if getattr(before, name) != getattr(after, name):
-            yield Difference(name, is_live=True)
+    """What holds without a restart. Where an endpoint changes what the process does, its configuration changes."""
+    if before.endpoints != after.endpoints:
+        served = list(_entries("serves", _served(before), _served(after)))
+        yield from (replace(one, is_live=True) for one in served or [Difference("endpoints")])
+    for name, old, new in (("ready", _ready(before), _ready(after)), ("restart", _restart(before), _restart(after))):
+        for key in old:
+            yield from _field(f"{name}.{key}", old[key], new[key], is_live=True)
+    for name in _LISTS:
+        yield from _names(name, getattr(before, name), getattr(after, name))
+    if before.ready.pings != after.ready.pings and before.endpoints == after.endpoints:
+        yield from _names("ready.pings", before.ready.pings, after.ready.pings)
+
+
+def _served(process: Process) -> dict[str, str]:
+    return {endpoint.interface: endpoint.text for endpoint in process.endpoints}
+
+
+def _ready(process: Process) -> dict[str, str]:
+    """Without the pings: they follow from what is served, as a rule."""
+    ready = process.ready
+    port = "" if ready.port is None else str(ready.port)
+    return {"within": f"{ready.within:g} s", "port": port, "command": " ".join(ready.command), "log": ready.log}
+
+
+def _restart(process: Process) -> dict[str, str]:
+    restart = process.restart
+    times = {"delay": restart.delay, "longest": restart.longest, "within": restart.window}
+    return {
+        "policy": restart.policy, "tries": str(restart.tries), **{key: f"{time:g} s" for key, time in times.items()}
+    }  # fmt: skip
+
+
+def _names(name: str, old: tuple[str, ...], new: tuple[str, ...]) -> Iterator[Difference]:
+    """Those that are gone, and those that are new; where there are none, their order has changed."""
+    if old != new:
+        gone = ", ".join(one for one in old if one not in new)
+        yield Difference(name, gone, ", ".join(one for one in new if one not in old), is_live=True)
 
 
 def shown_path(path: str) -> str:

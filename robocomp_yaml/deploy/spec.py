@@ -14,7 +14,7 @@ import msgspec
 from robocomp_yaml.network.network import CONFIG, Network, Process
 from robocomp_yaml.source.digest import digest
 
-_NOT_KEPT = ("span", "extra")
+_NOT_KEPT = ("span", "extra", "build")
 
 
 class Spec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

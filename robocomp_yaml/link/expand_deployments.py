@@ -26,7 +26,8 @@ from robocomp_yaml.model.instances import instance as instance_of
 class Placed(msgspec.Struct):
     """A document in its scope, and what it put there. `chain` are the real paths of the documents around it, the
     outermost first, and `span` is where it is included. `hosts` are its own or, where it has none, those around it;
-    `only` is the host of what names none. `is_whole` when nothing has errors that could hide a name of this scope.
+    `only` is the host of what names none. `is_whole` when nothing has errors that could hide a name of this scope,
+    `is_homeless` when it has been told that there is none of several hosts for what it holds.
     """
 
     document: Deployment
@@ -38,6 +39,7 @@ class Placed(msgspec.Struct):
     instances: list[LinkedInstance] = []
     groups: list[LinkedGroup] = []
     is_whole: bool = True
+    is_homeless: bool = False
 
     @property
     def is_own(self) -> bool:
@@ -229,9 +231,7 @@ class Expansion(msgspec.Struct):
         """The host of an entry or service, and whether that could not be told."""
         if named is None:
             if here.only is None and here.hosts and (here.is_own or not here.document.hosts):
-                self.diagnostics.append(codes.NO_HOST.at(
-                    here.span or span, name=here.scope + name, hint=f"add `host: {next(iter(here.hosts))}`, or another"
-                ))
+                self._no_host(here, name, span)
             return here.only, here.only is None and bool(here.hosts)
         own = here.hosts if here.document.hosts else {}
         if named.text not in own:
@@ -241,6 +241,20 @@ class Expansion(msgspec.Struct):
             )
             self._say(here, codes.UNKNOWN_HOST, named.span, name=named.text, hint=hint)
         return own.get(named.text), named.text not in own
+
+    def _no_host(self, here: Placed, name: str, span: Span) -> None:
+        """Of an included document it is told once, for all that it holds."""
+        host = next(iter(here.hosts))
+        if here.span is None:
+            self.diagnostics.append(codes.NO_HOST.at(span, name=name, hint=f"add `host: {host}`, or another"))
+        elif not here.is_homeless:
+            here.is_homeless = True
+            path = os.path.basename(here.document.path)
+            group = here.scope.rstrip(".").rpartition(".")[2] or path.partition(".")[0]
+            self.diagnostics.append(codes.NO_HOST.at(
+                here.span, name=here.scope.rstrip(".") or path,
+                hint=f"write `groups: {{{group}: {{include: {path}, host: {host}}}}}`, or `hosts:` in {path}",
+            ))
 
     def _say(self, here: Placed, code: Code, span: Span, *, hint: str = "", **facts: str) -> None:
         if here.is_own:

@@ -17,7 +17,7 @@ def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
             if offer.endpoint is None:
                 yield codes.BAD_ENDPOINT.at(
                     offer.span, name=offer.adapter, text=offer.given,
-                    hint="write a protocol and a port, such as `tcp -p 10003`",
+                    hint=f"write a protocol and a port from 1 to {_LAST}, such as `tcp -p 10003`",
                 )
             elif offer.number > _LAST:
                 yield codes.PORT_TOO_HIGH.at(

@@ -109,6 +109,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     is_ice: bool = True
     component: str = ""
     """The component's name in its CDSL, '' for other programs."""
+    build: str = field(default="", compare=False)
+    """What brings about a component's executable where there is none: a hint, as its user would type it from here."""
     extra: tuple[tuple[str, object], ...] = ()
     """What only an exporter needs: the entries of `x-rcmanager`; below `aliases`, those of its other names."""
     span: Span = Span("")

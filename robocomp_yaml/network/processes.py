@@ -21,7 +21,8 @@ from robocomp_yaml.network.network import (
 )
 from robocomp_yaml.source.properties import entry_line
 
-_CODE = ("src", "generated")
+_CODE = {"src": (".py", ".ui"), "generated": (".py",), "slice": (".ice",)}
+"""What a component in Python reads when it starts: the folders, and how the names of the files there end."""
 _DEFAULTS = Restart()
 
 
@@ -48,6 +49,7 @@ def of_draft(draft: Draft, text: str | None, known: dict[str, tuple[str, ...]]) 
         enabled=entry.enabled,
         is_ice=component is not None or bool(draft.offers or entry.config_as or entry.connect),
         component=component.component.name if component is not None else "",
+        build=_build(draft),
         extra=(*entry.extra, *_of_aliases(draft)),
         span=entry.span,
     )
@@ -68,6 +70,20 @@ def program_of(draft: Draft) -> str:
         return os.path.abspath(os.path.join(instance.folder, text)) if "/" in text else text
     path = entry.executable.text if entry.executable else f"bin/{component.component.name}"
     return os.path.abspath(os.path.join(instance.folder, path))
+
+
+def _build(draft: Draft) -> str:
+    component, executable = draft.instance.component, draft.instance.entry.executable
+    if component is None:
+        return ""
+    if executable is not None and os.path.normpath(executable.text) != f"bin/{component.component.name}":
+        return f"build it, or correct `executable: {executable.text}`"
+    path = component.component.path
+    compile_ = f"`rcyaml compile {path}`"
+    if component.component.language.name != "cpp":
+        return f"{compile_} writes it"
+    folder = os.path.dirname(path) or "."
+    return f"{compile_}, then `cmake -S {folder} -B {folder}/build && cmake --build {folder}/build`"
 
 
 def _command(draft: Draft, program: str) -> Iterator[str]:
@@ -115,9 +131,9 @@ def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple
     if folder not in known:
         known[folder] = tuple(sorted(
             os.path.abspath(os.path.join(where, name))
-            for below in _CODE
+            for below, endings in _CODE.items()
             for where, _, names in os.walk(os.path.join(folder, below))
-            for name in names if name.endswith(".py")
+            for name in names if name.endswith(endings)
         ))
     return known[folder]
 

@@ -9,6 +9,7 @@ import msgspec
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.deployments import LinkedStorm
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.network.base import Base
 from robocomp_yaml.network.contents import Contents
@@ -17,6 +18,9 @@ from robocomp_yaml.network.drafts import Drafts
 from robocomp_yaml.network.network import TOPIC, Connection
 from robocomp_yaml.network.order import Need
 from robocomp_yaml.network.topic_names import NamedEnd, full_names
+
+
+_MANY = 6
 
 
 class _End(msgspec.Struct, frozen=True):
@@ -46,6 +50,8 @@ class Topics(msgspec.Struct):
     needs: list[Need] = []
     diagnostics: list[Diagnostic] = []
     _ends: dict[tuple[str, str], list[_End]] = {}
+    _several: list[list[LinkedStorm]] = []
+    _without: list[Draft] = []
 
     def resolve(self) -> None:
         every: list[_End] = []
@@ -65,6 +71,8 @@ class Topics(msgspec.Struct):
             self._meet(end, topic)
         for (_, topic), ends in self._ends.items():
             self._compare(topic, ends)
+        if self._without:
+            self.diagnostics.append(self._no_storm())
 
     def _storm(self, draft: Draft) -> tuple[StormDraft | None, str]:
         """The IceStorm of the deployment, else the proxy of one outside that the configuration names."""
@@ -75,22 +83,31 @@ class Topics(msgspec.Struct):
         if len(chosen) == 1:
             return self.drafts.storms[chosen[0]], ""
         manager = self.base_of(draft).manager
-        if nearest:
+        if nearest and nearest not in self._several:
+            self._several.append(nearest)
             self.diagnostics.append(codes.TWO_STORMS.at(
                 draft.span, source=draft.name, storms=", ".join(storm.name for storm in nearest),
                 hint="leave one of them: it serves all hosts",
                 related=[Related(f"'{storm.name}'", storm.storm.span) for storm in nearest],
             ))
-        elif not manager and not self.drafts.linked.is_included and self.drafts.complete:
-            component = draft.instance.component
-            assert component is not None
-            port = (*component.publishes, *component.subscribes)[0]
-            self.diagnostics.append(codes.NO_STORM.at(
-                draft.span, source=draft.name, does="publishes" if port in component.publishes else "subscribes to",
-                topic=port.name, hint="add an IceStorm: `services: {storm: {icestorm: {}}}`",
-                related=[Related(f"{port.name} stands here", port.use.span)],
-            ))
+        elif not nearest and not manager and not self.drafts.linked.is_included and self.drafts.complete:
+            self._without.append(draft)
         return None, manager
+
+    def _no_storm(self) -> Diagnostic:
+        """One for all: they lack the same."""
+        first, *others = self._without
+        component = first.instance.component
+        assert component is not None
+        port = (*component.publishes, *component.subscribes)[0]
+        shown = [f"'{other.name}'" for other in others[:_MANY]]
+        shown += [f"{len(others) - _MANY} more"] if len(others) > _MANY else []
+        more = f"; {', '.join(shown)} {'needs' if len(others) == 1 else 'need'} it, too" if others else ""
+        return codes.NO_STORM.at(
+            first.span, source=first.name, does="publishes" if port in component.publishes else "subscribes to",
+            topic=port.name, hint=f"add an IceStorm: `services: {{storm: {{icestorm: {{}}}}}}`{more}",
+            related=[Related(f"{port.name} stands here", port.use.span)],
+        )
 
     def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> _End:
         rename = next((pair for pair in draft.instance.entry.topics if pair.name == port.name), None)

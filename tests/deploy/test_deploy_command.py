@@ -126,6 +126,14 @@ def test_a_document_with_errors_starts_nothing(robot: Path, rcyaml: Rcyaml) -> N
     assert not (robot / ".rcyaml").exists()
 
 
+def test_what_is_not_compiled_yet_is_told_with_how_to(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    document = "deployment: Robot\ncomponents: {mouth: {component: mouth}}\n"
+    component = "component: MouthComp\nlanguage: python\n"
+    write_tree(tmp_path, {"robot.ddsl.yaml": document, "mouth/mouth.cdsl.yaml": component})
+    told = deploy(rcyaml, "plan")
+    assert told.exit_code == 1 and "`rcyaml compile mouth/mouth.cdsl.yaml` writes it" in told.stderr
+
+
 def test_a_second_name_means_the_same_process(robot: Path, rcyaml: Rcyaml, free_port: Ports) -> None:
     more = f"  hand: {{process: arm, endpoints: {{Hand: tcp -p {free_port()}}}}}\n"
     write_tree(robot, {"robot.ddsl.yaml": ROBOT + more})

@@ -13,22 +13,19 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.link.deployments import LinkedDeployment
-from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.network.draft import is_loopback
 from robocomp_yaml.network.network import ICESTORM, Network, Process
 
 
-def missing(network: Network, linked: LinkedDeployment, *, environment: bool = False) -> Iterator[Diagnostic]:
+def missing(network: Network, *, environment: bool = False) -> Iterator[Diagnostic]:
     """A warning for each process that could not be started. `environment`: what PATH should find is looked for, too."""
     here = {name for name, host in network.hosts.items() if is_this_machine(host.address)}
     for process in network.enabled():
         if process.host not in here:
             continue
-        instance = linked.instances.get(process.name)
-        program, component = process.command[0], instance.component if instance else None
-        if component is not None and not os.path.lexists(program):
-            yield codes.NOT_BUILT.at(process.span, name=process.name, path=_shown(program), hint=_build(component))
+        program = process.command[0]
+        if process.component and not os.path.lexists(program):
+            yield codes.NOT_BUILT.at(process.span, name=process.name, path=_shown(program), hint=process.build)
         elif problem := _problem(process, program, environment):
             yield codes.NO_PROGRAM.at(process.span, name=process.name, problem=problem, hint=_mend(process))
 
@@ -63,15 +60,6 @@ def _problem(process: Process, program: str, environment: bool) -> str:
     if process.kind != ICESTORM and not os.path.isdir(process.cwd):
         return f"there is no folder {_shown(process.cwd)} to run in"
     return ""
-
-
-def _build(component: LinkedComponent) -> str:
-    path = component.component.path
-    compile_ = f"`rcyaml compile {path}`"
-    if component.component.language.name != "cpp":
-        return f"{compile_} writes it"
-    folder = os.path.dirname(path) or "."
-    return f"{compile_}, then `cmake -S {folder} -B {folder}/build && cmake --build {folder}/build`"
 
 
 def _mend(process: Process) -> str:

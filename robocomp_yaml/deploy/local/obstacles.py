@@ -76,7 +76,8 @@ def _of_program(spec: Spec) -> Iterator[Diagnostic]:
                 process.span, hint=f"export {variable.source}=…", name=spec.name, variable=variable.source
             )
     if reason := _why_not(spec):
-        yield deploying.REFUSED.at(process.span, name=spec.name, what="started", reason=reason)
+        hint = "" if os.path.lexists(spec.command[0]) else process.build
+        yield deploying.REFUSED.at(process.span, hint=hint, name=spec.name, what="started", reason=reason)
 
 
 def _why_not(spec: Spec) -> str:

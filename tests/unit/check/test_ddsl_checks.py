@@ -121,6 +121,11 @@ def test_what_is_not_compiled_yet(rcyaml: Run, tmp_path: Path) -> None:
     assert "`rcyaml compile mouth/mouth.cdsl.yaml` writes it" in output
 
 
+def test_an_executable_of_another_name_is_not_what_compile_writes(rcyaml: Run, tmp_path: Path) -> None:
+    output = check(rcyaml, tmp_path, deployed("components: {m: {component: mouth, executable: bin/mouth}}\n"))
+    assert "build it, or correct `executable: bin/mouth`" in output
+
+
 def test_what_is_not_built_yet(rcyaml: Run, tmp_path: Path) -> None:
     files = deployed("components: {m: {component: mouth}}\n")
     cpp = str(files["mouth/mouth.cdsl.yaml"]).replace("python", "cpp")

@@ -13,7 +13,17 @@ from robocomp_yaml.deploy.carry_out import undo
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, in_order, plan, with_dependents
 from robocomp_yaml.deploy.spec import Spec, spec_of
-from robocomp_yaml.network.network import ConfigFile, Endpoint, Host, Network, Process, Readiness, Variable
+from robocomp_yaml.network.network import (
+    ALWAYS,
+    ConfigFile,
+    Endpoint,
+    Host,
+    Network,
+    Process,
+    Readiness,
+    Restart,
+    Variable,
+)
 
 A = Process(
     "a", "here", ("run", "{config}", "x"), "/", config=ConfigFile("config/a", "x=1\n"), env=(Variable("V", "1"),),
@@ -60,8 +70,16 @@ def test_a_process_of_another_version_restarts() -> None:
         (replace(A, env=(Variable("V", source="W"),)), RESTART, "env V: 1 → {env: W}"),
         (replace(A, config=None), RESTART, "command: run /folder/config/a x → run  x; config x: 1 (gone)"),
         (replace(A, config=ConfigFile("config/a", "# said\nx=1\n")), RESTART, "config changed"),
-        (replace(A, ready=Readiness()), CHANGE, "ready changed"),
-        (replace(A, aliases=("c",)), CHANGE, "aliases changed"),
+        (replace(A, ready=Readiness()), CHANGE, "ready.pings: laser:tcp -p 10003 (gone)"),
+        (replace(A, ready=replace(A.ready, within=20)), CHANGE, "ready.within: 10 s → 20 s"),
+        (replace(A, ready=replace(A.ready, log="up")), CHANGE, "ready.log: up (new)"),
+        (replace(A, restart=Restart(ALWAYS, delay=1)), CHANGE,
+         "restart.policy: on-failure → always; restart.delay: 0.1 s → 1 s"),
+        (replace(A, aliases=("c",)), CHANGE, "aliases: c (new)"),
+        (replace(A, after=("c", "d"), groups=("g",)), CHANGE, "after: c, d (new); groups: g (new)"),
+        (replace(A, endpoints=(replace(A.endpoints[0], text="tcp -p 10004"),), ready=Readiness(pings=("m:tcp -p 4",))),
+         CHANGE, "serves Laser: tcp -p 10003 → tcp -p 10004"),
+        (replace(A, endpoints=(replace(A.endpoints[0], module="M"),)), CHANGE, "endpoints changed"),
     ],
 )
 def test_a_changed_process(changed: Process, action: str, said: str) -> None:

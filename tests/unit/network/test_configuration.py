@@ -202,8 +202,12 @@ def test_readiness(given: str, expected: tuple[object, ...]) -> None:
 
 
 def test_what_a_component_in_python_is_made_of_is_watched() -> None:
-    more = {"speech/src/specificworker.py": "", "speech/generated/runtime/main.py": "", "speech/src/notes.txt": ""}
+    more = dict.fromkeys([
+        "speech/src/specificworker.py", "speech/src/notes.txt", "speech/src/mainUI.ui",
+        "speech/generated/runtime/main.py", "speech/slice/Face.ice",
+    ], "")  # fmt: skip
     watched = network(files(**more)).processes["speech"].watched
     assert [str(Path(path).relative_to(Path.cwd())) for path in watched] == [
-        "speech/bin/SpeechComp", "speech/generated/runtime/main.py", "speech/src/specificworker.py"
+        "speech/bin/SpeechComp", "speech/generated/runtime/main.py", "speech/slice/Face.ice", "speech/src/mainUI.ui",
+        "speech/src/specificworker.py",
     ]

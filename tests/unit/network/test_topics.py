@@ -64,12 +64,16 @@ def test_a_rename_takes_the_prefix_away() -> None:
 
 
 def test_a_topic_without_a_storm() -> None:
-    found = faults(deployed(BOTH, **ENDS))
-    assert [said(fault) for fault in found] == [
-        ("RC4208", "robot.ddsl.yaml", 3, 3), ("RC4208", "robot.ddsl.yaml", 4, 3)
-    ]
-    assert found[0].hint == "add an IceStorm: `services: {storm: {icestorm: {}}}`"
-    assert found[1].related[0].span.file == "mind/mind.cdsl.yaml"
+    (found,) = faults(deployed(BOTH, **ENDS))
+    assert said(found) == ("RC4208", "robot.ddsl.yaml", 3, 3)
+    assert found.hint == "add an IceStorm: `services: {storm: {icestorm: {}}}`; 'mind' needs it, too"
+    assert found.related[0].span.file == "ears/ears.cdsl.yaml"
+
+
+def test_what_all_lack_is_told_once() -> None:
+    entries = "components:\n  ear{i}: {component: ears, instances: 9}\n"
+    (found,) = faults(deployed(entries, ears=EARS))
+    assert found.hint.endswith("; 'ear1', 'ear2', 'ear3', 'ear4', 'ear5', 'ear6', 2 more need it, too")
 
 
 def test_a_storm_outside_that_the_configuration_names() -> None:
@@ -83,7 +87,7 @@ def test_a_storm_outside_that_the_configuration_names() -> None:
 
 def test_several_storms() -> None:
     two = "services: {a: {icestorm: {}}, b: {icestorm: {port: 9998}}}\n"
-    assert {fault.code for fault in faults(deployed(two + BOTH, **ENDS))} == {"RC4209"}
+    assert [fault.code for fault in faults(deployed(two + BOTH, **ENDS))] == ["RC4209"]
 
 
 def test_the_storm_of_ones_own_host() -> None:
