@@ -17,6 +17,7 @@ from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.parameters import of_no_document, resolve
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.component import Component
+from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
 from robocomp_yaml.source.discover import kind_of
 
@@ -166,7 +167,7 @@ class Attachments(msgspec.Struct):
                 if other not in values:
                     linked.broken = True  # the layer has errors of its own
                 elif self._reaches(other, real):
-                    layer = next(x for x in linked.document.extends if _is(x.value, linked.document.path, other))
+                    layer = next(x for x in linked.document.extends if leads_to(x, linked.document, other))
                     self.diagnostics.append(value_codes.LAYER_CYCLE.at(layer.span, name=layer.value))
                     linked.broken = True
                 else:
@@ -201,8 +202,9 @@ def _hides_types(found: Iterable[Diagnostic]) -> bool:
     return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
 
 
-def _is(name: object, document: str, real: str) -> bool:
-    return os.path.realpath(os.path.join(os.path.dirname(document), str(name))) == real
+def leads_to(layer: Literal, document: ValuesDocument, real: str) -> bool:
+    """Whether an entry of a document's `extends:` means the document with this real path."""
+    return os.path.realpath(os.path.join(os.path.dirname(document.path), str(layer.value))) == real
 
 
 def _similar(path: str, *suffixes: str) -> str:

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.suggest import suggest
-from robocomp_yaml.link.program import LinkedValues, Program
+from robocomp_yaml.link.attachments import leads_to
+from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
 from robocomp_yaml.values.effective import Effective, document_faults, effective
 from robocomp_yaml.values.harmless import is_harmless
@@ -28,6 +29,7 @@ def of_document(linked: LinkedValues, *, complete: bool = False) -> Iterator[Dia
         return
     if linked.parameters.broken:
         return
+    yield from _layers(linked)
     yield from _ports(linked)
     if is_only_layer(linked) and not complete:
         yield from document_faults(linked)
@@ -47,6 +49,25 @@ def is_plain(linked: LinkedValues, values: Effective) -> bool:
     """Whether nothing stands there but parameters, none of which can be trouble."""
     given = {key for layer in linked.layers() for key in layer.document.root.entries}
     return given <= {"component", "doc", "extends", "parameters"} and is_harmless(values.parameters, values.data)
+
+
+def _layers(linked: LinkedValues) -> Iterator[Diagnostic]:
+    """Documents that this one extends, and that belong to another component."""
+    for base in linked.extends:
+        if base.parameters is not None and base.parameters is not linked.parameters:
+            real = os.path.realpath(base.document.path)
+            layer = next(each for each in linked.document.extends if leads_to(each, linked.document, real))
+            yield codes.OTHER_COMPONENT.at(
+                layer.span, name=layer.value, other=_owner(base.parameters), own=_owner(linked.parameters)
+            )
+
+
+def _owner(parameters: LinkedParameters | None) -> str:
+    """The component, or the document of parameters that no component was found for."""
+    assert parameters is not None
+    if parameters.component is not None:
+        return parameters.component.component.name
+    return os.path.basename(parameters.document.path) if parameters.document is not None else "no component"
 
 
 def _ports(linked: LinkedValues) -> Iterator[Diagnostic]:

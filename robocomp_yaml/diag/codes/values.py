@@ -146,3 +146,15 @@ UNKNOWN_PORT = Code(
     _values("endpoints:\n  Speach: tcp -p 10001\n"),
     _values("endpoints:\n  Speech: tcp -p 10001\n"),
 )
+OTHER_COMPONENT = Code(
+    "RC3325",
+    WARNING,
+    "'{name}' holds values of {other}, and these are of {own}",
+    "A document's values are judged by the parameters of its own component, and with them those of what it extends. "
+    "What several components share stands in a layer that names no component.",
+    _values("extends: [robot.config.yaml]\n", robot="component: mouth.cdsl.yaml\nparameters:\n  volume: 70\n") | {
+        "etc/mouth.cdsl.yaml": "component: MouthComp\nlanguage: python\n",
+        "etc/mouth.pdsl.yaml": "component: mouth.cdsl.yaml\nparameters: {volume: {type: int, default: 1}}\n",
+    },
+    _values("extends: [robot.config.yaml]\n", robot="parameters:\n  volume: 70\n"),
+)
