@@ -49,7 +49,8 @@ class Turns(threading.Thread):
 class Gate(Ice.Blobject):
     """An object of whatever interface: it does not look into the calls that it passes on."""
 
-    def __init__(self, member, rate, allowed):
+    def __init__(self, name, member, rate, allowed):
+        self._name = name
         self._member = member
         self._turns = Turns(rate) if rate else None
         self._allowed = allowed
@@ -57,7 +58,8 @@ class Gate(Ice.Blobject):
     def ice_invoke(self, data, current):
         name = current.operation
         if self._allowed is not None and name not in self._allowed and name not in ALWAYS:
-            raise Ice.OperationNotExistException(current.id, current.facet, name)
+            may = ", ".join(self._allowed) or "nothing"
+            raise Ice.UnknownException("the group that serves %s lets pass %s, not '%s'" % (self._name, may, name))
 
         def call():
             return self._member.ice_invokeAsync(name, current.mode, data, current.ctx)
@@ -93,7 +95,7 @@ def main():
     try:
         for name, identity, endpoint, proxy, rate, allowed in SERVED:
             adapter = communicator.createObjectAdapterWithEndpoints(name, endpoint)
-            adapter.add(Gate(communicator.stringToProxy(proxy), rate, allowed), Ice.stringToIdentity(identity))
+            adapter.add(Gate(name, communicator.stringToProxy(proxy), rate, allowed), Ice.stringToIdentity(identity))
             adapter.activate()
         while not communicator.isShutdown():  # a signal is only seen between two waits
             time.sleep(0.1)

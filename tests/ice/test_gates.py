@@ -108,8 +108,9 @@ def test_what_is_not_allowed_does_not_pass(gate: Callable[[str], Gate], member: 
     import Ice
 
     running = gate("allow: []")
-    with pytest.raises(Ice.OperationNotExistException):
+    with pytest.raises(Ice.UnknownException) as refused:
         running.call("moveTo")
+    assert refused.value.unknown == "the group that serves Mouth lets pass nothing, not 'moveTo'"
     running.proxy.ice_ping()
     assert [operation for operation, _ in member.calls] == ["ice_ping"]
 
