@@ -49,8 +49,8 @@ def tell(ctx: click.Context, opened: Opened, name: str | None) -> None:
 
 def _host(network: Network, name: str) -> Host:
     if name not in network.hosts:
-        meant = suggest(name, network.hosts)
-        raise click.UsageError(f"{network.name} has no host '{name}'" + (f"; did you mean '{meant}'?" if meant else ""))
+        meant, hosts = suggest(name, network.hosts), f"; there are {', '.join(network.hosts)}"
+        raise click.UsageError(f"{network.name} has no host '{name}'" + (f"; did you mean '{meant}'?" if meant else hosts))
     return network.hosts[name]
 
 
@@ -71,7 +71,7 @@ def _lines(found: list[Found], color: bool) -> list[str]:
 
 def _verdict(one: Found) -> tuple[str, str]:
     if not one.path:
-        return "not there", "31"
+        return "not there, or not executable", "31"
     if one.missing:
         return f"lacks {', '.join(one.missing)}", "31"
     return f"{one.day} {one.digest}", "32"

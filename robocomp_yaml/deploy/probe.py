@@ -8,31 +8,17 @@ the day on which it was made.
 from __future__ import annotations
 
 import asyncio
+import shlex
 from collections.abc import Sequence
 
 import msgspec
 
+from robocomp_yaml import resources
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.network.network import Host, Network
 
 WITHIN = 60.0
-
-# One line of answer for each line of question: path, digest, day, and the libraries that are missing.
-_SCRIPT = """
-while IFS= read -r program; do
-  path=$(command -v -- "$program" 2>/dev/null) || path=
-  case $path in /*) ;; *) path= ;; esac
-  [ -f "$path" ] && [ -x "$path" ] || path=
-  digest= day= missing=
-  if [ -n "$path" ]; then
-    digest=$(sha256sum < "$path" | cut -c1-12)
-    day=$(date -u -r "$path" +%Y-%m-%d)
-    missing=$(ldd "$path" 2>/dev/null | sed -n 's/^[[:space:]]*\\([^ ]*\\) => not found.*/\\1/p' | sort -u)
-    missing=$(printf '%s' "$missing" | tr '\\n' ' ')
-  fi
-  printf '%s\\t%s\\t%s\\t%s\\n' "$path" "$digest" "$day" "$missing"
-done
-"""
+SCRIPT, MODULES = "templates/probe/ask.sh", "templates/probe/modules.py"
 
 
 class ProbeFailed(Exception):
@@ -40,8 +26,8 @@ class ProbeFailed(Exception):
 
 
 class Found(msgspec.Struct, frozen=True):
-    """A program on a host. `path` is '' where the host does not have it; `missing` are libraries that it needs and the
-    host lacks. `used_by` are the processes that run it."""
+    """A program on a host. `path` is '' where the host does not have it; `missing` is what it needs and the host lacks:
+    libraries, the interpreter of a script, modules of a Python program. `used_by` are the processes that run it."""
 
     program: str
     used_by: tuple[str, ...]
@@ -68,7 +54,8 @@ def programs(network: Network) -> dict[str, tuple[str, ...]]:
 
 async def probe(host: Host, wanted: dict[str, tuple[str, ...]]) -> list[Found]:
     """Raises ProbeFailed."""
-    command = ["sh", "-c", _SCRIPT] if is_here(host.address) else _over_ssh(host)
+    script = ["sh", "-c", resources.text(SCRIPT), "ask", resources.text(MODULES)]
+    command = script if is_here(host.address) else _over_ssh(host, script)
     try:
         asked = await asyncio.create_subprocess_exec(
             *command, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE
@@ -95,8 +82,7 @@ def _found(program: str, used_by: tuple[str, ...], fields: Sequence[str]) -> Fou
     return Found(program, used_by, path, digest, day, tuple(missing.split()))
 
 
-def _over_ssh(host: Host) -> list[str]:
-    """The remote shell gets the script as one word, in which nothing comes from a document."""
-    quoted = "'" + _SCRIPT.replace("'", "'\\''") + "'"
+def _over_ssh(host: Host, script: Sequence[str]) -> list[str]:
+    """The remote shell gets the script and what it needs in quotes; nothing in them comes from a document."""
     place = f"{host.user}@{host.address}" if host.user else host.address
-    return ["ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "--", place, f"sh -c {quoted}"]
+    return ["ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "--", place, shlex.join(script)]

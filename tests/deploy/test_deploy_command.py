@@ -314,7 +314,29 @@ def test_a_host_is_asked_over_ssh(robot: Path, rcyaml: Rcyaml, monkeypatch: pyte
 def test_a_program_that_a_host_lacks(robot: Path, rcyaml: Rcyaml) -> None:
     write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("program: sleep", "program: no-such-sleep")})
     result = deploy(rcyaml, "probe")
-    assert result.exit_code == 1 and "no-such-sleep  not there, for arm" in result.stdout
+    assert result.exit_code == 1 and "no-such-sleep  not there, or not executable, for arm" in result.stdout
+
+
+def test_a_program_that_lacks_something(robot: Path, rcyaml: Rcyaml) -> None:
+    programs = {
+        "lost": "#!/usr/bin/env no-such-interpreter\n",
+        "tool": "#!/usr/bin/env python3\nimport sys, no_such_module\n",
+        "arm/bin/ArmComp": "#!/usr/bin/env python3\nfrom generated.main import main\n",
+        "arm/src/worker.py": (
+            "import sys\nsys.path.append('more')\nimport there, no_such.part\ntry:\n    import perhaps\n"
+            "except ImportError:\n    pass\nimport Ice\nIce.loadSlice('X.ice')\nimport RoboCompX\n"
+        ),
+    }
+    more = {"arm/generated/main.py": "", "more/there.py": "", "more/Ice.py": ""}
+    started = [name for name in programs if not name.endswith(".py")]
+    entries = "".join(f"  p{number}: {{program: ./{name}}}\n" for number, name in enumerate(started))
+    write_tree(robot, {**programs, **more, "robot.ddsl.yaml": f"deployment: Robot\ncomponents:\n{entries}"})
+    for name in started:
+        (robot / name).chmod(0o755)
+    (found,) = json.loads(deploy(rcyaml, "probe", "--format", "json").stdout)["hosts"].values()
+    assert {os.path.relpath(one["program"], robot): one["missing"] for one in found} == {
+        "lost": ["no-such-interpreter"], "tool": ["no_such_module"], "arm/bin/ArmComp": ["no_such"],
+    }  # fmt: skip
 
 
 def test_it_is_exported(robot: Path, rcyaml: Rcyaml) -> None:

@@ -1,0 +1,61 @@
+"""Prints the modules that a Python program imports when it starts, and that its interpreter does not find.
+
+Of a component, the code in `src/` and `generated/` counts too. Nothing of it is run: paths that it adds by a text are
+searched, and what stands behind `Ice.loadSlice` may be anything that a Slice file defines.
+"""
+
+import ast
+import importlib.util
+import os
+import sys
+
+
+def sources(program):
+    folder = os.path.dirname(os.path.abspath(program))
+    root = os.path.dirname(folder)
+    yield program
+    sys.path[:0] = [folder]
+    if os.path.basename(folder) == "bin" and os.path.isdir(os.path.join(root, "src")):
+        sys.path[:0] = [root, os.path.join(root, "src")]
+        for part in ("generated", "src"):
+            for place, _, names in os.walk(os.path.join(root, part)):
+                yield from (os.path.join(place, name) for name in names if name.endswith(".py"))
+
+
+def imported(tree):
+    for statement in tree.body:
+        calls = [node.func for node in ast.walk(statement) if isinstance(node, ast.Call)]
+        if any(isinstance(call, ast.Attribute) and call.attr == "loadSlice" for call in calls):
+            return
+        if isinstance(statement, ast.Import):
+            yield from (alias.name for alias in statement.names)
+        elif isinstance(statement, ast.ImportFrom) and not statement.level:
+            yield statement.module
+
+
+def added_paths(tree):
+    for node in ast.walk(tree):
+        is_call = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)
+        if is_call and ast.unparse(node.func) in ("sys.path.append", "sys.path.insert"):
+            words = (word.value for word in node.args if isinstance(word, ast.Constant))
+            yield from (word for word in words if isinstance(word, str))
+
+
+def is_there(name):
+    try:
+        return name in sys.modules or importlib.util.find_spec(name) is not None
+    except (ImportError, ValueError):
+        return False
+
+
+trees = []
+for path in sources(sys.argv[1]):
+    try:
+        with open(path, "rb") as file:
+            trees.append(ast.parse(file.read()))
+    except (OSError, SyntaxError, ValueError):
+        continue
+for tree in trees:
+    sys.path.extend(added_paths(tree))
+names = {name.partition(".")[0] for tree in trees for name in imported(tree)}
+print(*sorted(name for name in names if not is_there(name)))
