@@ -33,7 +33,7 @@ def run_beside(
     name = f"{spec.name}.ready"
     process = replace(spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=Restart(NEVER))
     own = replace(spec, process=process, command=command)
-    server = descriptors.server(places, own, grid.user_of(host), is_here=here)
+    server = descriptors.server(places, own, grid.user_of(host), 0, is_here=here)
     with lock:
         deploy([name], [(host, server)])
     try:

@@ -13,7 +13,6 @@ from __future__ import annotations
 import os
 import re
 import sys
-import time
 from collections.abc import Iterable
 from typing import Any
 
@@ -30,17 +29,19 @@ LONGEST_CONFIG = 100_000
 """Bytes of a configuration that can be sent to another host: Linux limits a variable to 128 KiB."""
 
 _KEEPER_MODULE = "robocomp_yaml.deploy.icegrid.keeper"
+# The processes that are being started go first: while a command changes the deployment, it waits for a while.
+_KEEPER_SCRIPT = 'flock -s -w 3 -- "$1/state" true; shift; exec nice "$@"'
 _SERVICE = "IceBox.Service."
 _AFTER_KILL = 10  # seconds that IceGrid itself waits, after what `run` waits
 
 
-def server(places: Places, spec: Spec, user: str, *, is_here: bool) -> Any:
-    """The descriptor of a process; its configuration travels in it to another host."""
+def server(places: Places, spec: Spec, user: str, number: int, *, is_here: bool) -> Any:
+    """The descriptor of a process; its configuration travels in it to another host. `number` is that of its rule."""
     process = spec.process
     is_storm = process.kind == ICESTORM and process.config is not None
     words = [process.name, places.folder, *(f"f{path}" for path in process.folders)]
     words += [f"s{v.name}={v.source}" if v.source else f"e{v.name}={v.value}" for v in process.env]
-    environment = [f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}", f"RCYAML_RESTART={restart_rule(process)}"]
+    environment = [f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}", f"RCYAML_RESTART={restart_rule(process, number)}"]
     command = spec.command
     if is_storm:
         words.append("k")  # IceGrid writes the configuration of an IceBox and its services itself
@@ -64,10 +65,10 @@ def server(places: Places, spec: Spec, user: str, *, is_here: bool) -> Any:
 
 def keeper(places: Places, user: str) -> Any:
     """The server that brings processes back when their node has come back; IceGrid itself restarts it."""
+    words = (places.folder, sys.executable, "-m", _KEEPER_MODULE, places.folder)
     facts = _facts(
         KEEPER, "setpriv",
-        # It has nothing to do before the network is up: the processes that start go first.
-        ["--pdeathsig", "KILL", "--", "nice", *map(_literal, (sys.executable, "-m", _KEEPER_MODULE, places.folder))],
+        ["--pdeathsig", "KILL", "--", "bash", "-c", _KEEPER_SCRIPT, "bash", *map(_literal, words)],
         pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
         envs=[f"PYTHONPATH={package_path()}", f"{MARK}={places.folder}:"], logs=[],
     )  # fmt: skip
@@ -94,11 +95,11 @@ def application(name: str, servers: Iterable[tuple[str, Any]]) -> Any:
     )  # fmt: skip
 
 
-def restart_rule(process: Process) -> str:
+def restart_rule(process: Process, number: int) -> str:
     """What `run` reads: a number that grows with each new rule, the policy, and times in milliseconds."""
     rule = process.restart
     times = f"{rule.delay * 1000:.0f} {rule.longest * 1000:.0f} {rule.tries} {rule.window * 1000:.0f}"
-    return f"{time.time_ns()} {rule.policy} {times}"
+    return f"{number} {rule.policy} {times}"
 
 
 def encoded(text: str) -> str:

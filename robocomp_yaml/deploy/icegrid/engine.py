@@ -6,6 +6,7 @@ Ice and IceGrid's own calls wait for their answers; they run in threads beside t
 from __future__ import annotations
 
 import asyncio
+import importlib.util
 import shutil
 import threading
 from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Sequence
@@ -47,6 +48,8 @@ class IceGridEngine:
         self._grid: Grid | None = None
         self._specs: dict[str, Spec | None] = {}
         self._wanted: set[str] = set()
+        self._kept: set[str] = set()  # those of the wanted that are written down
+        self._clear: dict[str, Spec] = {}  # what has just been found to have no obstacles
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
 
@@ -77,7 +80,8 @@ class IceGridEngine:
                     start_up.ended(grid, self._places, self._network.name)
                 raise
         self._grid = grid
-        self._specs, self._wanted = self._places.specs(), self._places.wanted()
+        self._specs = self._places.specs()
+        self._kept = self._wanted = self._places.wanted()
         return True
 
     async def observe(self) -> dict[str, Running]:
@@ -93,7 +97,10 @@ class IceGridEngine:
             alive = procfs.table()
             running = await self.observe()
             own = procfs.descendants({one.pid for name, one in running.items() if name in leaving and one.pid}, alive)
-        return obstacles([spec for spec in specs if is_here(spec.address)], own) + [
+        found = obstacles([spec for spec in specs if is_here(spec.address)], own)
+        if not found:
+            self._clear = {spec.name: spec for spec in specs}
+        return found + [
             deploying.REFUSED.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
             for spec in specs
             if _is_too_long(spec)
@@ -105,7 +112,7 @@ class IceGridEngine:
     def _prepare(self, specs: Sequence[Spec]) -> None:
         from robocomp_yaml.deploy.icegrid import descriptors
 
-        grid = self._reached()
+        grid, number = self._reached(), self._places.next_rule()
         states = grid.states([spec.name for spec in specs])
         running = [spec for spec in specs if states[spec.name][0] not in ("", "Inactive")]
         starting = [spec for spec in specs if spec not in running]
@@ -118,23 +125,23 @@ class IceGridEngine:
             users = {host: grid.user_of(host) for host in {spec.process.host for spec in starting}}
             servers = [
                 (spec.process.host, descriptors.server(
-                    self._places, spec, users[spec.process.host], is_here=is_here(spec.address)
+                    self._places, spec, users[spec.process.host], number, is_here=is_here(spec.address)
                 ))
                 for spec in starting
             ]  # fmt: skip
             if servers:
                 self._deploy({spec.name for spec in starting}, servers)
         for spec in running:
-            self._pass_rule(grid, spec)
+            self._pass_rule(grid, spec, number)
 
-    def _pass_rule(self, grid: Grid, spec: Spec) -> None:
+    def _pass_rule(self, grid: Grid, spec: Spec, number: int) -> None:
         """Tells `run` how it is to restart a process that goes on."""
         from robocomp_yaml.deploy.icegrid.beside import run_beside
         from robocomp_yaml.deploy.icegrid.descriptors import restart_rule
 
         path = self._places.rule(spec.name)
         script = 'mkdir -p -- "${2%/*}" && printf "%s\\n" "$1" >"$2.new" && mv -- "$2.new" "$2"'
-        command = ("bash", "-c", script, "bash", restart_rule(spec.process), path)
+        command = ("bash", "-c", script, "bash", restart_rule(spec.process, number), path)
         run_beside(grid, self._places, spec, command, _RULE_WITHIN, self._lock, self._deploy)
 
     def _deploy(self, replaced: Collection[str], servers: list[tuple[str, Any]]) -> None:
@@ -159,19 +166,24 @@ class IceGridEngine:
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
-        if spec and is_here(spec.address) and (found := obstacles([spec], ())):
-            raise DeployFailed(found[0])
-        self._want(name, True)
+        if spec and is_here(spec.address) and self._clear.pop(name, None) is not spec:
+            if found := obstacles([spec], ()):
+                raise DeployFailed(found[0])
+        await self._want(self._wanted | {name})
         await self._beside(name, "started", self._reached().start, name)
 
     async def stop(self, name: str, within: float = STOP_WITHIN) -> None:
-        self._want(name, False)
+        await self._want(self._wanted - {name})
         await self._beside(name, "stopped", self._reached().stop, name)
 
-    def _want(self, name: str, is_wanted: bool) -> None:
+    async def _want(self, names: set[str]) -> None:
+        """Returns when they are written down, together with those that are wanted meanwhile."""
+        self._wanted = names
+        await asyncio.sleep(0)  # until all that begin at once have said what they want
         with self._lock:
-            self._wanted = self._wanted | {name} if is_wanted else self._wanted - {name}
-            self._places.keep_wanted(self._wanted)
+            if self._kept != self._wanted:
+                self._places.keep_wanted(self._wanted)
+                self._kept = self._wanted
 
     async def forget(self, names: Iterable[str]) -> None:
         await self._beside("", "forgotten", self._forget, set(names))
@@ -182,7 +194,7 @@ class IceGridEngine:
             if not gone:
                 return
             self._deploy(gone, [])
-            self._wanted -= names
+            self._kept = self._wanted = self._wanted - names
             self._places.keep_wanted(self._wanted)
             self._places.keep_specs(self._specs)
         for name, spec in gone.items():
@@ -199,12 +211,10 @@ class IceGridEngine:
                 return GridReader(grid, name, self._places.log(name))
             return LogReader(self._places.folder, name)
 
-        grid = self._grid
-        readers = await self._beside("", "read", lambda: [reader(name) for name in names])
-        near = [one for one in readers if isinstance(one, LogReader)]
-        if len(near) == len(readers):
-            return merged_here(near, last, follow)
-        return merged(readers, last, follow)
+        specs, grid = [self._specs.get(name) for name in names], self._grid
+        if grid is None or all(spec is None or is_here(spec.address) for spec in specs):
+            return merged_here([LogReader(self._places.folder, name) for name in names], last, follow)
+        return merged(await self._beside("", "read", lambda: [reader(name) for name in names]), last, follow)
 
     async def run(self, name: str, command: Sequence[str], within: float) -> int:
         from robocomp_yaml.deploy.icegrid.beside import run_beside
@@ -255,10 +265,7 @@ def _is_too_long(spec: Spec) -> bool:
 
 def _missing() -> str:
     """What the engine needs and this machine lacks, in words, or ''."""
-    try:
-        import Ice  # noqa: F401
-        import IceGrid  # noqa: F401
-    except ImportError:
+    if not all(map(importlib.util.find_spec, ("Ice", "IceGrid"))):
         return "Ice for Python is not installed (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
     for program, package in (("icegridregistry", "zeroc-icegrid"), ("icegridnode", "zeroc-icegrid"),
                              ("openssl", "openssl"), ("setpriv", "util-linux")):  # fmt: skip

@@ -22,7 +22,9 @@ KEEPER = "rcyaml.keeper"
 """The id of the server that brings processes back after a node's death. No process can have it as a name."""
 
 _ROOT = "state/icegrid"
-_WANTED, _SPECS, _REGISTRY, _NODES = (f"{_ROOT}/{name}.json" for name in ("wanted", "specs", "registry", "nodes"))
+_WANTED, _SPECS, _REGISTRY, _NODES, _RULES = (
+    f"{_ROOT}/{name}.json" for name in ("wanted", "specs", "registry", "nodes", "rules")
+)
 
 
 class Registry(msgspec.Struct, frozen=True):
@@ -59,6 +61,12 @@ class Places(msgspec.Struct, frozen=True):
     def rule(self, name: str) -> str:
         """Where `run` finds a newer rule for restarts than that of its start."""
         return f"{self.root}/rules/{name}"
+
+    def next_rule(self) -> int:
+        """A number higher than that of all rules before, whatever the clock does."""
+        number: int = self._read(_RULES, 0) + 1
+        self._write(_RULES, number)
+        return number
 
     def log(self, name: str) -> str:
         return f"{self.folder}/logs/{name}.log"

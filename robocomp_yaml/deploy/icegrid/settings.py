@@ -9,11 +9,30 @@ from __future__ import annotations
 
 import os
 import subprocess
+import tempfile
 
 from robocomp_yaml.deploy.icegrid.places import Places, Registry
 
 INSTANCE = "rcyaml"
-_VALID_DAYS = "36500"
+# Always: hosts have clocks that are wrong, or set while all runs. Only `openssl ca` can be told since when.
+_AUTHORITY = """\
+[ca]
+default_ca = own
+[own]
+database = database
+new_certs_dir = .
+rand_serial = yes
+default_md = sha256
+default_startdate = 19700101000000Z
+default_enddate = 99991231235959Z
+policy = any
+x509_extensions = extensions
+[any]
+commonName = supplied
+[extensions]
+basicConstraints = critical, CA:true
+subjectKeyIdentifier = hash
+"""
 _SESSION_TIMEOUT = "10"  # seconds after which a host that says nothing counts as lost
 
 
@@ -29,13 +48,22 @@ def make_key(places: Places) -> None:
     os.makedirs(places.root, mode=0o700, exist_ok=True)
     mask = os.umask(0o077)
     try:
-        done = subprocess.run(
-            ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
-             "-days", _VALID_DAYS, "-subj", "/CN=rcyaml", "-keyout", places.key, "-out", places.certificate],
-            capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
-        )  # fmt: skip
+        with tempfile.TemporaryDirectory(dir=places.root) as folder:
+            for name, text in (("settings", _AUTHORITY), ("database", "")):
+                with open(f"{folder}/{name}", "w", encoding="utf-8") as file:
+                    file.write(text)
+            _openssl(folder, "req", "-new", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                     "-subj", "/CN=rcyaml", "-keyout", places.key, "-out", "request")  # fmt: skip
+            _openssl(folder, "ca", "-batch", "-selfsign", "-notext", "-config", "settings", "-keyfile", places.key,
+                     "-in", "request", "-out", places.certificate)  # fmt: skip
     finally:
         os.umask(mask)
+
+
+def _openssl(folder: str, *words: str) -> None:
+    done = subprocess.run(
+        ["openssl", *words], cwd=folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL
+    )
     if done.returncode:
         raise OSError(0, f"openssl makes no key: {done.stderr.strip()[-300:]}")
 

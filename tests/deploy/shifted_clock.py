@@ -1,0 +1,38 @@
+"""A clock that a test sets, for all that it starts, while that runs (see shifted_clock.c); the machine's is left alone."""
+
+from __future__ import annotations
+
+import shutil
+import struct
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+_SOURCE = Path(__file__).with_suffix(".c")
+
+
+@dataclass(frozen=True)
+class Clock:
+    """`environment` is for what is to go by this clock."""
+
+    path: Path
+    environment: dict[str, str]
+
+    def set(self, hours: float) -> None:
+        """So far before or behind the machine's."""
+        with open(self.path, "r+b") as file:
+            file.write(struct.pack("=q", int(hours * 3600)))
+
+
+def make_clock(folder: Path) -> Clock:
+    """Skips the test where there is no way to make one."""
+    compiler = shutil.which("cc")
+    if compiler is None or sys.platform != "linux":
+        pytest.skip("no C compiler here: the clock cannot be shifted for single programs")
+    library, path = folder / "shifted_clock.so", folder / "shifted_clock"
+    subprocess.run([compiler, "-O1", "-shared", "-fPIC", "-o", library, _SOURCE, "-ldl"], check=True)
+    path.write_bytes(bytes(8))
+    return Clock(path, {"LD_PRELOAD": str(library), "SHIFTED_CLOCK": str(path)})
