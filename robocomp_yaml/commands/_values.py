@@ -24,13 +24,14 @@ from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import text as source_text
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, parse
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values import paths
 from robocomp_yaml.values import show as values_show
 from robocomp_yaml.values.edit import NotEditable
 from robocomp_yaml.values.edit import set_value as edit
 from robocomp_yaml.values.effective import Effective, effective
 from robocomp_yaml.values.judge import judge
+from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import flow
 
 _REFERENCE = re.compile(r"\{ *env *: *[A-Za-z_][A-Za-z0-9_]* *\}", re.ASCII)  # as `get` prints it
@@ -169,7 +170,9 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     values = loaded.values
     if values is None or values.parameters is None or loaded.parameters.broken:
         _fail(ctx, loaded.diagnostics or [codes.NO_COMPONENT.at(Span(file)).as_severity("error")], loaded.documents)
-    steps, type_ = _steps(path, loaded.parameters.parameters.root)
+    of = loaded.parameters.parameters.root
+    named, type_ = _steps(path, of)
+    steps = values_show.typed(of, named)
     is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
     is_text = is_text and not _REFERENCE.fullmatch(value)
     raw, _ = source_text.read_bytes(file)
@@ -177,7 +180,7 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     text, _ = source_text.decode(file, raw)
     assert text is not None
     root = values.document.root
-    _refuse_bad(ctx, file, type_, path, value, _place_of(root, ["parameters", *steps]), is_text)
+    _refuse_bad(ctx, file, type_, steps, value, _place_of(root, ["parameters", *steps]), is_text)
     try:
         change = edit(file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null")
     except NotEditable as refused:
@@ -210,7 +213,7 @@ def _replace(file: str, content: bytes) -> None:
 
 
 def _refuse_bad(
-    ctx: click.Context, file: str, type_: Type, path: str, value: str, span: Span, is_text: bool
+    ctx: click.Context, file: str, type_: Type, steps: list[Step], value: str, span: Span, is_text: bool
 ) -> None:
     """A value that its type or limits refuse, shown at the place where it was to go."""
     if value == "null":
@@ -223,22 +226,21 @@ def _refuse_bad(
     if node is None:
         reason = faults[0].message if faults else "it is empty"
         _fail(ctx, [file_codes.WRONG_SHAPE.at(span, problem=f"'{value}' is no value: {reason}")], 1)
-    steps = tuple(int(step) if step.isdigit() else step for step in paths.parse(path) or [])
-    found = [replace(fault, span=span) for fault in judge(type_, node, steps, complete=False)]
+    found = [replace(fault, span=span) for fault in judge(type_, node, tuple(steps), complete=False)]
     if found:
         _fail(ctx, found, 1)
 
 
-def _place_of(root: Mapping, steps: list[str]) -> Span:
+def _place_of(root: Mapping, steps: list[Step]) -> Span:
     """The place of a value, or of the nearest thing around it."""
     node: Node = root
     span = root.span
     for step in steps:
-        if isinstance(node, Mapping) and step in node.entries:
+        if isinstance(node, Mapping) and isinstance(step, str) and step in node.entries:
             key, node = node.entries[step]
             span = node.span if isinstance(node, Scalar) and node.lexeme else key.span
-        elif isinstance(node.data, list) and step.isdigit() and int(step) < len(node.data):
-            node = node.items[int(step)]  # type: ignore[attr-defined]
+        elif isinstance(node, Sequence) and isinstance(step, int) and step < len(node.items):
+            node = node.items[step]
             span = node.span
         else:
             break

@@ -1,7 +1,7 @@
 """One value of a document changed in its text; every other byte stays.
 
 The tree says where: an existing value is replaced between its marks, a new one is put behind the last entry of the
-mapping that it belongs to. What would touch more than that (a list over many lines, an alias) is refused.
+mapping or list that it belongs to. What would touch more than that (a list over many lines, an alias) is refused.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
+from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import quoted, scalar, single_quoted
 
 _COLON = re.compile(r"[ \t]*:")
@@ -33,9 +34,9 @@ class Change(msgspec.Struct, frozen=True):
     was: str
 
 
-def set_value(path: str, text: str, root: Mapping, steps: list[str], new: str, *, is_text: bool) -> Change:
-    """The document with another value at `steps` (from its top); `new` is YAML on one line, or the text itself where
-    `is_text`. Raises NotEditable."""
+def set_value(path: str, text: str, root: Mapping, steps: list[Step], new: str, *, is_text: bool) -> Change:
+    """The document with another value at `steps` (from its top; numbers are places in lists, and the one behind the
+    last is a new entry); `new` is YAML on one line, or the text itself where `is_text`. Raises NotEditable."""
     node: Node = root
     key: Scalar | None = None
     for depth, step in enumerate(steps):
@@ -54,23 +55,24 @@ def set_value(path: str, text: str, root: Mapping, steps: list[str], new: str, *
     return change
 
 
-def _at(data: Any, steps: list[str]) -> Any:
+def _at(data: Any, steps: list[Step]) -> Any:
     for step in steps:
-        data = data[int(step)] if isinstance(data, list) else data[step]
+        data = data[step]
     return data
 
 
-def _child(node: Node, step: str) -> tuple[Scalar | None, Node] | None:
-    if isinstance(node, Mapping):
+def _child(node: Node, step: Step) -> tuple[Scalar | None, Node] | None:
+    if isinstance(node, Mapping) and isinstance(step, str):
         return node.entries.get(step)
-    if isinstance(node, Sequence) and step.isdigit():
-        if int(step) < len(node.items):
-            return None, node.items[int(step)]
-        raise NotEditable(f"the list has {len(node.items)} entries here; give the whole list", node)
+    if isinstance(node, Sequence) and isinstance(step, int):
+        count = len(node.items)
+        if step > count:
+            raise NotEditable(f"the list has {count} entr{'y' if count == 1 else 'ies'} here", node)
+        return (None, node.items[step]) if step < count else None
     return None
 
 
-def _same_but(before: object, after: object, steps: list[str]) -> bool:
+def _same_but(before: object, after: object, steps: list[Step]) -> bool:
     """Whether two documents are the same but for the place."""
     if not steps:
         return True
@@ -80,9 +82,11 @@ def _same_but(before: object, after: object, steps: list[str]) -> bool:
         return all(key in old and key in after and old[key] == after[key] for key in others) and _same_but(
             old.get(steps[0]), after.get(steps[0]), steps[1:]
         )
-    if isinstance(before, list) and isinstance(after, list) and len(before) == len(after):
-        at = int(steps[0])
-        return before[:at] == after[:at] and before[at + 1 :] == after[at + 1 :] and _same_but(
+    at = steps[0]
+    if isinstance(before, list) and isinstance(after, list) and isinstance(at, int):
+        if at == len(before):
+            return after[:-1] == before
+        return len(before) == len(after) and before[:at] == after[:at] and before[at + 1 :] == after[at + 1 :] and _same_but(
             before[at], after[at], steps[1:]
         )
     return False
@@ -118,17 +122,22 @@ def _fill(text: str, node: Node, key: Scalar | None, new: str) -> Change:
     return Change(f"{text[: colon.end()]} {new}{text[colon.end() :]}", "")
 
 
-def _insert(text: str, node: Node, key: Scalar | None, steps: list[str], new: str) -> Change:
-    """A new entry in a mapping, or the first one below a key that has nothing behind it."""
-    if isinstance(node, Scalar) and node.data is None and key is not None:
+def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: str) -> Change:
+    """A new entry in a mapping or list, or the first one below a key that has nothing behind it."""
+    if any(isinstance(step, int) for step in steps[1:]):
+        raise NotEditable("there is no list here to add to; give the whole list", node)
+    if isinstance(node, Sequence) and isinstance(steps[0], int):
+        return _append(text, node, key, steps[1:], new)
+    if isinstance(node, Scalar) and node.data is None and key is not None and isinstance(steps[0], str):
         colon = _COLON.match(text, key.end)
         if colon is None or node.end > node.start:
             raise NotEditable("there is no mapping here to add to", node)
         indent = " " * (key.span.column + 1)
         at = _end_of_line(text, colon.end())
         return Change(text[:at] + _line_end(text) + _block(steps, new, indent, _line_end(text)) + text[at:], "")
-    if not isinstance(node, Mapping):
-        raise NotEditable("there is no mapping here to add to", node)
+    if not isinstance(node, Mapping) or not isinstance(steps[0], str):
+        what = "list" if isinstance(steps[0], int) else "mapping"
+        raise NotEditable(f"there is no {what} here to add to", node)
     if key is not None and node.start < key.end:
         raise NotEditable("the mapping is an alias of another one", key)
     last = _last(node)
@@ -144,6 +153,21 @@ def _insert(text: str, node: Node, key: Scalar | None, steps: list[str], new: st
         return Change(text[:last] + _block(steps, new, indent, line_end) + line_end + text[last:], "")
     at = _end_of_line(text, last)
     return Change(text[:at] + line_end + _block(steps, new, indent, line_end) + text[at:], "")
+
+
+def _append(text: str, node: Sequence, key: Scalar | None, steps: list[Step], new: str) -> Change:
+    """A new entry behind the last one of a list."""
+    if key is not None and node.start < key.end:
+        raise NotEditable("the list is an alias of another one", key)
+    entry = f"{{{_flow(steps, new)}}}" if steps else new
+    if text[node.start : node.start + 1] == "[":
+        at = node.items[-1].end if node.items else node.start + 1
+        return Change(text[:at] + (f", {entry}" if node.items else entry) + text[at:], "")
+    last = _end(node)
+    if node.items[-1].data is None or text[:last].endswith("\n"):
+        raise NotEditable("the last entry is empty, or a text of several lines", node)
+    at, indent = _end_of_line(text, last), " " * (node.span.column - 1)
+    return Change(f"{text[:at]}{_line_end(text)}{indent}- {entry}{text[at:]}", "")
 
 
 def _last(node: Mapping) -> int | None:
@@ -174,12 +198,12 @@ def _line_end(text: str) -> str:
     return "\r\n" if "\r\n" in text else "\n"
 
 
-def _block(steps: list[str], new: str, indent: str, line_end: str) -> str:
+def _block(steps: list[Step], new: str, indent: str, line_end: str) -> str:
     lines = [f"{indent}{'  ' * depth}{scalar(step)}:" for depth, step in enumerate(steps)]
     return line_end.join(lines) + f" {new}"
 
 
-def _flow(steps: list[str], new: str) -> str:
+def _flow(steps: list[Step], new: str) -> str:
     inner = new
     for step in reversed(steps[1:]):
         inner = f"{{{scalar(step)}: {inner}}}"

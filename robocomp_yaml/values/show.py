@@ -124,3 +124,10 @@ def type_at(root: RecordType, steps: list[str]) -> Type | None:
             case _:
                 return None
     return type_
+
+
+def typed(root: RecordType, steps: list[str]) -> list[Step]:
+    """The steps of a path that names something, with numbers for places in lists."""
+    return [
+        int(step) if isinstance(type_at(root, steps[:depth]), ListType) else step for depth, step in enumerate(steps)
+    ]

@@ -99,6 +99,8 @@ def test_get(run: Run, path: str, value: str) -> None:
     ("speed", "{env: SPEED}", "  speed: .5   # half\n", "  speed: {env: SPEED}   # half\n"),
     ("device", "{env: BUS}", "      vel: 1\n", "      vel: 1\n  device: {env: BUS}\n"),
     ("motors[1].vel", "null", "      vel: 1\n", "      vel: null\n"),
+    ("motors[2]", "{name: c}", "      vel: 1\n", "      vel: 1\n    - {name: c}\n"),
+    ("motors[2].name", "c", "      vel: 1\n", "      vel: 1\n    - {name: c}\n"),
 ])
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])
 def test_set_changes_one_place(
@@ -110,6 +112,34 @@ def test_set_changes_one_place(
     assert result.exit_code == 0, result.output
     assert before in BASE
     assert file.read_bytes().decode() == BASE.replace(before, after).replace("\n", line_end)
+
+
+@pytest.mark.parametrize(("before", "path", "value", "after"), [
+    ("motors: [{name: a}]", "motors[1]", "{name: b}", "motors: [{name: a}, {name: b}]"),
+    ("ids: []", "ids[0]", "a # b", 'ids: ["a # b"]'),
+    ("grid:\n  - - 1  # one\n", "grid[0][1]", "2", "grid:\n  - - 1  # one\n    - 2\n"),
+    ("grid:\n  - - 1  # one\n", "grid[1]", "[2]", "grid:\n  - - 1  # one\n  - [2]\n"),
+])
+def test_set_adds_behind_the_last_entry(
+    rcyaml: Run, tmp_path: Path, before: str, path: str, value: str, after: str
+) -> None:
+    write_tree(tmp_path, {
+        "c.cdsl.yaml": "component: C\nlanguage: python\n",
+        "c.pdsl.yaml": "component: c.cdsl.yaml\ntypes: {Motor: {struct: {name: string}}}\nparameters:\n"
+        "  motors: {list: Motor, default: []}\n  ids: {list: string, default: []}\n"
+        "  grid: {list: {list: int}, default: []}\n",
+        "x.config.yaml": f"component: c.cdsl.yaml\nparameters:\n  {before.replace(chr(10), chr(10) + '  ').rstrip()}\n",
+    })
+    result = rcyaml("config", "set", "x.config.yaml", path, value)
+    assert result.exit_code == 0, result.output
+    written = (tmp_path / "x.config.yaml").read_text().partition("parameters:\n")[2]
+    assert written == f"  {after.replace(chr(10), chr(10) + '  ').rstrip()}\n"
+
+
+def test_set_does_not_make_a_list_that_a_layer_holds(run: Run) -> None:
+    result = run("config", "set", "sim.config.yaml", "motors[0].vel", "1")
+    assert result.exit_code == 2
+    assert "there is no list here to add to; give the whole list" in result.stderr
 
 
 @pytest.mark.parametrize(("path", "value", "message"), [
