@@ -12,7 +12,6 @@ import os
 import sys
 
 import click
-import msgspec
 
 from robocomp_yaml import __version__
 
@@ -30,11 +29,11 @@ COMMANDS = {
 }
 
 
-class Options(msgspec.Struct):
+class Options:
     """What holds for every command. `verbosity`: -1 quiet, 0, 1 verbose; `color`: None = as the terminal wants."""
 
-    color: bool | None = None
-    verbosity: int = 0
+    def __init__(self, color: bool | None, verbosity: int) -> None:
+        self.color, self.verbosity = color, verbosity
 
 
 class LazyGroup(click.Group):

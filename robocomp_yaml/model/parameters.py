@@ -74,6 +74,10 @@ class Size(Located, frozen=True):
         return self.least <= count and (self.most is None or count <= self.most)
 
     @property
+    def is_any(self) -> bool:
+        return not self.least and self.most is None
+
+    @property
     def in_words(self) -> str:
         if self.most is None:
             return f"at least {self.least}"

@@ -101,6 +101,7 @@ class _Maker(msgspec.Struct):
 
     mode: str
     definitions: dict[str, Schema] = msgspec.field(default_factory=lambda: {"env": _REFERENCE})
+    _words: dict[int, str] = {}
 
     @property
     def for_editors(self) -> bool:
@@ -142,7 +143,7 @@ class _Maker(msgspec.Struct):
         """A list or mapping: what holds for it, and one message for everything else."""
         made: Schema = {"if": {"type": kind}, "then": then, "else": {"type": _types(kind, nullable)}}
         if self.for_editors:
-            words = in_words(type_)
+            words = self.words(type_)
             made["else"]["errorMessage"] = f"this is {words}"
             if not (isinstance(type_, RecordType) and type_.is_group):
                 snippet = {"label": _label(type_), "description": words, "body": flow(example_of(type_))}
@@ -151,7 +152,7 @@ class _Maker(msgspec.Struct):
 
     def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
         limits = self.limits(type_)
-        said = {"errorMessage": f"this is {in_words(type_)}"} if self.for_editors else {}
+        said = {"errorMessage": f"this is {self.words(type_)}"} if self.for_editors else {}
         kind = _json_type(type_)
         otherwise: Schema
         if "enum" in limits:
@@ -211,8 +212,15 @@ class _Maker(msgspec.Struct):
     def member(self, member: Member) -> Schema:
         made = self.type(member.type, nullable=self.mode == DOCUMENT)
         if self.mode != COMPLETE:
-            made |= _words(member, self.for_editors)
+            made |= _about(member, self.words(member.type), self.for_editors)
         return made
+
+    def words(self, type_: Type) -> str:
+        """Each type in words, once: a place says them several times, and types are shared."""
+        said = self._words.get(id(type_))
+        if said is None:
+            said = self._words[id(type_)] = in_words(type_)
+        return said
 
 
 def _label(type_: Type) -> str:
@@ -240,7 +248,7 @@ def in_words(type_: Type) -> str:
         return type_.name or "a mapping of parameters to values"
     if isinstance(type_, ListType | MapType):
         kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
-        size = f" of {type_.size.in_words} entries" if type_.size != Size() else ""
+        size = f" of {type_.size.in_words} entries" if not type_.size.is_any else ""
         unique = ", all different" if isinstance(type_, ListType) and type_.unique else ""
         return f"a {kind}{size}{unique}, each {one} {in_words(type_.element)}"
     words = kind_in_words(type_)
@@ -255,11 +263,10 @@ def in_words(type_: Type) -> str:
     return words
 
 
-def _words(member: Member, for_editors: bool) -> Schema:
+def _about(member: Member, kind: str, for_editors: bool) -> Schema:
     """Title, description, default; an editor also shows Markdown and examples."""
     unit = unit_of(member.type)
     doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
-    kind = in_words(member.type)
     facts = [kind[0].upper() + kind[1:]] if not member.is_group else []
     if member.default is not None:
         facts.append(f"default: {shortened(member.default.data)}")
