@@ -178,6 +178,9 @@ def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
     rest = lines[line - 1][column - 1 :] if lines else ""
     if rest.startswith("\t"):
         return codes.SYNTAX.at(span, problem="a tab stands where only blanks can indent", hint="indent with blanks")
+    if rest.startswith("{i}") and "expected ',' or" in problem:  # of a deployment: it counts instances
+        hint = 'write "mouth{i}", with quotes'
+        return codes.SYNTAX.at(span, problem="between brackets, a text with {i} stands in quotes", hint=hint)
     for part, words, hint in _WORDS:
         if part in problem:
             return codes.SYNTAX.at(span, problem=words.format(found=f"'{rest[:1]}'"), hint=hint)
