@@ -86,9 +86,8 @@ def _same_but(before: object, after: object, steps: list[Step]) -> bool:
     if isinstance(before, list) and isinstance(after, list) and isinstance(at, int):
         if at == len(before):
             return after[:-1] == before
-        return len(before) == len(after) and before[:at] == after[:at] and before[at + 1 :] == after[at + 1 :] and _same_but(
-            before[at], after[at], steps[1:]
-        )
+        around = [*before[:at], *before[at + 1 :]] == [*after[:at], *after[at + 1 :]]
+        return len(before) == len(after) and around and _same_but(before[at], after[at], steps[1:])
     return False
 
 
