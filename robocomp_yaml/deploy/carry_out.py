@@ -18,7 +18,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 
 STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
 
-_LOOK = 0.1  # seconds for which what was seen of the processes holds while many wait
+_LOOK = 0.05  # seconds for which what was seen of the processes holds while many wait
 
 
 class Event(msgspec.Struct, frozen=True):
@@ -184,7 +184,8 @@ class _Starts:
         assert step.spec
         self._since[step.name] = time.monotonic()
         try:
-            async with aclosing(await self._engine.lines([step.name], 0, True)) as lines:
+            logs = [step.name] if step.spec.process.ready.log else []
+            async with aclosing(await self._engine.lines(logs, 0, True)) as lines:
                 if begin:
                     await begin(step.name)
                 if begin or not (step.running and await holds(self._engine, step.spec, step.running)):

@@ -109,6 +109,8 @@ async def _until_it_holds(
                 return
             if running.state == RUNNING and running.uptime >= SETTLED:
                 return
+            if running.state == RUNNING:
+                pause = max(SETTLED - running.uptime, _SHORTEST)
         await asyncio.sleep(pause)
         pause = min(pause * 1.5, _LONGEST)
 

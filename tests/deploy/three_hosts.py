@@ -145,7 +145,7 @@ class Deployment:
         """How many processes are the program of this name, without its runner and its log."""
         mark = f"{self.folder}:{name}"
         roots = [pid for pid in procfs.pids() if procfs.mark_of(pid) == mark]
-        return sum(1 for pid in roots if (entry := procfs.entry(pid)) and entry.session == pid and not entry.is_dead)
+        return sum(1 for pid in roots if (entry := procfs.entry(pid)) and entry.group == pid and not entry.is_dead)
 
     def clean_up(self) -> None:
         """Kills whatever is left."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.icegrid import daemons, settings, ssh
-from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed, Unreachable, reach
 from robocomp_yaml.deploy.icegrid.places import (
     Places,
     Registry,
@@ -21,6 +21,9 @@ from robocomp_yaml.deploy.local.record import clear_up
 from robocomp_yaml.diag.codes import grids
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Host, Network
+
+if TYPE_CHECKING:
+    from robocomp_yaml.deploy.icegrid.grid import Grid
 
 _PATIENCE = 20.0  # seconds: far more than is needed, also where a machine is busy
 _ENDS_WITHIN, _REGISTRY_ENDS_WITHIN = 15.0, 3.0
@@ -61,6 +64,10 @@ def _session(places: Places, registry: Registry, network: Network) -> Grid:
             daemons.start_registry(places, registry)
         except OSError as error:
             raise _failed(network, error.strerror or str(error)) from error
+    try:  # loading Ice takes about as long as the registry does to start
+        from robocomp_yaml.deploy.icegrid.grid import Unreachable, reach
+    except ImportError as error:
+        raise _failed(network, str(error)) from error
     try:
         return reach(places, registry, _PATIENCE)
     except Unreachable as error:
@@ -99,6 +106,8 @@ def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[H
 
 def ended(grid: Grid, places: Places, application: str) -> None:
     """Ends what the engine runs: its servers, the nodes that it started, and the registry."""
+    from robocomp_yaml.deploy.icegrid.grid import GridFailed
+
     try:
         grid.remove(application)
     except GridFailed:
