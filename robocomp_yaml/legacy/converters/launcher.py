@@ -33,12 +33,16 @@ class _Converter:
     def draft(self, tree: Tree[Token]) -> Draft:
         head: Tree[Token] | None = None
         pairs: _Pairs = {}
+        is_foreign = False
         for node in trees(tree):
             if node.data != "pair":
                 self.component(head, pairs)
-                head, pairs = node, {}
-                if node.data == "table" or _key(node) not in ("component", "components"):
+                is_foreign = node.data == "table" or _key(node) not in ("component", "components")
+                head, pairs = None if is_foreign else node, {}
+                if is_foreign:
                     self.refused("foreign", node, f"[{_key(node)}]")
+            elif is_foreign:
+                continue  # its table has been told
             elif head is None or _key(node) not in _KEYS:
                 self.refused("foreign", node, _key(node))
             else:

@@ -109,11 +109,12 @@ class _Converter:
         alias = element.get("alias")
         if not alias.strip():
             self.refused("unnamed", element.tree)
-        if any(known.alias == alias for known in network.nodes):
+        is_double = any(known.alias == alias for known in network.nodes)
+        if is_double:
             at = self.reader.span(element.place("alias"))
             self.reader.diagnostics.append(codes.DUPLICATE.at(at, name=alias))
         node = Node(alias, safe_name(alias, taken), self.reader.span(element.place("alias")), notes=element.notes)
-        if node.name != alias and alias.strip():
+        if node.name != alias and alias.strip() and not is_double:
             what = self.reader.rules.repairs["name"].format(text=alias, name=node.name)
             self.reader.diagnostics.append(codes.REPAIRED.at(node.span, what=what))
             node.extra.put("alias", exact(alias))

@@ -85,3 +85,4 @@ def test_what_is_refused(rcyaml: Run, tmp_path: Path, text: str, code: str) -> N
     result = rcyaml("migrate", "sub.toml")
     assert result.exit_code == 1 and f"error[{code}]" in result.output, result.output
     assert not (tmp_path / "sub.ddsl.yaml").exists()
+    assert "[other]" not in text or result.output.count("error[") == 1
