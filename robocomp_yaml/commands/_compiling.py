@@ -110,7 +110,7 @@ def _outcome_of(
         for change in root.changes
     ]
     program = analysis.program
-    return Outcome(told, files, program.documents, len(program.asked), built.compiled)
+    return Outcome(told, files, program.documents, len(program.asked), len(program.asked - built.left_out))
 
 
 def _ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:

@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 
 
 class Build(msgspec.Struct):
-    """The plans, and what kept documents from being compiled."""
+    """The plans, and what kept documents from being compiled; `left_out` are the real paths of those."""
 
     plans: list[RootPlan] = []
     diagnostics: list[Diagnostic] = []
-    compiled: int = 0
+    left_out: set[str] = set()
 
 
 def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options) -> Build:
@@ -50,14 +50,17 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
     def slice_root(linked: LinkedModule) -> str:
         return options.output or _slice_folder(options.workspace_of(linked.module.path))
 
-    asked = {program.modules[real] for real in program.asked & program.modules.keys()}
+    asked = {program.modules[real]: real for real in program.asked & program.modules.keys()}
     for linked in sorted(asked, key=lambda linked: linked.module.path):
-        if options.wants("slice") and _usable(linked.module, [linked], state, result):
+        if not options.wants("slice"):
+            continue
+        if _usable(linked.module, [linked], state, result):
             root = slice_root(linked)
             owner = os.path.relpath(linked.module.path, root)
             needed = [linked, *_imports(linked, lambda other, root=root: other in asked and slice_root(other) == root)]
             result.plans.append(RootPlan(root, owner, list(slices(needed))))
-            result.compiled += 1
+        else:
+            result.left_out.add(asked[linked])
     for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if _usable_component(component, state, result):
@@ -70,8 +73,21 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
                 files = [file for file in plan.files if not file.path.startswith("etc/")]
                 plan = RootPlan(plan.root, plan.owner, files, partial=True)
             result.plans.append(plan)
-            result.compiled += 1
+        else:
+            result.left_out.add(real)
+    result.left_out |= _unused(program, state, result.left_out)
     return result
+
+
+def _unused(program: Program, state: _State, left_out: set[str]) -> set[str]:
+    """Other documents that were of no use: they could not be read, they have errors, or their component has."""
+    lost = {id(program.components[real]) for real in left_out & program.components.keys()}
+    broken = {real for real, component in program.documents_of_components().items() if id(component) in lost}
+    paths = {real: linked.document.path for real, linked in program.parameters.items() if linked.document}
+    paths |= {real: linked.document.path for real, linked in program.values.items()}
+    paths |= {real: linked.deployment.path for real, linked in program.deployments.items()}
+    unread = program.asked - program.modules.keys() - program.components.keys() - paths.keys()
+    return unread | broken | {real for real, path in paths.items() if path in state.faulty}
 
 
 def _slice_folder(workspace: Workspace) -> str:

@@ -173,10 +173,16 @@ class Program(msgspec.Struct):
     asked: set[str] = set()
     documents: int = 0
 
+    def documents_of_components(self) -> dict[str, LinkedComponent | None]:
+        """The documents of parameters and of values, each with its component."""
+        documents = {real: linked.component for real, linked in self.parameters.items()}
+        return documents | {
+            real: linked.parameters.component for real, linked in self.values.items() if linked.parameters
+        }
+
     def asked_components(self) -> set[str]:
         """The components that the user named, be it by their parameters, their values or a deployment of them."""
-        documents = {real: linked.component for real, linked in self.parameters.items()}
-        documents |= {real: linked.parameters.component for real, linked in self.values.items() if linked.parameters}
+        documents = self.documents_of_components()
         wanted = {id(documents[real]) for real in self.asked & documents.keys()}
         wanted |= {
             id(instance.component) for real in self.asked & self.deployments.keys()

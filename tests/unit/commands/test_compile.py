@@ -57,6 +57,17 @@ def test_looking_writes_nothing(option: str, rcyaml: Run, tmp_path: Path) -> Non
     assert "slice/Speech.ice" in result.stdout
 
 
+def test_all_documents_count(compiled: Path, rcyaml: Run) -> None:
+    parameters = "component: speech.cdsl.yaml\nparameters: {rate: {type: int, default: 1}}\n"
+    (compiled / "speech/speech.pdsl.yaml").write_text(parameters)
+    (compiled / "robot.ddsl.yaml").write_text("deployment: Robot\ncomponents: {speech: {component: speech}}\n")
+    assert rcyaml("compile").stdout.splitlines()[-1].startswith("4 documents compiled: ")
+    (compiled / "speech/speech.pdsl.yaml").write_text(parameters.replace("1", "one"))
+    assert rcyaml("compile").stdout.splitlines()[-1].startswith("2 of 4 documents compiled: ")
+    (compiled / "interfaces/Speech.idsl.yaml").write_text("- no mapping\n")
+    assert rcyaml("compile", "speech").stdout.splitlines()[-1].startswith("0 of 2 documents compiled: ")
+
+
 def test_check_is_content_when_all_is_up_to_date(compiled: Path, rcyaml: Run) -> None:
     assert rcyaml("compile", "--check").exit_code == 0
     (compiled / "interfaces/Speech.idsl.yaml").write_text(SPEECH.replace("say", "tell"))
