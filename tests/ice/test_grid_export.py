@@ -21,10 +21,11 @@ pytestmark = pytest.mark.skipif(
     not (shutil.which("icegridnode") and shutil.which("icegridadmin")),
     reason="IceGrid is not installed (Debian: zeroc-icegrid, zeroc-ice-utils)",
 )
-ODD = ("a b", ";", "$HOME", "${x}", "100%", 'say "hi"', "back\\slash", "--end")
+ODD = ("a b", ";", "$HOME", "${x}", "100%", 'say "hi"', "back\\slash", "", "=", "--end")
+TITLE = 'a "title" of $HOME, ${x}, 1$, $$ and \\$y'
 SCRIPT = """import json, os, sys, time
 with open("told.new", "w") as file:
-    json.dump([sys.argv[1:], os.environ["TITLE"], os.getcwd()], file)
+    json.dump([sys.argv[1:], [os.environ[name] for name in ("TITLE", "NONE", "FROM")], os.getcwd()], file)
 os.rename("told.new", "told")
 time.sleep(600)
 """
@@ -73,12 +74,13 @@ def test_a_program_runs_with_its_own_words(admin: Admin, tmp_path: Path, open_pl
     network = Network("Small", "/small.ddsl.yaml", str(tmp_path), {LOOPBACK: Host(LOOPBACK)})
     network.processes["echo"] = Process(
         "echo", LOOPBACK, ("python3", "-c", SCRIPT, *ODD), str(open_place), PROGRAM, is_ice=False,
-        env=(Variable("TITLE", "a title"),),
+        env=(Variable("TITLE", TITLE), Variable("NONE"), Variable("FROM", source="PATH")),
     )  # fmt: skip
     (tmp_path / "small.xml").write_text(export(network, "icegrid")["Small.xml"], encoding="utf-8")
     assert admin(f"application add {tmp_path / 'small.xml'}").stderr == ""
     until(lambda: (open_place / "told").exists(), lambda: admin("server state echo").stdout)
-    assert json.loads((open_place / "told").read_text(encoding="utf-8")) == [list(ODD), "a title", str(open_place)]
+    told = json.loads((open_place / "told").read_text(encoding="utf-8"))
+    assert told == [list(ODD), [TITLE, "", os.environ["PATH"]], str(open_place)]
     assert admin("application remove Small").stderr == ""
 
 

@@ -11,8 +11,10 @@ from robocomp_yaml.emit.exports._xml import HEAD, element
 from robocomp_yaml.network.network import ICESTORM, NEVER, Network, Process
 from robocomp_yaml.source import properties
 
-_DROP_LAST = 'n=$#; for word do shift; n=$((n-1)); [ "$n" -gt 0 ] && set -- "$@" "$word"; done; exec "$@"'
-"""A node appends `--Ice.Config=…` to every command, which only Ice's programs understand."""
+_DROP_LAST = 'n=$#; for word do shift; n=$((n-1)); [ "$n" -gt 0 ] && set -- "$@" "${word#=}"; done; exec "$@"'
+_TAKE_ALL = 'for word do shift; set -- "$@" "${word#=}"; done; exec "$@"'
+"""A node appends `--Ice.Config=…` to every command, which only Ice's programs understand. It leaves empty words out, so
+they are given to the shell behind a sign of ours."""
 
 _MAKE_FOLDERS = 'while [ "$1" != -- ]; do mkdir -p "$1" || exit 1; shift; done; shift; exec "$@"'
 
@@ -29,8 +31,13 @@ def export(network: Network) -> dict[str, str]:
 
 def _server(process: Process) -> list[str]:
     program, *arguments = without_config(process)
-    if not process.is_ice:
-        program, arguments = "/bin/sh", ["-c", _DROP_LAST, process.name, program, *arguments]
+    bare = [f"{one.name}={one.value}" for one in process.env if "$" in one.value]
+    if bare:  # a node puts variables of its own into values, and knows no way to say `$`
+        program, arguments = "/usr/bin/env", [*bare, program, *arguments]
+    if not process.is_ice or "" in arguments:
+        words = [f"={word}" if word[:1] in ("", "=") else word for word in (program, *arguments)]
+        program = "/bin/sh"
+        arguments = ["-c", _TAKE_ALL if process.is_ice else _DROP_LAST, process.name, *words]
     if process.folders:
         program, arguments = "/bin/sh", ["-c", _MAKE_FOLDERS, process.name, *process.folders, "--", program, *arguments]
     attributes = {"id": process.name, "exe": _literal(program), "activation": _activation(process)}
@@ -38,8 +45,9 @@ def _server(process: Process) -> list[str]:
         attributes["pwd"] = _literal(process.cwd)
     inside = [line for word in arguments for line in element("option", {}, text=_literal(word))]
     for variable in process.env:
-        value = f"${variable.source}" if variable.source else _literal(variable.value)
-        inside += element("env", {}, text=f"{variable.name}={value}")
+        if "$" not in variable.value:
+            value = f"${variable.source}" if variable.source else variable.value
+            inside += element("env", {}, text=f"{variable.name}={value}")
     values = properties.read(process.config.text).values if process.config and process.is_ice else {}
     if not process.is_ice:
         values["Ice.Admin.Enabled"] = "0"  # a node would wait for its administrative object for ever
