@@ -35,11 +35,23 @@ class Hosts:
     prefix: str = ""
 
     def run(self, host: str, command: list[str], **how: Any) -> subprocess.CompletedProcess[str]:
-        """A command's outcome on a host; this Python comes first there, since components start with it."""
-        path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-        how["env"] = {**os.environ, "PATH": path, **how.get("env", {})}
-        inside = ["ip", "netns", "exec", self.prefix + host] if self.prefix else []
+        """A command's outcome on a host."""
+        how["env"] = self._environment(how.get("env", {}))
+        inside = self._inside(host)
         return subprocess.run([*inside, *command], capture_output=True, text=True, check=False, timeout=60, **how)
+
+    def begin(self, host: str, command: list[str], **how: Any) -> subprocess.Popen[str]:
+        """A command that goes on, whose output is read from a pipe."""
+        how["env"] = self._environment(how.get("env", {}))
+        return subprocess.Popen([*self._inside(host), *command], stdout=subprocess.PIPE, text=True, **how)
+
+    def _inside(self, host: str) -> list[str]:
+        return ["ip", "netns", "exec", self.prefix + host] if self.prefix else []
+
+    def _environment(self, more: dict[str, str]) -> dict[str, str]:
+        """This Python comes first, since components start with it."""
+        path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+        return {**os.environ, "PATH": path, **more}
 
     def link(self, host: str, state: str) -> None:
         """Plugs the host's cable in or out: `up` or `down`."""
@@ -104,6 +116,11 @@ class Deployment:
         done = self.hosts.run("onboard", [sys.executable, "-m", "robocomp_yaml", *words], cwd=self.root, env=self.environment)
         assert code in (None, done.returncode), done.stdout + done.stderr
         return done.stdout + done.stderr
+
+    def begin(self, what: str, *words: str) -> subprocess.Popen[str]:
+        """A command of `deploy` that goes on, on the first host."""
+        command = [sys.executable, "-m", "robocomp_yaml", "deploy", what, "talk.ddsl.yaml", *words]
+        return self.hosts.begin("onboard", command, cwd=self.root, env=self.environment)
 
     def deploy(self, what: str, *words: str, code: int | None = 0) -> str:
         return self.rcyaml("deploy", what, "talk.ddsl.yaml", *words, code=code)
