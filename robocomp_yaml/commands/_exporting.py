@@ -6,9 +6,12 @@ import os
 
 import click
 
-from robocomp_yaml.commands._deploying import Opened
-from robocomp_yaml.deploy import folder
+from robocomp_yaml.commands._deploying import Opened, end
+from robocomp_yaml.deploy import exported
+from robocomp_yaml.diag.codes import emitting
+from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.render.json import dumps
+from robocomp_yaml.diag.span import Span
 
 
 def export(ctx: click.Context, opened: Opened, form: str, output: str | None) -> None:
@@ -20,14 +23,23 @@ def export(ctx: click.Context, opened: Opened, form: str, output: str | None) ->
     if output is None:
         _show(files, opened.format_)
         return
-    for path, text in files.items():
-        try:
-            folder.write(output, path, text)
-        except OSError as error:
-            reason = (error.strerror or str(error)).lower()
-            raise click.UsageError(f"cannot write {os.path.join(output, path)}: {reason}") from error
-        if ctx.obj.verbosity >= 0:
-            click.echo(f"wrote {os.path.join(output, path)}")
+    try:
+        for path in exported.in_the_way(output, files):
+            opened.told.append(emitting.NOT_OURS.at(
+                Span(os.path.join(output, path)), path=path,
+                hint="or it was edited since; move it away, or export to another folder",
+            ))
+        if not has_errors(opened.told):
+            exported.write(output, files)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise click.UsageError(f"cannot write {error.filename or output}: {reason}") from error
+    written = [] if has_errors(opened.told) else [os.path.normpath(os.path.join(output, path)) for path in files]
+    if opened.format_ == "json":
+        end(ctx, opened, {"written": written})
+    for path in written if ctx.obj.verbosity >= 0 else ():
+        click.echo(f"wrote {path}")
+    end(ctx, opened)
 
 
 def _show(files: dict[str, str], format_: str) -> None:

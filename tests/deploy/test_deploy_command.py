@@ -343,3 +343,21 @@ def test_it_is_exported(robot: Path, rcyaml: Rcyaml) -> None:
     assert 'server id="arm"' in deploy(rcyaml, "export", "--as", "icegrid").stdout
     assert "wrote out/Robot-arm.service" in deploy(rcyaml, "export", "--as", "systemd", "-o", "out").stdout
     assert (robot / "out/Robot-arm.service").stat().st_mode & 0o077 == 0
+
+
+def test_an_export_overwrites_only_what_it_wrote(robot: Path, rcyaml: Rcyaml) -> None:
+    def run() -> Result:
+        return deploy(rcyaml, "export", "--as", "rcmanager", "-o", ".")
+
+    write_tree(robot, {"Robot.xml": "<rcmanager/>"})  # what the deployment was migrated from
+    refused = run()
+    assert refused.exit_code == 1 and "'Robot.xml' is there already" in refused.stderr
+    assert (robot / "Robot.xml").read_text(encoding="utf-8") == "<rcmanager/>"
+    (robot / "Robot.xml").unlink()
+    assert run().exit_code == 0
+    write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("600", "601")})
+    assert run().exit_code == 0 and "601" in (robot / "Robot.xml").read_text(encoding="utf-8")
+    again = deploy(rcyaml, "export", "--as", "rcmanager", "-o", ".", "--format", "json")
+    assert json.loads(again.stdout)["written"] == ["Robot.xml"]
+    write_tree(robot, {"Robot.xml": "edited"})
+    assert run().exit_code == 1

@@ -31,6 +31,7 @@ _GENERAL = {
 }
 _SPACE = 100
 _PORT = re.compile(r"-p\s+([0-9]+)")
+_SPECIAL = re.compile(r"[][\\.*+?^${}()|]")
 _LOCAL = (LOOPBACK, "127.0.0.1", "::1")
 
 Kept = Mapping[str, object]
@@ -82,7 +83,7 @@ class _Exporter:
         made: dict[str, object] = {"workingDir": process.cwd, "upCommand": self.command(process, name)}
         if not kept:
             config = self.network.config_path(process)
-            made |= {"downCommand": f"pkill -f {shlex.quote(config or process.command[0])}", "configFile": config}
+            made |= {"downCommand": f"pkill -f {shlex.quote(self.pattern(process, config))}", "configFile": config}
             made |= {**self.place(process, number), "radius": "10.0", "color": "#AAAAAA"}
         given = {key: value for key, value in kept.items() if key not in _OWN}
         if "upCommand" in given and not self.still_means(process, _text(given["upCommand"])):
@@ -112,6 +113,12 @@ class _Exporter:
     def command(self, process: Process, name: str) -> str:
         told = shlex.join(words(process, self.network.config_path(process)))
         return f"rcremote {self.network.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {told}"
+
+    def pattern(self, process: Process, config: str) -> str:
+        """A regular expression for the command lines of a process and no other: its configuration is its own; without
+        one, all its words are needed."""
+        text = config or " ".join(process.command)
+        return _SPECIAL.sub(r"\\\g<0>", text) + ("( |$)" if config else "$")
 
     def still_means(self, process: Process, command: str) -> bool:
         """Whether a command of the file starts what the process is, on its host and in its folder."""

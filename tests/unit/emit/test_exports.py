@@ -143,3 +143,19 @@ def test_what_the_manager_said_counts_while_it_is_true() -> None:
     nodes, _ = facts(export(network, "rcmanager")["One.xml"])
     elements = {name: dict(attributes) for name, attributes in nodes["p"][1]}
     assert elements["upCommand"] == {"command": "rcremote localhost p / /opt/y"}
+
+
+def test_rcmanager_ends_what_it_started_and_nothing_else() -> None:
+    made = element_of(export(one("600", "(a|b)"), "rcmanager")["One.xml"], "downCommand")
+    program, option, pattern = shlex.split(made)
+    assert (program, option) == ("pkill", "-f")
+    assert re.search(pattern, "/bin/true 600 (a|b)") and re.search(pattern, "sh /bin/true 600 (a|b)")
+    assert not re.search(pattern, "/bin/true 600 (a|b)c") and not re.search(pattern, "/bin/true 6")
+    configured = export(speaking(), "rcmanager")["Head.xml"]
+    assert "config/mouth( |$)" in configured  # not also what has the configuration mouth2
+
+
+def element_of(text: str, name: str) -> str:
+    found = ElementTree.fromstring(text).find(f".//{name}")
+    assert found is not None
+    return found.attrib["command"]
