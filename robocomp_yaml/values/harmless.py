@@ -19,7 +19,7 @@ from robocomp_yaml.model.parameters import (
 )
 from robocomp_yaml.source.properties import unwritable
 
-_ODD = frozenset("\r\n\0\t\ufeff$")
+_ODD = frozenset('\r\n\0\t\ufeff$"')
 
 
 def is_harmless(parameters: Parameters, data: dict[str, Any]) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import msgspec
@@ -12,12 +13,14 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedValues
 from robocomp_yaml.model.build_interface import text
+from robocomp_yaml.model.parameters import Parameters
 from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 from robocomp_yaml.values.effective import Effective
 from robocomp_yaml.values.write import Property, Writer
 
 CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
+_OF_TOML = re.compile(r"(?:Endpoints|Period|Agent)\.|Proxies\.(?!.*Prefix$)")  # as in the components' run time
 _OF_PORTS = ("endpoints", "proxies", "topics")
 
 
@@ -50,15 +53,16 @@ def properties(
     entry = root.entries.get("parameters") or root.entries.get("component")
     head = entry[0].span if entry else Span(root.file)
     quote = quoted or form == FLAT_TOML
-    writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote)
     sections = [
         Section("Where this component serves its interfaces", list(_endpoints(values, form, quote))),
         Section("Where the components are that it requires", list(_proxies(values, form, quote))),
         Section("Topics", list(_topics(values, form, quote))),
-        Section("Parameters", writer.write(effective.data, effective.place)),
         Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in given(values, "ice")]),
         Section("Others", [_property(key, node, False) for key, node in given(values, "properties")]),
     ]
+    unquotes = _seems_toml(effective.parameters, sections)
+    writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote, unquotes)
+    sections.insert(3, Section("Parameters", writer.write(effective.data, effective.place)))
     faults = list(writer.faults)
     exact = {key: node.lexeme for key, node in given(values, "legacy", "exact") if isinstance(node, Scalar)}
     seen: dict[str, Property] = {}
@@ -76,6 +80,14 @@ def properties(
                 kept.append(made)
         section.properties = kept
     return [section for section in sections if section.properties], faults
+
+
+def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:
+    """Whether components take the file for one that has its texts in quotes, by some of its keys."""
+    spelled = [key for each in parameters.spellings for key in (each.key, each.count, *(key for _, key in each.fields))]
+    own = [f"{member.name}." for member in parameters.root.members]
+    others = [made.key for section in sections for made in section.properties]
+    return any(_OF_TOML.match(key) for key in (*spelled, *own, *others))
 
 
 def as_dict(sections: list[Section]) -> dict[str, str]:

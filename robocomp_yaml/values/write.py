@@ -50,12 +50,14 @@ class Property(msgspec.Struct, frozen=True):
 
 class Writer(msgspec.Struct):
     """Writes the parameters. `only_given`: defaults are left out. `quote`: text stands in double quotes, as in flat
-    TOML. `head` is where faults are shown that have no line of their own."""
+    TOML. `unquotes`: whoever reads the file takes such quotes away. `head` is where faults are shown that have no line
+    of their own."""
 
     parameters: Parameters
     head: Span
     only_given: bool = False
     quote: bool = False
+    unquotes: bool = False
     faults: list[Diagnostic] = []
 
     def write(self, data: dict[str, Any], place: Place | None) -> list[Property]:
@@ -126,9 +128,6 @@ class Writer(msgspec.Struct):
         read: Callable[[str], Any] | None = None if is_text else lambda other: lexemes.read(type_, other)
         if self.quote and is_text and '"' not in text:
             text, read = f'"{text}"', unquoted
-        elif self.quote and is_text and unquoted(text) != text:
-            self.fault(where, path, "in quotes, it would be read without them")
-            return
         yield from self.checked(Property(key, text, span_of(where), read), where, path)
 
     def checked(self, made: Property, where: Where, path: Path) -> Iterator[Property]:
@@ -147,6 +146,9 @@ class Writer(msgspec.Struct):
                 return None
             if lexemes.REFERENCE.match(data):
                 self.fault(where, path, "it would be read as a reference to the environment")
+                return None
+            if (self.quote or self.unquotes) and unquoted(data) != data:
+                self.fault(where, path, "in quotes, it would be read without them")
                 return None
             return data
         if isinstance(type_, BasicType) and type_.is_integer:
@@ -173,6 +175,7 @@ class Writer(msgspec.Struct):
         element, keys = type_.element, set()
         for index, item in enumerate(data):
             here, inner, number = step(where, index), (*path, index), str(index + spelling.first)
+            told = len(self.faults)
             if spelling.fields:
                 assert isinstance(element, RecordType)
                 written = list(self.fields(spelling, element, item, here, inner, number))
@@ -183,7 +186,7 @@ class Writer(msgspec.Struct):
                 assert isinstance(element, BasicType | EnumType)
                 key = Template(spelling.key).fill({"i": number})
                 written = list(self.scalar(element, item, here, inner, key))
-            if not written and not spelling.count:
+            if not written and not spelling.count and told == len(self.faults):
                 self.fault(here, inner, "its row would be empty")
             for made in written:
                 if made.key in keys:

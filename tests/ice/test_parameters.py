@@ -38,6 +38,7 @@ constraints:
   - {that: "all(m.min < m.max for m in motors)", else: a motor's min must be below its max}
 legacy:
   device: Arm.Device
+  period.compute: Period.Compute
   motors: {key: "Arm.M{i}", columns: [name, min, max, vel], count: Arm.NumMotors}
 """
 CDSL = "component: ParaComp\nlanguage: {language}\nparameters: para.pdsl.yaml\nperiod: 20 ms\n"
@@ -193,6 +194,13 @@ def changed(asked: Any, **changes: str) -> dict[str, Any]:
 
 def test_values_of_the_config(component: Component, start: Start) -> None:
     component.run(start).wait_for(FIRST)
+
+
+def test_robocomps_spelling_of_the_period(component: Component, start: Start) -> None:
+    component.write(Period_Compute="30")
+    running = component.run(start).wait_for("ParaComp is running")
+    assert f"{FIRST[:-2]}30\n" in running.output
+    assert "WARNING" not in running.output
 
 
 def test_the_command_line_has_the_last_word(component: Component, start: Start) -> None:

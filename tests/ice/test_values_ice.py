@@ -90,7 +90,7 @@ MOTOR = {
         "ids": {"key": "Id{i}"}, "byKey": {"key": "ID:{name}-{kind}", "columns": ["min"]}, "device": "Bus.Device",
     },
 }
-WORDS = st.sampled_from(("a", "b c", "x#", "=", "\\")) | TEXTS | HARD_TEXTS
+WORDS = st.sampled_from(("a", "b c", "x#", "=", "\\", '"q"')) | TEXTS | HARD_TEXTS
 MOTORS = st.fixed_dictionaries(
     {"name": WORDS, "min": st.floats(-5, 5) | st.integers(-5, 5)},
     optional={"kind": st.sampled_from(("slow", "fast")), "tag": WORDS, "note": WORDS, "on": st.booleans()},
@@ -107,6 +107,15 @@ SPELLED = st.fixed_dictionaries({
 def test_spelled_values_come_back_or_are_refused(by_ice, data: Data) -> None:
     of = linked(MOTOR)
     for name, value in data.items():  # one at a time: a fault of one hides nothing of another
+        simple = {"motors": [], "one": {"name": "x", "min": 1}, "groups": [], "table": [], "device": "d"}
+        comes_back(by_ice, of, {**simple, name: value})
+
+
+@given(SPELLED)
+@settings(RELAXED, max_examples=20)
+def test_spelled_values_of_files_that_seem_to_be_toml(by_ice, data: Data) -> None:
+    of = linked({**MOTOR, "legacy": {**MOTOR["legacy"], "period.compute": "Period.Compute"}})
+    for name, value in data.items():
         simple = {"motors": [], "one": {"name": "x", "min": 1}, "groups": [], "table": [], "device": "d"}
         comes_back(by_ice, of, {**simple, name: value})
 

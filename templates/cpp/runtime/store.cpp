@@ -58,12 +58,13 @@ std::vector<Problem> Store::problems(const Texts& properties, const Texts& overr
 
 Store::Found Store::read(Texts properties, const Texts& overrides) const
 {
+    auto known = properties;
     const auto robocomp = properties.find("Period.Compute"); // RoboComp's own spelling
     if (robocomp != properties.end())
     {
-        properties.emplace("period.compute", robocomp->second);
+        known.emplace("period.compute", robocomp->second);
     }
-    Reader reader(properties, table_.spellings);
+    Reader reader(known, table_.spellings);
     auto read = reader.read(table_.kind);
     std::set<std::string> used = reader.used();
     for (const auto& [key, text] : overrides)

@@ -161,9 +161,10 @@ class Store:
     ) -> tuple[Any, dict[Path, str], Mapping[str, str]]:
         """Values, references, and the properties that are nobody's. `overrides` are of the command line; they are
         paths, whatever the table says."""
-        if "period.compute" not in properties and "Period.Compute" in properties:  # RoboComp's own spelling
-            properties = {**properties, "period.compute": properties["Period.Compute"]}
-        reader = Reader(properties, self.table.spellings)
+        known = {**properties}
+        if "Period.Compute" in properties:  # RoboComp's own spelling
+            known.setdefault("period.compute", properties["Period.Compute"])
+        reader = Reader(known, self.table.spellings)
         read = reader.read(self.kind)
         for key, text in overrides.items():
             steps = _steps(key)

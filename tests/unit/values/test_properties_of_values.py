@@ -95,6 +95,10 @@ def test_spellings(tmp_path: Path, parameters: str, expected: dict[str, str]) ->
     ('excluded: [["a;b"]]', "excluded cannot be a property of Ice: its separators cannot say 'a;b;'"),
     ('plain: [{name: a, tag: ""}]', "plain[0].tag cannot be a property of Ice: an optional one that is empty cannot be told "
      "from one that is left out"),
+    # By Period.Compute, components take the file for one that has its texts in quotes.
+    ("device: '\"a\"'", "device cannot be a property of Ice: in quotes, it would be read without them"),
+    ("motors: [{name: '\"a\"'}]",
+     "motors[0].name cannot be a property of Ice: in quotes, it would be read without them"),
     ("tags: [{from: 1, to: 2}, {from: 1, to: 2}]",
      "tags[1] cannot be a property of Ice: another row is the property ID:1-2 already"),
 ])
