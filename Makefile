@@ -8,7 +8,7 @@ ICE := zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzero
   zeroc-icegrid zeroc-ice-utils
 QT := qt6-base-dev
 TOOLS := python3-venv cmake g++ make ninja-build nodejs npm git openssl iproute2
-# More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server.
+# More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server, and systemd.
 MORE ?=
 
 .PHONY: help demo test fast lint bench clean

@@ -31,7 +31,7 @@ def _unit(network: Network, process: Process, here: set[str]) -> str:
         "[Unit]", f"Description={_plain(f'{process.name} of {network.name}')}", f"PartOf={_target(network)}",
         "After=network-online.target", "Wants=network-online.target",
         *(line for name in needed for line in (f"After={name}", f"Wants={name}")),
-        f"StartLimitIntervalSec={restart.window:g}", f"StartLimitBurst={restart.tries}",
+        f"StartLimitIntervalSec={restart.window:g}", f"StartLimitBurst={restart.tries + 1}",  # systemd counts starts
         "", "[Service]", "Type=exec",
     ]  # fmt: skip
     if process.cwd and process.kind != ICESTORM:
