@@ -135,7 +135,7 @@ class _Starts:
             for step in (self._plan.steps[name] for name in self._order):
                 if step.name in starting:
                     # Those that close a cycle come later in the order, and are not waited for.
-                    before = [self._tasks[name] for name in _after(step) if name in self._tasks]
+                    before = {name: self._tasks[name] for name in _after(step) if name in self._tasks}
                     self._tasks[step.name] = asyncio.create_task(self._start(step, before))
                 else:
                     self._tasks[step.name] = asyncio.create_task(self._wait_for(step))
@@ -164,9 +164,12 @@ class _Starts:
             self._report(Event(name, SKIPPED))
         return self._outcome
 
-    async def _start(self, step: Step, before: list[asyncio.Task[bool]]) -> bool:
-        """Starts a process when all it is after are ready; whether it is ready then."""
-        if before and not all(await asyncio.gather(*(asyncio.shield(task) for task in before))):
+    async def _start(self, step: Step, before: Mapping[str, asyncio.Task[bool]]) -> bool:
+        """Starts a process when all it is after are ready, or have failed where it can do without; whether it is ready
+        then."""
+        ready = await asyncio.gather(*(asyncio.shield(task) for task in before.values()))
+        optional = step.spec.process.optional if step.spec else ()
+        if not all(is_ready or name in optional for name, is_ready in zip(before, ready, strict=True)):
             return False
         self._report(Event(step.name, STARTING))
         return await self._ends_ready(step, self._begin)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from msgspec.structs import replace
 
@@ -19,7 +19,7 @@ from robocomp_yaml.network.drafts import Drafts, drafts_of
 from robocomp_yaml.network.endpoints import endpoint_faults
 from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import Network
-from robocomp_yaml.network.order import AFTER, Need, ordered
+from robocomp_yaml.network.order import AFTER, Need, optional, ordered
 from robocomp_yaml.network.targets import Targets
 from robocomp_yaml.network.topics import Topics
 
@@ -51,7 +51,7 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
     topics.resolve()
     network.connections = [*connections.found, *gates.found, *topics.found]
     diagnostics = [*endpoint_faults(drafts), *targets.diagnostics, *connections.diagnostics, *topics.diagnostics]
-    needs = [*_said(drafts), *connections.needs, *gates.needs, *topics.needs]
+    needs = [*_said(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
     wanted = {need.target for need in needs if need.source in enabled}
     for storm in drafts.storms.values():
@@ -70,10 +70,13 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
     return network, diagnostics
 
 
-def _said(drafts: Drafts) -> Iterable[Need]:
-    """What the document says by `after:`."""
+def _said(drafts: Drafts, gates: Gates) -> Iterable[Need]:
+    """What the document says by `after:`. A group is ready when those can reach it that are outside."""
     for draft in drafts.drafts.values():
         texts = draft.instance.entry.after
+        for text in texts:
+            for gate in gates.before(draft.instance, text.text):
+                yield Need(draft.name, gate.name, "", AFTER, text.span)
         for target in draft.instance.after:
             name = target.name if isinstance(target, LinkedStorm) else (target.process or target).name
             span = next((text.span for text in texts if text.text == target.name), draft.span)
@@ -81,10 +84,12 @@ def _said(drafts: Drafts) -> Iterable[Need]:
                 yield Need(draft.name, name, "", AFTER, span)
 
 
-def _put_in_order(network: Network, needs: Iterable[Need]) -> list[Diagnostic]:
+def _put_in_order(network: Network, needs: Sequence[Need]) -> list[Diagnostic]:
     waves, after, diagnostics = ordered((process.name for process in network.enabled()), needs)
     network.order = waves
+    can_be_absent = optional(needs)
     for name, targets in after.items():
         if targets:
-            network.processes[name] = replace(network.processes[name], after=targets)
+            without = tuple(target for target in targets if target in can_be_absent[name])
+            network.processes[name] = replace(network.processes[name], after=targets, optional=without)
     return diagnostics

@@ -56,6 +56,15 @@ class Gates(msgspec.Struct):
     def is_gate(self, draft: Draft) -> bool:
         return draft in self._of.values()
 
+    def before(self, source: LinkedInstance, name: str) -> Iterator[Draft]:
+        """The gates of what `source`, which stands outside, calls a group, and of the groups inside of that."""
+        if not self._of:
+            return
+        for group in self.drafts.linked.find(name, source.scope)[0]:
+            members = group.members if isinstance(group, LinkedGroup) else []
+            if source not in members:
+                yield from (gate for inner, gate in self._of.items() if set(inner.members) <= set(members))
+
     def through(self, offer: Offer, source: LinkedInstance, *, inside: LinkedGroup | None = None) -> Offer:
         """What `source` is connected to in place of a member's offer: the outermost gate on the way. `inside` is a
         group whose own gate asks."""

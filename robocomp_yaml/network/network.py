@@ -85,7 +85,8 @@ class ConfigFile(msgspec.Struct, frozen=True):
 class Process(Located, frozen=True, forbid_unknown_fields=True):
     """One process of the network. `command` is the program and its arguments (no shell ever sees them), its first an
     absolute path, or a bare name that PATH finds; the placeholder CONFIG in an argument stands for the absolute path
-    of `config`. `after` are the processes that must be ready before. `aliases` are further names of the same process.
+    of `config`. `after` are the processes that must be ready before; where one of these that is `optional` fails, this one starts
+    all the same. `aliases` are further names of the same process.
     `watched` are the files whose change is a reason to restart it (its executable, code and configuration).
     `is_ice` is False for a program that knows nothing of Ice. `folders` are to be there before it starts.
     """
@@ -99,6 +100,7 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     config: ConfigFile | None = None
     endpoints: tuple[Endpoint, ...] = ()
     after: tuple[str, ...] = ()
+    optional: tuple[str, ...] = ()
     ready: Readiness = Readiness()
     restart: Restart = Restart()
     watched: tuple[str, ...] = ()
@@ -109,7 +111,7 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     is_ice: bool = True
     component: str = ""
     """The component's name in its CDSL, '' for other programs."""
-    build: str = field(default="", compare=False)
+    build: str = ""
     """What brings about a component's executable where there is none: a hint, as its user would type it from here."""
     extra: tuple[tuple[str, object], ...] = ()
     """What only an exporter needs: the entries of `x-rcmanager`; below `aliases`, those of its other names."""

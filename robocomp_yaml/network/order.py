@@ -45,6 +45,21 @@ def ordered(
         diagnostics += told
 
 
+def optional(needs: Iterable[Need]) -> dict[str, set[str]]:
+    """Of each process those that it can do without: whatever it needs of them, it ignores that they are absent."""
+    found: dict[str, set[str]] = {}
+    needed = []
+    for need in needs:
+        found.setdefault(need.source, set())
+        if need.absent == IGNORE and need.port != AFTER:
+            found[need.source].add(need.target)
+        else:
+            needed.append(need)
+    for need in needed:
+        found[need.source].discard(need.target)
+    return found
+
+
 def _waves(after: Mapping[str, Iterable[str]], position: Mapping[str, int]) -> list[tuple[str, ...]] | None:
     """None where there is a circle."""
     sorter = TopologicalSorter(after)

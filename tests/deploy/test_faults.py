@@ -63,10 +63,11 @@ def test_what_ran_before_is_rolled_back_to(place: Place) -> None:
 
 def test_the_independent_go_on_where_that_is_wanted(place: Place) -> None:
     result = place.up(
-        shell("a", FAILS, restart=ONCE), sleeper("b", "a"), sleeper("c"), on_failure=operations.KEEP_GOING
-    )
+        shell("a", FAILS, restart=ONCE), sleeper("b", "a"), sleeper("c"), replace(sleeper("d", "a"), optional=("a",)),
+        on_failure=operations.KEEP_GOING,
+    )  # fmt: skip
     assert codes(result) == ["RC7004"] and result.outcome.skipped == ["b"]
-    assert {name for name, pid in place.pids().items() if pid} == {"c"}
+    assert {name for name, pid in place.pids().items() if pid} == {"c", "d"}
 
 
 def test_one_that_is_never_ready(place: Place, free_port: Ports) -> None:

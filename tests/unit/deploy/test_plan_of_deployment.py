@@ -111,7 +111,7 @@ def test_what_was_done_is_undone() -> None:
     done = plan(network(changed, B, new), before)
     now = {process.name: running(process) for process in (changed, B, new)}
     back = undo(done, before, now).steps
-    assert {name: step.action for name, step in back.items()} == {"a": START, "b": KEEP, "gone": START, "new": STOP}
+    assert {name: step.action for name, step in back.items()} == {"a": START, "gone": START, "new": STOP}
     assert back["a"].spec == before["a"].spec and back["gone"].spec == before["gone"].spec
 
 

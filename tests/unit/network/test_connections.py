@@ -193,6 +193,33 @@ def test_gates_of_groups_in_groups_stand_behind_each_other() -> None:
     assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
 
 
+def test_who_is_after_a_group_is_after_its_gates() -> None:
+    found = network(deployed(
+        "components:\n  mouth: {component: mouth, after: [other]}\n  other: {program: sleep}\n"
+        "  watch: {program: sleep, after: [face]}\ngroups:\n"
+        "  lips: {components: [mouth], expose: {Mouth: {member: mouth, rate: 5}}}\n"
+        "  face: {components: [lips, other]}\n"
+    ))
+    assert set(found.processes["watch"].after) == {"lips.gate", "mouth", "other"}
+    assert found.processes["mouth"].after == ("other",)
+
+
+def test_a_member_is_not_after_the_gate_that_needs_it() -> None:
+    found = network(deployed(
+        "components:\n  mouth: {component: mouth, after: [lips]}\n"
+        "groups: {lips: {components: [mouth], expose: {Mouth: {member: mouth, rate: 5}}}}\n"
+    ))
+    assert found.order == [("mouth",), ("lips.gate",)]
+
+
+def test_what_one_can_do_without_is_optional() -> None:
+    files = deployed("components:\n  speech: {component: speech}\n  mouth: {component: mouth}\n")
+    text = str(files["speech/speech.cdsl.yaml"]).replace("[Mouth]", "[{Mouth: {interface: Mouth, absent: ignore}}]")
+    speech = network({**files, "speech/speech.cdsl.yaml": text}).processes["speech"]
+    assert (speech.after, speech.optional) == (("mouth",), ("mouth",))
+    assert network(files).processes["speech"].optional == ()
+
+
 def test_the_inner_of_two_groups_may_stand_later() -> None:
     found = network(deployed(
         "components:\n  speech: {component: speech, connect: {Mouth: face}}\n  mouth: {component: mouth}\ngroups:\n"

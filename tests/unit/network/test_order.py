@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.order import AFTER, Need, ordered
+from robocomp_yaml.network.order import AFTER, Need, optional, ordered
 
 Arrow = tuple[str, str, str]
 
@@ -25,6 +25,11 @@ def test_each_stands_behind_all_that_it_needs() -> None:
     waves, after, told = ordered("abcdef", needs(*arrows))
     assert waves == [("c", "d", "f"), ("b", "e"), ("a",)] and not told
     assert after["a"] == ("b", "d")
+
+
+def test_what_one_can_do_without() -> None:
+    arrows = [("a", "b", "ignore"), ("a", "c", "ignore"), ("a", "c", "wait"), ("a", "d", "ignore"), ("a", "d", AFTER)]
+    assert optional(needs(*arrows)) == {"a": {"b"}}
 
 
 @pytest.mark.parametrize(("arrows", "first"), [
