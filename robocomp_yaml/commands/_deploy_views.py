@@ -70,7 +70,8 @@ def result_data(result: Result) -> dict[str, object]:
     }
 
 
-def status_text(network: Network, found: Sequence[Status], color: bool) -> str:
+def status_text(network: Network, found: Sequence[Status], color: bool, room: int | None = None) -> str:
+    """`room` are the columns of a terminal: what is served is cut where it would not fit."""
     rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "SERVES")]
     for status in found:
         running = status.running
@@ -88,10 +89,14 @@ def status_text(network: Network, found: Sequence[Status], color: bool) -> str:
             )
         )
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    if room is not None:
+        widths[-1] = min(widths[-1], max(room - sum(widths[:-1]) - 2 * len(widths[:-1]), len(rows[0][-1])))
     lines = []
     states: list[Status | None] = [None, *found]
     for row, one in zip(rows, states, strict=True):
         cells = [f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)]
+        if len(row[-1]) > widths[-1]:
+            cells[-1] = f"{row[-1][: widths[-1] - 1]}…"
         if one:
             tint = "31" if one.is_down else "32" if one.is_ready else "33" if one.running else "2"
             cells[1] = _paint(cells[1], tint, color)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import shutil
 import sys
 from collections.abc import Collection, Coroutine, Iterable
 from contextlib import ExitStack
@@ -175,7 +176,8 @@ def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
     code = 1 if any(one.is_down for one in found) else 0
     if opened.format_ == "json":
         end(ctx, opened, {"processes": views.status_data(opened.network, found)}, code)
-    click.echo(views.status_text(opened.network, found, _options.colored(ctx)), color=ctx.color)
+    room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+    click.echo(views.status_text(opened.network, found, _options.colored(ctx), room), color=ctx.color)
     end(ctx, opened, code=code)
 
 
@@ -224,7 +226,7 @@ def _run(
             return asyncio.run(work)
         reason = "another rcyaml is changing this deployment"
     except DeployFailed as error:
-        opened.told += [*opened.engine.notes, error.diagnostic]
+        opened.told += [*opened.engine.notes, error.diagnostic, *error.more]
         opened.engine.notes = []
         end(ctx, opened)
         raise
