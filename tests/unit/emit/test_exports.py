@@ -6,6 +6,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -113,6 +114,18 @@ def test_compose() -> None:
     assert head["mouth"]["depends_on"] == {"motors": {"condition": "service_healthy"}}  # storm is on another host
     assert head["viewer"]["profiles"] == ["disabled"] and "volumes" not in head["viewer"]
     assert files["head/config/mouth"] == speaking().processes["mouth"].config.text  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("network", [speaking(), one(*ODD), large(50)], ids=["head", "odd", "large"])
+def test_compose_fits_the_specification(tmp_path: Path, network: Network) -> None:
+    pytest.importorskip("check_jsonschema", reason="the schema of compose files comes with check-jsonschema")
+    write_tree(tmp_path, export(network, "compose"))
+    files = sorted(tmp_path.rglob("compose.yaml"))
+    judge = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", "vendor.compose-spec"]
+    done = subprocess.run([*judge, *files], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    files[0].write_text(files[0].read_text(encoding="utf-8").replace("network_mode:", "net_mode:"), encoding="utf-8")
+    assert subprocess.run([*judge, *files], capture_output=True).returncode == 1
 
 
 def test_a_secret_is_named_and_not_told(monkeypatch: pytest.MonkeyPatch) -> None:
