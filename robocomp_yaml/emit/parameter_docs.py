@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.parameters import EnumType, ListType, MapType, Member, RecordType, Type
 from robocomp_yaml.values.json_schema import in_words, shortened
-
-_CODE_OR_TAG = re.compile(r"((`+)(?!`).*?(?<!`)\2(?!`))|(?<!\\)<(?!https?://)", re.DOTALL)
+from robocomp_yaml.values.prose import prose
 
 
 def parameter_docs(linked: LinkedComponent) -> str:
@@ -21,7 +19,7 @@ def _lines(linked: LinkedComponent) -> Iterator[str]:
     yield f"# Parameters of {linked.component.name}"
     yield ""
     if parameters.doc:
-        yield _text(parameters.doc)
+        yield prose(parameters.doc)
         yield ""
     yield from _table("Parameter", parameters.root, "")
     for type_ in parameters.types:
@@ -29,7 +27,7 @@ def _lines(linked: LinkedComponent) -> Iterator[str]:
         yield f"## {type_.name}"
         yield ""
         if type_.doc:
-            yield _text(type_.doc)
+            yield prose(type_.doc)
             yield ""
         if isinstance(type_, RecordType):
             yield from _table("Member", type_, "")
@@ -42,7 +40,7 @@ def _lines(linked: LinkedComponent) -> Iterator[str]:
         yield "## Constraints"
         yield ""
         for constraint in parameters.constraints:
-            otherwise = f": {_text(constraint.otherwise)}, otherwise." if constraint.otherwise else ""
+            otherwise = f": {prose(constraint.otherwise)}, otherwise." if constraint.otherwise else ""
             yield f"- {_code(constraint.text)}{otherwise}"
     if parameters.spellings:
         yield ""
@@ -100,15 +98,10 @@ def _meaning(member: Member) -> str:
 
 
 def _cell(text: str) -> str:
-    return _text(" ".join(text.split())).replace("|", "\\|")
+    return prose(" ".join(text.split())).replace("|", "\\|")
 
 
 def _code(text: str) -> str:
     """In as many backquotes as it takes."""
     fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
     return f"{fence} {text} {fence}" if "`" in text else f"{fence}{text}{fence}"
-
-
-def _text(doc: str) -> str:
-    """A doc, which may be Markdown, but no HTML: `<name>` is to be seen."""
-    return _CODE_OR_TAG.sub(lambda found: found[0] if found[1] else "\\<", doc)

@@ -30,6 +30,7 @@ from robocomp_yaml.model.parameters import (
     unit_of,
 )
 from robocomp_yaml.source.schema import schema as schema_of_kind
+from robocomp_yaml.values.prose import prose
 from robocomp_yaml.values.spell_yaml import flow
 
 Schema = dict[str, Any]
@@ -74,7 +75,7 @@ def document_schema(parameters: Parameters, component: LinkedComponent | None, m
     made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
     made["title"] = f"Values of {name}"
     made["description"] = f"The values of {name}'s parameters, and where it and the others are."
-    made["markdownDescription"] = made["description"] + (f"\n\n{parameters.doc}" if parameters.doc else "")
+    made["markdownDescription"] = made["description"] + (f"\n\n{prose(parameters.doc)}" if parameters.doc else "")
     made["examples"] = [{"parameters": {}}]
     maker = _Maker(mode)
     head = {key: made["properties"]["parameters"][key] for key in ("title", "description", "markdownDescription")}
@@ -206,7 +207,7 @@ class _Maker(msgspec.Struct):
             made["title"] = type_.name
         if type_.doc and self.mode != COMPLETE:
             made["description"] = type_.doc
-            made |= {"markdownDescription": type_.doc} if self.for_editors else {}
+            made |= {"markdownDescription": prose(type_.doc)} if self.for_editors else {}
         return made
 
     def member(self, member: Member) -> Schema:
@@ -281,12 +282,20 @@ def _about(member: Member, kind: str, for_editors: bool) -> Schema:
         text += "".join(f"\n- `{name}`: {said}" for name, said in member.type.enumerators if said)
     made: Schema = {"title": f"{member.name} ({unit})" if unit else member.name}
     made["description"] = "\n".join(part for part in (doc, text) if part)
-    if member.default is not None:
+    can_be_shown = not for_editors or _is_simple(example(member))
+    if member.default is not None and can_be_shown:
         made["default"] = member.default.data
     if for_editors:
-        made["markdownDescription"] = "\n\n".join(part for part in (doc, text) if part)
-        made["examples"] = [example(member)]
+        made["markdownDescription"] = "\n\n".join(part for part in (prose(doc), prose(text)) if part)
+        made |= {"examples": [example(member)]} if can_be_shown else {}
     return made
+
+
+def _is_simple(data: object) -> bool:
+    """Whether no list holds lists or mappings: of those, editors insert `[object Object]`."""
+    if isinstance(data, dict):
+        return all(map(_is_simple, data.values()))
+    return not (isinstance(data, list) and any(isinstance(item, dict | list) for item in data))
 
 
 def shortened(data: object) -> str:

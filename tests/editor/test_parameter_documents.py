@@ -105,6 +105,14 @@ def test_values_are_completed(editor: Workbench, modeline: str, text: str, label
     assert [proposal.label for proposal in editor.complete_with(modeline, text)] == labels
 
 
+def test_lists_of_records_are_inserted_as_such(editor: Workbench, modeline: str) -> None:
+    """What an editor makes of an example, or of a default, that nests is `[object Object]`."""
+    inserted = {proposal.label: proposal.text for proposal in editor.complete_with(modeline, VALUES + "  |")}
+    assert inserted["motors"] == "motors: "
+    (proposal,) = editor.complete_with(modeline, VALUES + "  motors: |")
+    assert (proposal.label, proposal.text) == ("list of Motor", "[{name: text, vel: 0.9}]")
+
+
 def test_values_are_checked(editor: Workbench, modeline: str) -> None:
     documents = [
         (editor.folder / "documents" / f"v{number}.config.yaml", f"{modeline}{VALUES}{text}\n")
