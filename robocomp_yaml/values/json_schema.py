@@ -30,6 +30,7 @@ from robocomp_yaml.model.parameters import (
     unit_of,
 )
 from robocomp_yaml.source.schema import schema as schema_of_kind
+from robocomp_yaml.values.example_text import example_text
 from robocomp_yaml.values.prose import prose
 from robocomp_yaml.values.spell_yaml import flow
 
@@ -316,7 +317,9 @@ def example_of(type_: Type) -> object:
         case BasicType(name="bool"):
             return False
         case BasicType(name="string"):
-            return str(type_.values[0].value) if type_.values else "text"
+            if type_.values:
+                return str(type_.values[0].value)
+            return example_text(type_.pattern) if type_.pattern else "text"
         case BasicType():
             return _example_number(type_)
         case ListType(element=element, size=size):
