@@ -323,11 +323,16 @@ def example_of(type_: Type) -> object:
         case BasicType():
             return _example_number(type_)
         case ListType(element=element, size=size):
-            return [example_of(element)] * max(1, min(size.least, 3))
-        case MapType(element=element):
-            return {"name": example_of(element)}
+            return [example_of(element)] * _count(size)
+        case MapType(element=element, size=size):
+            return {f"name{place or ''}": example_of(element) for place in range(_count(size))}
         case _:
             return {m.name: example(m) for m in type_.members if not m.optional}
+
+
+def _count(size: Size) -> int:
+    """How many entries an example has: enough, where that is not too many to read."""
+    return max(1, size.least if size.least <= 16 else 3)
 
 
 def _example_number(type_: BasicType) -> int | float:
