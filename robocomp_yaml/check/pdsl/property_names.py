@@ -13,7 +13,8 @@ from robocomp_yaml.values.spelling import exact_keys, row_templates
 
 _ICE = ("Ice", "IceStorm", "IceBox", "IceGrid", "IceSSL", "IceDiscovery", "IceLocatorDiscovery", "IcePatch2",
         "IceBridge", "IceMX", "Freeze", "Glacier2", "DataStorm")
-_OURS = {"Endpoints": "the endpoints", "Proxies": "the proxies", "TopicManager": "the topic manager"}
+_OURS = {"Endpoints": "the endpoints", "Proxies": "the proxies", "TopicManager": "the topic manager",
+         "statemachine": "the states of a state machine"}
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

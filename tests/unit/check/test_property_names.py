@@ -23,6 +23,8 @@ _INT = "{type: int, default: 1}"
      ["RC3117 the properties of 'Arm.x' start like those of the adapter Arm"]),
     ("Arm: {group: {Endpoints: {type: string, default: x}}}", "",
      ["RC3116 'Arm.Endpoints' and the endpoints of Arm are both the property 'Arm.Endpoints'"]),
+    ("statemachine: {group: {a: {type: int, default: 1}}}", "",
+     ["RC3116 'statemachine.a' and the states of a state machine are both the property 'statemachine.…'"]),
     ("MovedTopic: {group: {Endpoints: {type: string, default: x}}}", "",
      ["RC3116 'MovedTopic.Endpoints' and the endpoints of MovedTopic are both the property 'MovedTopic.Endpoints'"]),
     (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other are both the property 'OtherProxy'"]),
