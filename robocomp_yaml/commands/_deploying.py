@@ -67,8 +67,12 @@ def open_(
     if network is None or (has_errors(analysis.diagnostics) and not lenient):
         _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)
     assert network
-    told = [] if lenient else analysis.diagnostics
-    return Opened(path, network, make_engine(engine, network), format_, list(told), analysis.program.documents)
+    told: list[Diagnostic] = []
+    if not lenient:
+        from robocomp_yaml.deploy.outdated import outdated
+
+        told = analysis.with_more(outdated(analysis.program.deployments[os.path.realpath(path)]))
+    return Opened(path, network, make_engine(engine, network), format_, told, analysis.program.documents)
 
 
 def _document(path: str) -> str:

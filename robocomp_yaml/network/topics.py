@@ -100,12 +100,9 @@ class Topics(msgspec.Struct):
         component = first.instance.component
         assert component is not None
         port = (*component.publishes, *component.subscribes)[0]
-        shown = [f"'{other.name}'" for other in others[:_MANY]]
-        shown += [f"{len(others) - _MANY} more"] if len(others) > _MANY else []
-        more = f"; {', '.join(shown)} {'needs' if len(others) == 1 else 'need'} it, too" if others else ""
         return codes.NO_STORM.at(
             first.span, source=first.name, does="publishes" if port in component.publishes else "subscribes to",
-            topic=port.name, hint=f"add an IceStorm: `services: {{storm: {{icestorm: {{}}}}}}`{more}",
+            topic=port.name, hint=f"add an IceStorm: `services: {{storm: {{icestorm: {{}}}}}}`" + _too(others),
             related=[Related(f"{port.name} stands here", port.use.span)],
         )
 
@@ -155,11 +152,11 @@ class Topics(msgspec.Struct):
         is_closed = self.drafts.complete and not self.drafts.linked.is_included
         if first.is_out or not is_closed or not all(c.target for c in self.found if c.topic == topic):
             return
-        for end in ends:
-            self.diagnostics.append(codes.NOBODY_PUBLISHES.at(
-                end.span, source=end.draft.name, topic=topic, hint=self._other_names(end),
-                related=[Related(f"{end.port.name} is subscribed to here", end.port.use.span)],
-            ))
+        self.diagnostics.append(codes.NOBODY_PUBLISHES.at(
+            first.span, source=first.draft.name, topic=topic,
+            hint=self._other_names(first) + _too([end.draft for end in ends[1:]]),
+            related=[Related(f"{first.port.name} is subscribed to here", first.port.use.span)],
+        ))
 
     def _other_names(self, end: _End) -> str:
         """The names under which the same interface is published."""
@@ -170,3 +167,12 @@ class Topics(msgspec.Struct):
         if not published:
             return "add the component that publishes it"
         return f"it is published as {', '.join(published)}: `topics: {{{end.port.name}: {published[0]}}}`"
+
+
+def _too(others: list[Draft]) -> str:
+    """What lacks the same is told once, with all that do."""
+    if not others:
+        return ""
+    shown = [f"'{other.name}'" for other in others[:_MANY]]
+    shown += [f"{len(others) - _MANY} more"] if len(others) > _MANY else []
+    return f"; {', '.join(shown)} {'needs' if len(others) == 1 else 'need'} it, too"

@@ -134,6 +134,21 @@ def test_what_is_not_compiled_yet_is_told_with_how_to(rcyaml: Rcyaml, tmp_path: 
     assert told.exit_code == 1 and "`rcyaml compile mouth/mouth.cdsl.yaml` writes it" in told.stderr
 
 
+def test_what_was_compiled_before_its_interface_changed(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    interface = "module: RoboCompMouth\ninterfaces: {Mouth: {methods: {open: }}}\n"
+    component = "component: MouthComp\nlanguage: python\nimports: [../Mouth]\nimplements: [Mouth]\n"
+    document = "deployment: Robot\ncomponents:\n  mouth{i}: {component: mouth, instances: 2}\n"
+    tree = {"robot.ddsl.yaml": document, "Mouth.idsl.yaml": interface, "mouth/mouth.cdsl.yaml": component}
+    write_tree(tmp_path, tree)
+    assert rcyaml("compile").exit_code == 0
+    assert deploy(rcyaml, "plan").stderr == ""
+    write_tree(tmp_path, {"Mouth.idsl.yaml": interface.replace("open:", "close:")})
+    told = deploy(rcyaml, "plan")
+    assert told.exit_code == 0 and told.stderr.count("warning[RC7012]") == 1
+    assert "'mouth0' was compiled before Mouth.idsl.yaml changed" in told.stderr
+    assert "`rcyaml compile mouth/mouth.cdsl.yaml`" in told.stderr
+
+
 def test_a_second_name_means_the_same_process(robot: Path, rcyaml: Rcyaml, free_port: Ports) -> None:
     more = f"  hand: {{process: arm, endpoints: {{Hand: tcp -p {free_port()}}}}}\n"
     write_tree(robot, {"robot.ddsl.yaml": ROBOT + more})

@@ -138,6 +138,22 @@ LATE = Code(
     _FINE,
     f"{_UP} --timeout 3s",
 )
+_COMPILED: dict[str, str | bytes | None] = {
+    "robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  mouth: {component: mouth}\n",
+    "Mouth.idsl.yaml": "module: RoboCompMouth\ninterfaces:\n  Mouth:\n    methods:\n      open:\n",
+    "mouth/mouth.cdsl.yaml": "component: MouthComp\nlanguage: python\nimports: [../Mouth]\nimplements: [Mouth]\n",
+    "mouth/bin/MouthComp": "-> /bin/true",
+}
+OUTDATED = Code(
+    "RC7012",
+    "warning",
+    "'{name}' was compiled before {document} changed",
+    "What is called is what was compiled: a component that was not compiled since its interface changed fails the calls "
+    "of those that were, or misunderstands them. Compile all that are to speak with each other.",
+    {**_COMPILED, "mouth/slice/Mouth.ice": "// an earlier one\n"},
+    _COMPILED,
+    "deploy plan robot.ddsl.yaml",
+)
 NO_ANSWER = Code(
     "RC7010",
     "error",

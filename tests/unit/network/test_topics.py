@@ -101,6 +101,9 @@ def test_nobody_publishes_it() -> None:
     (found,) = faults(deployed(STORM + "components: {mind: {component: mind}}\n", mind=MIND))
     assert said(found) == ("RC4210", "robot.ddsl.yaml", 3, 14) and found.severity == "warning"
     assert found.hint == "add the component that publishes it"
+    two = "components:\n  mind{i}: {component: mind, instances: 2}\n"
+    (found,) = faults(deployed(STORM + two, mind=MIND))
+    assert found.hint == "add the component that publishes it; 'mind1' needs it, too"
 
 
 def test_both_ends_must_mean_the_same() -> None:
