@@ -6,10 +6,14 @@ IceGrid alone is a Python program that starts a registry and a node (plain TCP),
 and starts them all through the Admin API: no order, no readiness, no configuration. All begin with nothing running, and
 the runs of the three take turns. Then one process is killed again and again, until its next run exists: under IceGrid
 alone as an `always` server.
+
+The processes are `sleep`, and then, where there are g++ and Ice for C++, small servers of Ice, components to rcyaml,
+which count as up when all that they serve answers to `ice_ping`: the program of IceGrid alone pings them as well.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import signal
@@ -19,7 +23,9 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -27,13 +33,59 @@ from deploy import COUNT, back_after_kill, children, document, rcyaml, seconds
 
 CRASHES = 20
 PROXY = "IceGrid/Registry:tcp -h 127.0.0.1 -p {}"
+SERVER = Path(__file__).with_name("ice_server.cpp")
+FIRST_PORT = 21000
+COMPONENTS = {
+    "answer.idsl.yaml": "module: Bench\ninterfaces:\n  Answer: {methods: {ask: }}\n",
+    "answerer.cdsl.yaml": "component: Answerer\nlanguage: cpp\nimports: [answer]\nimplements: [Answer]\n",
+    "many.ddsl.yaml": (
+        "deployment: Many\ncomponents:\n"
+        f"  p{{i}}: {{component: ., instances: {COUNT}, executable: server, port: {FIRST_PORT}}}\n"
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Load:
+    """The same processes twice: as a document of rcyaml, and as the commands that IceGrid alone is given, with the
+    proxies that answer when they are up."""
+
+    document: Path
+    commands: list[list[str]]
+    proxies: list[str]
+
+
+def sleepers(folder: Path) -> Load:
+    folder.mkdir()
+    command = ["/bin/sh", "-c", "exec sleep 1000", "sh"]
+    return Load(document(folder / "many.ddsl.yaml", COUNT, COUNT), [command] * COUNT, [])
+
+
+def servers(folder: Path) -> Load | None:
+    """None where they cannot be built."""
+    folder.mkdir()
+    options = ["-O2", "-std=c++11", "-DICE_CPP11_MAPPING", "-lIce++11", "-pthread"]
+    command = ["g++", str(SERVER), "-o", str(folder / "server"), *options]
+    if shutil.which("g++") is None or subprocess.run(command, capture_output=True, check=False).returncode:
+        return None
+    for name, text in COMPONENTS.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    commands, proxies = [], []
+    for number in range(COUNT):
+        at = {"Answer": FIRST_PORT + number, "CommonBehavior": FIRST_PORT + COUNT + number}
+        lines = [f"{name}.Endpoints=tcp -h 127.0.0.1 -p {port}\n" for name, port in at.items()]
+        (folder / f"config{number}").write_text("".join(lines), encoding="utf-8")
+        commands.append([str(folder / "server"), str(folder / f"config{number}")])
+        proxies += [f"{name.lower()}:tcp -h 127.0.0.1 -p {port}" for name, port in at.items()]
+    return Load(folder / "many.ddsl.yaml", commands, proxies)
 
 
 class Alone:
     """A registry and a node of IceGrid's own, in a folder."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, load: Load) -> None:
         self.folder = folder
+        self.load = load
         with socket.create_server(("127.0.0.1", 0)) as probe:
             self.port = probe.getsockname()[1]
         self.daemons: list[subprocess.Popen[bytes]] = []
@@ -56,7 +108,8 @@ class Alone:
             "IceGrid.Node.AllowRunningServersAsRoot": "1",
         })  # fmt: skip
         script = [sys.executable, __file__, "alone", str(self.port), activation]
-        subprocess.run(script, check=True)
+        given = json.dumps([self.load.commands, self.load.proxies])
+        subprocess.run(script, input=given, text=True, check=True)
 
     def _answers(self) -> bool:
         with socket.socket() as probe:
@@ -76,20 +129,21 @@ class Alone:
 
 
 def deploy_alone(port: int, activation: str) -> None:
-    """Adds the application and starts all its servers."""
+    """Adds the application, starts all its servers, and waits for what they serve."""
     import Ice
     import IceGrid
 
+    commands, proxies = json.load(sys.stdin)
     nothing = IceGrid.DistributionDescriptor("", [])
     quiet = IceGrid.PropertySetDescriptor([], [IceGrid.PropertyDescriptor("Ice.Admin.Enabled", "0")])
     servers = [
         IceGrid.ServerDescriptor(
-            adapters=[], propertySet=quiet, dbEnvs=[], logs=[], description="", id=f"p{number}", exe="/bin/sh",
-            iceVersion="", pwd="/", options=["-c", "exec sleep 1000", "sh"], envs=[], activation=activation,
+            adapters=[], propertySet=quiet, dbEnvs=[], logs=[], description="", id=f"p{number}", exe=command[0],
+            iceVersion="", pwd="/", options=command[1:], envs=[], activation=activation,
             activationTimeout="", deactivationTimeout="", applicationDistrib=False, distrib=nothing,
             allocatable=False, user="root" if os.getuid() == 0 else "",
         )
-        for number in range(COUNT)
+        for number, command in enumerate(commands)
     ]  # fmt: skip
     node = IceGrid.NodeDescriptor(
         variables={}, serverInstances=[], servers=servers, loadFactor="", description="", propertySets={}
@@ -108,6 +162,19 @@ def deploy_alone(port: int, activation: str) -> None:
                 future.result()
         while not all(str(admin.getServerState(one.id)) == "Active" for one in servers):
             time.sleep(0.005)
+        for proxy in map(communicator.stringToProxy, proxies):
+            while not _pings(proxy):
+                time.sleep(0.005)
+
+
+def _pings(proxy: Any) -> bool:
+    import Ice
+
+    try:
+        proxy.ice_ping()
+    except Ice.ConnectionRefusedException:
+        return False
+    return True
 
 
 def _admin(communicator: Any, port: int) -> Any:
@@ -161,46 +228,55 @@ def tell(what: str, samples: dict[str, list[float]], goal: str) -> None:
 
 
 def main(runs: int) -> None:
-    ups: dict[str, list[float]] = {"IceGrid alone": [], "icegrid": [], "local": []}
-    again: list[float] = []
-    crashes: dict[str, list[float]] = {}
     with tempfile.TemporaryDirectory() as name:
         root = Path(name).resolve()
-        many = document(root / "many.ddsl.yaml", COUNT, COUNT)
-        folder = str(root / ".rcyaml/deployments/Many")
-        for run in range(runs):
-            is_last = run == runs - 1
-            _one_run(ups["IceGrid alone"], root / "alone", lambda alone: None)
-            for engine in ("icegrid", "local"):
-                shutil.rmtree(root / ".rcyaml", ignore_errors=True)
-                words = ("deploy", "{}", "--engine", engine, str(many))
-                try:
-                    ups[engine].append(seconds(lambda words=words: rcyaml(words[0], "up", *words[2:])))  # type: ignore[misc]
-                    if engine == "icegrid":
-                        again.append(seconds(lambda words=words: rcyaml(words[0], "up", *words[2:])))  # type: ignore[misc]
-                    if is_last and engine == "icegrid":
-                        crashes[engine] = crashes_of_ours(folder)
-                    elif is_last:
-                        running = children(folder)
-                        crashes[engine] = [
-                            back_after_kill(folder, f"p{n}", running[f"p{n}"]) for n in range(CRASHES)
-                        ]  # fmt: skip
-                finally:
-                    rcyaml(words[0], "down", *words[2:])
-        _one_run([], root / "alone", lambda alone: crashes.update({"IceGrid alone": crashes_alone(alone)}), "always")
-    tell(f"up, {COUNT} processes from nothing", ups, "IceGrid alone + 0.5 s")
-    print(f"up, nothing to do: icegrid {statistics.median(again):.2f} s; goal: 1 s")
-    order = {engine: crashes[engine] for engine in ("IceGrid alone", "icegrid", "local")}
-    tell(f"a crash until the next run, {CRASHES} times", order, "0.6 s")
+        ups, again, crashes = measured(sleepers(root / "sleepers"), runs)
+        tell(f"up, {COUNT} times sleep from nothing", ups, "IceGrid alone + 0.5 s")
+        print(f"up, nothing to do: icegrid {statistics.median(again):.2f} s; goal: 1 s")
+        tell(f"a crash until the next run, {CRASHES} times", crashes, "0.6 s")
+        if load := servers(root / "servers"):
+            ups, again, _ = measured(load, runs)
+            tell(f"up, {COUNT} servers of Ice until all answer", ups, "IceGrid alone + 0.5 s")
+            print(f"up, nothing to do: icegrid {statistics.median(again):.2f} s; goal: 1 s")
+        else:
+            print("servers of Ice cannot be built here: g++ or Ice for C++ is missing (Debian: libzeroc-ice-dev)")
 
 
-def _one_run(
-    samples: list[float], folder: Path, then: Callable[[Alone], None], activation: str = "manual"
-) -> None:
-    alone = Alone(folder)
+def measured(load: Load, runs: int) -> tuple[dict[str, list[float]], list[float], dict[str, list[float]]]:
+    """The seconds of each `up`, of each `up` with nothing to do, and from each crash to the next run."""
+    ups: dict[str, list[float]] = {"IceGrid alone": [], "icegrid": [], "local": []}
+    crashes: dict[str, list[float]] = {}
+    again: list[float] = []
+    root = load.document.parent
+    folder = str(root / ".rcyaml/deployments/Many")
+    for run in range(runs):
+        is_last = run == runs - 1
+        with _alone(root / "alone", load) as alone:
+            ups["IceGrid alone"].append(seconds(alone.up))
+        for engine in ("icegrid", "local"):
+            shutil.rmtree(root / ".rcyaml", ignore_errors=True)
+            words = ("--engine", engine, str(load.document))
+            try:
+                ups[engine].append(seconds(lambda words=words: rcyaml("deploy", "up", *words)))  # type: ignore[misc]
+                if engine == "icegrid":
+                    again.append(seconds(lambda words=words: rcyaml("deploy", "up", *words)))  # type: ignore[misc]
+                if is_last and engine == "icegrid":
+                    crashes[engine] = crashes_of_ours(folder)
+                elif is_last:
+                    running = children(folder)
+                    crashes[engine] = [back_after_kill(folder, f"p{n}", running[f"p{n}"]) for n in range(CRASHES)]
+            finally:
+                rcyaml("deploy", "down", *words)
+    with _alone(root / "alone", load) as alone:
+        alone.up("always")
+        return ups, again, {"IceGrid alone": crashes_alone(alone), **crashes}
+
+
+@contextmanager
+def _alone(folder: Path, load: Load) -> Iterator[Alone]:
+    alone = Alone(folder, load)
     try:
-        samples.append(seconds(lambda: alone.up(activation)))
-        then(alone)
+        yield alone
     finally:
         alone.down()
 
