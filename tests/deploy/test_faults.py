@@ -8,7 +8,6 @@ import shutil
 import signal
 import socket
 import subprocess
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -298,17 +297,6 @@ def test_a_log_of_limited_size(place: Place, monkeypatch: pytest.MonkeyPatch) ->
     assert all(path.stat().st_size <= 20000 for path in logs.iterdir())
     last = place.log("a", 500)
     assert last == [f"line {number}" for number in range(count - len(last), count)] and len(last) == 500
-
-
-@pytest.fixture
-def small_disk(tmp_path: Path) -> Iterator[Path]:
-    disk = tmp_path / "disk"
-    disk.mkdir()
-    done = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=256k", "tmpfs", str(disk)], capture_output=True)
-    if done.returncode:
-        pytest.skip("only root may mount a small disk")
-    yield disk
-    subprocess.run(["umount", "-l", str(disk)], check=True)
 
 
 def test_a_full_disk(place: Place, small_disk: Path, tmp_path: Path) -> None:

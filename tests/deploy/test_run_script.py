@@ -155,12 +155,46 @@ def test_when_it_is_killed_so_is_the_program(runner: Runner) -> None:
     until(lambda: not _is_alive(pid), "the program ends")
 
 
+def test_when_what_keeps_the_log_is_killed_the_log_goes_on(runner: Runner) -> None:
+    count = "i=0; while [ $i -lt 60 ]; do i=$((i+1)); echo line $i; sleep 0.02; done; exit 3"
+    process = runner.start("=sh", "=-c", f"={count}")
+    for line in ("line 5", "line 20"):
+        until(lambda line=line: line in runner.log.splitlines(), lambda: runner.log)  # type: ignore[misc]
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        (keeper,) = [pid for pid in children if str(SCRIPT) in Path("/proc", pid, "cmdline").read_text()]
+        os.kill(int(keeper), signal.SIGKILL)
+    assert process.wait(20) == 0
+    until(lambda: "ended by itself" in runner.log, lambda: runner.log)
+    lines = [line for line in runner.log.splitlines() if line.startswith("line")]
+    assert len(lines) >= 58 and lines[-1] == "line 60", "at most the line that was just being written is lost"
+    assert runner.told == ("given up", "exit code 3", 0)
+
+
 def test_logs_have_a_limit(runner: Runner) -> None:
     runner.to_end("=sh", "=-c", "=for i in 1 2 3 4 5 6 7 8 9; do echo 0123456789 $i; done", RCYAML_LOG_LIMIT="100")
     logs = runner.folder / "logs"
     assert (logs / "arm.log.1").exists()
     assert all((logs / name).stat().st_size < 250 for name in ("arm.log", "arm.log.1"))
     assert "0123456789 9" in (logs / "arm.log").read_text() + (logs / "arm.log.1").read_text()
+
+
+def test_a_full_disk(runner: Runner, small_disk: Path, tmp_path: Path) -> None:
+    """Lines are lost, and that is said once there is room again; the process does not notice."""
+    runner.folder = small_disk / "folder"
+    (small_disk / "ballast").write_bytes(bytes(150_000))
+    talk = "i=0; while [ $i -lt 4000 ]; do echo $i a line that takes room on the disk, as lines do; i=$((i+1)); done"
+    wait = f"touch '{tmp_path}/full'; while [ ! -e '{tmp_path}/go' ]; do sleep 0.02; done"
+    process = runner.start("=sh", "=-c", f"={talk}; {wait}; echo there is room; exit 3")
+    until((tmp_path / "full").exists, "it goes on though nothing can be written")
+    (small_disk / "ballast").unlink()
+    (tmp_path / "go").touch()
+    assert process.wait(20) == 0
+    until(lambda: "ended by itself" in runner.log, lambda: runner.log[-300:])
+    lines = runner.log.splitlines()
+    whole = [line for line in lines if line.endswith("as lines do")]
+    (lost,) = [line for line in lines if line.endswith("they could not be written")]
+    assert len(whole) + int(lost.split()[1]) == 4000
+    assert lines.index("there is room") > lines.index(lost)
 
 
 def test_nothing_of_icegrid_stays_open(runner: Runner) -> None:
