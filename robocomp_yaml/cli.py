@@ -64,6 +64,16 @@ class LazyGroup(click.Group):
             raise
 
 
+    def invoke(self, ctx: click.Context) -> object:
+        try:
+            return super().invoke(ctx)
+        except click.NoSuchOption as error:
+            name = error.option_name
+            if any(name in option.opts for option in self.params):
+                raise click.UsageError(f"'{name}' stands before the command: rcyaml {name} …", error.ctx) from None
+            raise
+
+
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, "-V", "--version", prog_name="rcyaml")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", help="Colour the output.")

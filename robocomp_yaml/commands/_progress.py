@@ -69,7 +69,9 @@ class Progress:
         self.pause()
         room = max(1, shutil.get_terminal_size().lines - 2)
         now = time.monotonic()
-        lines = [self._line(name, kind, now - since) for name, (kind, since) in list(self._busy.items())[:room]]
+        columns = shutil.get_terminal_size().columns - 1  # a line that wraps would be two to take away
+        busy = list(self._busy.items())[:room]
+        lines = [self._line(name, kind, now - since)[:columns] for name, (kind, since) in busy]
         if len(self._busy) > room:
             lines[-1] = f"and {len(self._busy) - room + 1} more"
         sys.stdout.write("".join(f"{line}\n" for line in lines))

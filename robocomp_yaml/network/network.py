@@ -85,10 +85,10 @@ class ConfigFile(msgspec.Struct, frozen=True):
 class Process(Located, frozen=True, forbid_unknown_fields=True):
     """One process of the network. `command` is the program and its arguments (no shell ever sees them), its first an
     absolute path, or a bare name that PATH finds; the placeholder CONFIG in an argument stands for the absolute path
-    of `config`. `after` are the processes that must be ready before; where one of these that is `optional` fails, this one starts
-    all the same. `aliases` are further names of the same process.
-    `watched` are the files whose change is a reason to restart it (its executable, code and configuration).
-    `is_ice` is False for a program that knows nothing of Ice. `folders` are to be there before it starts.
+    of `config`. `after` are the processes that must be ready before; where one of these that is `optional` fails, this
+    one starts all the same. `aliases` are further names of the same process. `watched` are the files whose change is a
+    reason to restart it (its executable, code and configuration). `is_ice` is False for a program that knows nothing of
+    Ice. `folders` are to be there before it starts.
     """
 
     name: str

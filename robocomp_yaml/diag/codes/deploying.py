@@ -148,8 +148,8 @@ OUTDATED = Code(
     "RC7012",
     "warning",
     "'{name}' was compiled before {document} changed",
-    "What is called is what was compiled: a component that was not compiled since its interface changed fails the calls "
-    "of those that were, or misunderstands them. Compile all that are to speak with each other.",
+    "What is called is what was compiled: a component that was not compiled since its interface changed fails the "
+    "calls of those that were, or misunderstands them. Compile all that are to speak with each other.",
     {**_COMPILED, "mouth/slice/Mouth.ice": "// an earlier one\n"},
     _COMPILED,
     "deploy plan robot.ddsl.yaml",
