@@ -112,7 +112,7 @@ void show(Parameters& parameters, const runtime::Change& change)
     }
     if (now->basicPeriod == 9)
     {
-        parameters.setBasicPeriod(10);
+        parameters.set("basicPeriod", now->gains.size() + 8);
     }
 }
 
