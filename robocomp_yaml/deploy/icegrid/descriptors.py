@@ -31,6 +31,17 @@ LONGEST_CONFIG = 100_000
 _KEEPER_MODULE = "robocomp_yaml.deploy.icegrid.keeper"
 # The processes that are being started go first: while a command changes the deployment, it waits for a while.
 _KEEPER_SCRIPT = 'flock -s -w 3 -- "$1/state" true; shift; exec nice "$@"'
+# Of the children of the node, whose child this is too, those that run such a process of the deployment in a folder.
+_ENDER_SCRIPT = """\
+folder=$1; shift
+for process in /proc/[0-9]*; do
+    { read -r stat <"$process/stat" && mapfile -d "" words <"$process/cmdline"; } 2>/dev/null || continue
+    read -r _ parent _ <<<"${stat##*) }"
+    [[ $parent == "$PPID" && ${words[3]} == "$folder" ]] || continue
+    for name; do [[ ${words[2]} == "$name" ]] && kill "${process##*/}"; done
+done
+exit 0
+"""
 _SERVICE = "IceBox.Service."
 _AFTER_KILL = 10  # seconds that IceGrid itself waits, after what `run` waits
 
@@ -71,6 +82,16 @@ def keeper(places: Places, user: str) -> Any:
         ["--pdeathsig", "KILL", "--", "bash", "-c", _KEEPER_SCRIPT, "bash", *map(_literal, words)],
         pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
         envs=[f"PYTHONPATH={package_path()}", f"{MARK}={places.folder}:"], logs=[],
+    )  # fmt: skip
+    return IceGrid.ServerDescriptor(**facts)
+
+
+def ender(places: Places, names: Iterable[str], user: str) -> Any:
+    """A server that ends these processes on its host, which IceGrid no longer knows."""
+    facts = _facts(
+        f"{KEEPER}.ender", "bash", ["-c", *map(_literal, (_ENDER_SCRIPT, "bash", places.folder, *names))],
+        pwd="/", user=user, activation="manual", deactivationTimeout="5", propertySet=_property_set(_QUIET), envs=[],
+        logs=[],
     )  # fmt: skip
     return IceGrid.ServerDescriptor(**facts)
 

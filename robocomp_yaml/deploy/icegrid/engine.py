@@ -6,6 +6,7 @@ Ice and IceGrid's own calls wait for their answers; they run in threads beside t
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import importlib.util
 import shutil
 import threading
@@ -79,10 +80,19 @@ class IceGridEngine:
                 else:
                     start_up.ended(grid, self._places, self._network.name)
                 raise
+            self._end_left(grid)
         self._grid = grid
         self._specs = self._places.specs()
         self._kept = self._wanted = self._places.wanted()
         return True
+
+    def _end_left(self, grid: Grid) -> None:
+        """The keeper does so too: where there is none, or it was faster, nothing is lost."""
+        from robocomp_yaml.deploy.icegrid import leftovers
+        from robocomp_yaml.deploy.icegrid.grid import GridFailed
+
+        with contextlib.suppress(GridFailed):
+            leftovers.end_all(grid, self._places)
 
     async def observe(self) -> dict[str, Running]:
         from robocomp_yaml.deploy.icegrid.status import observe
@@ -110,7 +120,7 @@ class IceGridEngine:
         await self._beside("", "deployed", self._prepare, specs)
 
     def _prepare(self, specs: Sequence[Spec]) -> None:
-        from robocomp_yaml.deploy.icegrid import descriptors
+        from robocomp_yaml.deploy.icegrid import descriptors, leftovers
 
         grid, number = self._reached(), self._places.next_rule()
         states = grid.states([spec.name for spec in specs])
@@ -119,6 +129,11 @@ class IceGridEngine:
         for spec in specs:
             if spec.process.config and is_here(spec.address):
                 own_folder.write(self._places.folder, spec.process.config.path, spec.process.config.text)
+        for spec in starting:
+            leftovers.drop(self._places, spec.process.host, spec.name)
+            old = self._specs.get(spec.name)
+            if old and old.process.host != spec.process.host and not states[spec.name][0]:
+                leftovers.note(self._places, old.process.host, spec.name)
         with self._lock:
             self._specs.update({spec.name: spec for spec in specs})
             self._places.keep_specs(self._specs)
@@ -166,9 +181,9 @@ class IceGridEngine:
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
-        if spec and is_here(spec.address) and self._clear.pop(name, None) is not spec:
-            if found := obstacles([spec], ()):
-                raise DeployFailed(found[0])
+        is_unseen = spec is not None and self._clear.pop(name, None) is not spec
+        if spec and is_unseen and is_here(spec.address) and (found := obstacles([spec], ())):
+            raise DeployFailed(found[0])
         await self._want(self._wanted | {name})
         await self._beside(name, "started", self._reached().start, name)
 
@@ -189,10 +204,16 @@ class IceGridEngine:
         await self._beside("", "forgotten", self._forget, set(names))
 
     def _forget(self, names: set[str]) -> None:
+        from robocomp_yaml.deploy.icegrid import leftovers
+
         with self._lock:
             gone = {name: self._specs.pop(name) for name in names if name in self._specs}
             if not gone:
                 return
+            states = self._reached().states(gone)
+            for name, spec in gone.items():
+                if spec and not states[name][0]:
+                    leftovers.note(self._places, spec.process.host, name)
             self._deploy(gone, [])
             self._kept = self._wanted = self._wanted - names
             self._places.keep_wanted(self._wanted)

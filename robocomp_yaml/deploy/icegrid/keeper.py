@@ -2,7 +2,8 @@
 
 A process that ends is started again on its own host, by `run`, with or without a registry. What only somebody outside
 can mend is the keeper's: the node or the `run` script of a process was killed. It starts what is wanted and neither
-runs nor ended for good, with a delay that doubles while that fails.
+runs nor ended for good, with a delay that doubles while that fails. And it ends what is left on a host that did not
+answer when it was moved away from there.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import Any
 import Ice
 import IceGrid
 
+from robocomp_yaml.deploy.icegrid import leftovers
 from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed, Unreachable
 from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.icegrid.status import is_over
@@ -95,6 +97,7 @@ class Keeper:
             self._changed.clear()
             if not self.over.is_set():
                 self._bring_back(grid)
+                leftovers.end_all(grid, self.places)
 
     def _pause(self) -> float:
         now = time.monotonic()
