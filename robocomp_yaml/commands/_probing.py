@@ -49,8 +49,9 @@ def tell(ctx: click.Context, opened: Opened, name: str | None) -> None:
 
 def _host(network: Network, name: str) -> Host:
     if name not in network.hosts:
-        meant, hosts = suggest(name, network.hosts), f"; there are {', '.join(network.hosts)}"
-        raise click.UsageError(f"{network.name} has no host '{name}'" + (f"; did you mean '{meant}'?" if meant else hosts))
+        meant = suggest(name, network.hosts)
+        hint = f"did you mean '{meant}'?" if meant else f"there are {', '.join(network.hosts)}"
+        raise click.UsageError(f"{network.name} has no host '{name}'; {hint}")
     return network.hosts[name]
 
 

@@ -13,6 +13,8 @@ import signal
 import subprocess
 from collections.abc import Mapping
 
+import msgspec
+
 from robocomp_yaml import resources
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.icegrid import settings
@@ -92,11 +94,24 @@ def write_script(places: Places, host: Host, registry: Registry) -> str:
     return f"{places.folder}/{path}"
 
 
-def start_node_here(script: str) -> str:
-    """Starts a node on this machine; why it did not start, or ''."""
+class Start(msgspec.Struct, frozen=True):
+    """What became of starting a node: `reason` why it failed, else ''; and whether it ran already."""
+
+    reason: str = ""
+    was_there: bool = False
+
+
+def outcome(code: int | None, output: str, errors: str) -> Start:
+    """What a node's script has said."""
+    reason = (errors.strip() or "the script that starts it failed") if code else ""
+    return Start(reason, output.rstrip().endswith("already"))
+
+
+def start_node_here(script: str) -> Start:
+    """Starts a node on this machine."""
     with open(script, "rb") as file:
         done = subprocess.run(["bash", "-s"], stdin=file, capture_output=True, text=True, check=False, cwd="/")
-    return (done.stderr.strip() or "the script that starts it failed") if done.returncode else ""
+    return outcome(done.returncode, done.stdout, done.stderr)
 
 
 def by_hand(script: str, host: Host) -> str:

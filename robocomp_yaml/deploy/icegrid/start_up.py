@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.deploy import folder as own_folder
@@ -29,6 +30,7 @@ _PATIENCE = 20.0  # seconds: far more than is needed, also where a machine is bu
 _ENDS_WITHIN, _REGISTRY_ENDS_WITHIN = 15.0, 3.0
 _RECONNECTS_WITHIN = 15.0  # seconds in which a node finds a registry that has come back
 _LOOK = 0.02
+_AT_ONCE = 8  # connections over SSH
 
 
 def reached(places: Places, network: Network) -> Grid | None:
@@ -76,32 +78,43 @@ def _session(places: Places, registry: Registry, network: Network) -> Grid:
 
 
 def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[Host]) -> None:
-    """Every host has its node: those of this machine are started, others over SSH. Raises DeployFailed for the first
-    that has none."""
+    """Every host has its node: those of this machine are started, others over SSH, unless one that was started by hand
+    finds the registry again. Raises DeployFailed for those that have none."""
     registry = places.registry()
     assert registry
     known = places.nodes()
+    hosts = list(hosts)
     missing = [host for host in hosts if not grid.has_node(host.name)]
-    if any(not known.get(host.name, True) for host in missing):
-        _until(lambda: all(grid.has_node(host.name) for host in missing), _RECONNECTS_WITHIN)
-        missing = [host for host in missing if not grid.has_node(host.name)]
     scripts = {host.name: daemons.write_script(places, host, registry) for host in missing}
-    tried = {host.name: _start(host, scripts[host.name]) for host in missing}
-    found = {host.name: known.get(host.name, False) for host in hosts}
-    places.keep_nodes({**known, **found, **{name: not reason for name, reason in tried.items()}})
+    begin = time.monotonic()
+    tried = _started(missing, scripts)
+    by_hand = [host for host in missing if tried[host.name].reason and not known.get(host.name, True)]
+    _until(lambda: all(grid.has_node(host.name) for host in by_hand), _RECONNECTS_WITHIN + begin - time.monotonic())
+    tried |= {host.name: daemons.Start(was_there=True) for host in by_hand if grid.has_node(host.name)}
+    is_ours = {name: not start.reason for name, start in tried.items() if not start.was_there}
+    places.keep_nodes({**{host.name: False for host in hosts}, **known, **is_ours})
+    faults = []
     for host in missing:
-        reason = tried[host.name]
+        reason = tried[host.name].reason
+        hint = f"start it by hand, then try again: {daemons.by_hand(shown_path(scripts[host.name]), host)}"
         if not reason and not _until(lambda host=host: grid.has_node(host.name), _PATIENCE):  # type: ignore[misc]
-            reason = daemons.last_words(f"{places.root}/nodes/{host.name}") or "it does not reach the registry"
+            own = f"{places.root}/nodes/{host.name}"
+            said = daemons.last_words(own) or f"see {own}/log there"
+            reason = f"it was started, and does not reach the registry at {registry.address}:{registry.port}: {said}"
+            hint = "all hosts must reach each other over TCP: look for a firewall between them"
         if reason:
-            command = daemons.by_hand(shown_path(scripts[host.name]), host)
             where = host.span if host.span.file else Span(network.path)
-            raise DeployFailed(
-                grids.NO_NODE.at(
-                    where, name=host.name, address=host.address, reason=reason,
-                    hint="" if is_here(host.address) else f"start it by hand, then try again: {command}",
-                )
-            )  # fmt: skip
+            hint = "" if is_here(host.address) else hint
+            faults.append(grids.NO_NODE.at(where, name=host.name, address=host.address, reason=reason, hint=hint))
+    if faults:
+        raise DeployFailed(*faults)
+
+
+def _started(hosts: Sequence[Host], scripts: Mapping[str, str]) -> dict[str, daemons.Start]:
+    """Starts the nodes of these hosts, all at once."""
+    with ThreadPoolExecutor(_AT_ONCE) as pool:
+        outcomes = pool.map(lambda host: _start(host, scripts[host.name]), hosts)
+        return {host.name: outcome for host, outcome in zip(hosts, outcomes, strict=True)}
 
 
 def ended(grid: Grid, places: Places, application: str) -> None:
@@ -133,8 +146,7 @@ def _end_here(places: Places) -> None:
     _until(lambda: not any(map(daemons.is_alive, (*nodes, places.registry_folder))), _ENDS_WITHIN)
 
 
-def _start(host: Host, script: str) -> str:
-    """Why the node of this host could not be started, or ''."""
+def _start(host: Host, script: str) -> daemons.Start:
     return daemons.start_node_here(script) if is_here(host.address) else ssh.run(script, host)
 
 

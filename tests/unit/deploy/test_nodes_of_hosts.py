@@ -1,0 +1,100 @@
+"""How every host comes to its node: started here and over SSH at once, while those started by hand come back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from robocomp_yaml.deploy.engine import DeployFailed
+from robocomp_yaml.deploy.icegrid import daemons, start_up
+from robocomp_yaml.deploy.icegrid.daemons import Start
+from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.network.network import Host, Network
+
+HOSTS = [Host("onboard", "localhost"), Host("head", "10.0.0.3"), Host("arm", "10.0.0.4")]
+NETWORK = Network("Robot", "/robot.ddsl.yaml", "/robot")
+
+
+class Grid:
+    """A registry that nodes join: `joins` are the hosts whose nodes come when they have been asked for twice; where it
+    hears nothing, those that are started do not come."""
+
+    def __init__(self, *joins: str, hears: bool = True) -> None:
+        self.nodes: set[str] = set()
+        self.hears = hears
+        self.asked = dict.fromkeys(joins, 0)
+
+    def has_node(self, name: str) -> bool:
+        if name in self.asked:
+            self.asked[name] += 1
+        return name in self.nodes or self.asked.get(name, 0) > 2
+
+
+@pytest.fixture
+def places(tmp_path: Path) -> Places:
+    made = Places(str(tmp_path))
+    Path(made.root).mkdir(parents=True)
+    made.keep_registry(Registry("10.0.0.2", 4061))
+    return made
+
+
+Ensure = Callable[..., list[bool]]
+
+
+@pytest.fixture
+def ensure(places: Places, monkeypatch: pytest.MonkeyPatch) -> Ensure:
+    """Ensures the nodes with what starts of nodes come to, by host; whether each thing that was waited for came."""
+    waited: list[bool] = []
+
+    def until(condition: Callable[[], bool], within: float) -> bool:
+        waited.append(any(condition() for _ in range(5)))
+        return waited[-1]
+
+    def run(grid: Grid, **starts: Start) -> list[bool]:
+        def start(host: Host, script: str) -> Start:
+            if grid.hears and not starts[host.name].reason:
+                grid.nodes.add(host.name)
+            return starts[host.name]
+
+        monkeypatch.setattr(start_up, "_start", start)
+        monkeypatch.setattr(start_up, "_until", until)
+        monkeypatch.setattr(daemons, "write_script", lambda places, host, registry: f"/{host.name}.sh")
+        any_grid: Any = grid
+        start_up.ensure_nodes(any_grid, places, NETWORK, HOSTS)
+        return waited
+
+    return run
+
+
+FAILS = Start("ssh: no answer")
+
+
+def test_who_was_started_by_hand_is_waited_for_and_nobody_else(places: Places, ensure: Ensure) -> None:
+    places.keep_nodes({"head": False})
+    assert all(ensure(Grid("head"), onboard=Start(), head=FAILS, arm=Start()))
+    assert places.nodes() == {"onboard": True, "head": False, "arm": True}
+
+
+def test_what_ran_already_is_not_ours(places: Places, ensure: Ensure) -> None:
+    places.keep_nodes({"onboard": True})
+    ensure(Grid(), onboard=Start(was_there=True), head=Start(was_there=True), arm=Start())
+    assert places.nodes() == {"onboard": True, "head": False, "arm": True}
+
+
+def test_all_that_fail_are_told(places: Places, ensure: Ensure) -> None:
+    with pytest.raises(DeployFailed) as failed:
+        ensure(Grid(), onboard=Start(), head=FAILS, arm=Start("ssh: permission denied"))
+    told = [failed.value.diagnostic, *failed.value.more]
+    assert ["'head'" in told[0].message, "'arm'" in told[1].message, len(told)] == [True, True, 2]
+    assert told[1].hint == "start it by hand, then try again: ssh 10.0.0.4 bash -s < /arm.sh"
+
+
+def test_a_node_that_does_not_reach_the_registry(places: Places, ensure: Ensure) -> None:
+    with pytest.raises(DeployFailed) as failed:
+        ensure(Grid(hears=False), onboard=FAILS, head=Start(), arm=FAILS)
+    told = failed.value.more[0]
+    assert "does not reach the registry at 10.0.0.2:4061" in told.message and "firewall" in told.hint
+
