@@ -8,6 +8,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -98,6 +99,25 @@ def test_a_port_that_another_program_has(place: Place, free_port: Ports) -> None
     assert not place.up(sleeper("b"), served).diagnostics
     changed = replace(served, env=(Variable("X", "1"),))
     assert not place.up(sleeper("b"), changed).diagnostics  # its own port is not in its own way
+
+
+def test_ports_that_another_deployment_has(place: Place, free_port: Ports, tmp_path: Path) -> None:
+    ports = free_port(), free_port()
+    script = (
+        "import socket\nfor port in {}: globals()[f's{{port}}'] = socket.create_server(('127.0.0.1', port))\n"
+        "print('up', flush=True); input()"
+    )
+    mark = f"{tmp_path}/.rcyaml/deployments/Other:arm"
+    with subprocess.Popen(
+        [sys.executable, "-c", script.format(ports)], env={**os.environ, procfs.MARK: mark},
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+    ) as other:  # fmt: skip
+        assert other.stdin and other.stdout and other.stdout.readline() == b"up\n"
+        served = tuple(Endpoint(f"Laser{port}", "laser", port, f"tcp -p {port}") for port in ports)
+        (told,) = place.up(sleeper("a", endpoints=served)).diagnostics  # one for both ports
+        other.stdin.close()
+    assert told.code == "RC7001" and "'arm' of the deployment Other in " in told.message
+    assert told.hint.startswith("take that deployment down (`rcyaml deploy down`)")
 
 
 @pytest.mark.parametrize(

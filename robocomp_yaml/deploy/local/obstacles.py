@@ -6,10 +6,12 @@ import os
 import socket
 from collections.abc import Collection, Iterator, Sequence
 
+from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.network.derive import FOLDER
 from robocomp_yaml.network.network import LOOPBACK, Network, Process
 
 
@@ -57,15 +59,32 @@ def is_here(address: str) -> bool:
 
 
 def _of_ports(spec: Spec, taken: dict[int, list[int]]) -> Iterator[Diagnostic]:
+    """One for each program that is in the way, at the first port that it has."""
+    told: set[int] = set()
     for endpoint in spec.process.endpoints:
         if endpoint.port in taken and endpoint.protocol != "udp":
-            pids = taken[endpoint.port]
-            who = f"{procfs.command_line(pids[0])} (pid {pids[0]})" if pids else "one of another user"
+            pid = next(iter(taken[endpoint.port]), 0)
+            if pid in told:
+                continue
+            told.add(pid)
+            who, how = _owner(pid)
             yield deploying.PORT_TAKEN.at(
                 endpoint.span if endpoint.span.file else spec.process.span,
-                hint=f"end it (`kill {pids[0]}`), or give '{spec.name}' another port" if pids else "",
+                hint=f"{how}, or give '{spec.name}' another port" if how else "",
                 name=spec.name, port=endpoint.port, program=who,
             )  # fmt: skip
+
+
+def _owner(pid: int) -> tuple[str, str]:
+    """Who has a port, and how to end it: what a deployment started would be started again."""
+    if not pid:
+        return "one of another user", ""
+    place, _, name = procfs.mark_of(pid).rpartition(":")
+    folder, _, deployment = place.rpartition(f"/{FOLDER}/")
+    if not folder:
+        return f"{procfs.command_line(pid)} (pid {pid})", f"end it (`kill {pid}`)"
+    who = f"'{name}' of the deployment {deployment} in {shown_path(folder)} (pid {pid})"
+    return who, "take that deployment down (`rcyaml deploy down`)"
 
 
 def _of_program(spec: Spec) -> Iterator[Diagnostic]:
