@@ -18,12 +18,10 @@ from robocomp_yaml.network.draft import Draft
 from robocomp_yaml.network.drafts import Drafts, drafts_of
 from robocomp_yaml.network.endpoints import endpoint_faults
 from robocomp_yaml.network.gates import Gates
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.network import FOLDER, Network
 from robocomp_yaml.network.order import AFTER, Need, optional, ordered
 from robocomp_yaml.network.targets import Targets
 from robocomp_yaml.network.topics import Topics
-
-FOLDER = ".rcyaml/deployments"
 
 
 def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, list[Diagnostic]]:

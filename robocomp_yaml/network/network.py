@@ -17,6 +17,8 @@ COMPONENT, PROGRAM, ICESTORM = "component", "program", "icestorm"
 NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
 PROXY, TOPIC = "proxy", "topic"
 LOOPBACK = "localhost"
+FOLDER = ".rcyaml/deployments"
+"""Where deployments have their own folders, beside their documents."""
 
 
 class Host(Located, frozen=True):

@@ -11,8 +11,7 @@ from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.network.derive import FOLDER
-from robocomp_yaml.network.network import LOOPBACK, Network, Process
+from robocomp_yaml.network.network import FOLDER, LOOPBACK, Network, Process
 
 
 def environment_of(process: Process) -> dict[str, str]:
