@@ -19,6 +19,7 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
+from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type
@@ -84,9 +85,12 @@ def _effective(ctx: click.Context, file: str, include: tuple[str, ...]) -> tuple
 
 
 def _fail(ctx: click.Context, diagnostics: list[Diagnostic], documents: int) -> NoReturn:
-    """What is wrong, on standard error, where standard output is for values."""
+    """What is wrong: on standard error, where standard output is for values; as JSON in their stead."""
     from robocomp_yaml.diag.render import render
 
+    if ctx.params.get("format_") == "json":
+        click.echo(render("json", diagnostics, documents, False), nl=False)
+        ctx.exit(1)
     color = _options.colored(ctx, sys.stderr)
     click.echo(render("text", diagnostics, documents, color), nl=False, err=True, color=ctx.color)
     ctx.exit(1)
@@ -114,7 +118,7 @@ def show(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) 
     _, values = _effective(ctx, file, include)
     rows = list(values_show.shown(values))
     if format_ == "json":
-        click.echo(json.dumps({"values": [_as_json(row) for row in rows]}, indent=2, ensure_ascii=False))
+        click.echo(dumps({"values": [_as_json(row) for row in rows]}), nl=False)
         return
     width = max((min(len(_assignment(row)), 50) for row in rows), default=0)
     for row in rows:
@@ -154,7 +158,7 @@ def _json_place(node: Node | None) -> dict[str, Any]:
     return {"file": node.span.file if node else None, "line": node.span.line if node else None}
 
 
-def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...]) -> None:
+def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...], format_: str) -> None:
     _, values = _effective(ctx, file, include)
     steps, _ = _steps(path, values.parameters.root)
     found = values_show.find(values, steps)
@@ -162,10 +166,13 @@ def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...]) -> N
         click.echo(f"{path} has no value", err=True)
         ctx.exit(1)
     data = found[0]
+    if format_ == "json":
+        click.echo(dumps({"path": path, "value": data}), nl=False)
+        return
     click.echo(data if isinstance(data, str) else flow(data))
 
 
-def set_value(ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...]) -> None:
+def set_value(ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...], format_: str) -> None:
     loaded = load(ctx, file, include)
     values = loaded.values
     if values is None or values.parameters is None or loaded.parameters.broken:
@@ -198,7 +205,9 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
         _replace(os.path.realpath(file), changed)
     except OSError as error:
         raise click.UsageError(f"{file} cannot be written: {(error.strerror or str(error)).lower()}") from None
-    if ctx.obj.verbosity >= 0:
+    if format_ == "json":
+        click.echo(dumps({"path": path, "value": value, "was": change.was or None}), nl=False)
+    elif ctx.obj.verbosity >= 0:
         was = f" (was {change.was})" if change.was else ""
         click.echo(f"{path} = {value}{was}")
 

@@ -7,6 +7,8 @@ import click
 from robocomp_yaml.commands import _options
 
 file = click.argument("file", type=click.Path(exists=True, dir_okay=False))
+format_ = click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
+                       help="How to print it.")  # fmt: skip
 
 
 @click.group(short_help="Values of parameters: check, show, change, export.")
@@ -45,7 +47,7 @@ def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str)
 @command.command(short_help="Every effective value, and where it comes from.")
 @file
 @_options.include
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@format_
 @click.pass_context
 def show(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
     """Print every effective value with the file and line that set it, and what it overrode. References to the
@@ -59,12 +61,13 @@ def show(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) 
 @file
 @click.argument("path")
 @_options.include
+@format_
 @click.pass_context
-def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...]) -> None:
+def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...], format_: str) -> None:
     """Print the effective value at PATH, such as motors[0].vel."""
     from robocomp_yaml.commands import _values
 
-    _values.get(ctx, file, path, include)
+    _values.get(ctx, file, path, include, format_)
 
 
 @command.command("set", short_help="Change one value; all else stays as it is.", context_settings={
@@ -74,14 +77,17 @@ def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...]) -> N
 @click.argument("path")
 @click.argument("value")
 @_options.include
+@format_
 @click.pass_context
-def set_(ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...]) -> None:
+def set_(
+    ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...], format_: str
+) -> None:  # fmt: skip
     """Give the parameter at PATH another VALUE in FILE, checked by its type and limits. Text needs no quotes; null
     returns to the default, and {env: NAME} is what the environment has when the component starts. Comments, order and
     layout of the document stay, byte for byte."""
     from robocomp_yaml.commands import _values
 
-    _values.set_value(ctx, file, path, value, include)
+    _values.set_value(ctx, file, path, value, include, format_)
 
 
 @command.command(short_help="The values as Ice properties or TOML.")

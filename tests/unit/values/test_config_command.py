@@ -136,6 +136,19 @@ def test_set_adds_behind_the_last_entry(
     assert written == f"  {after.replace(chr(10), chr(10) + '  ').rstrip()}\n"
 
 
+def test_get_and_set_as_json(run: Run) -> None:
+    def answer(*words: str, code: int = 0) -> dict[str, object]:
+        result = run("config", *words, "--format", "json")
+        assert result.exit_code == code, result.output
+        return json.loads(result.output)  # type: ignore[no-any-return]
+
+    assert answer("get", "etc/config.yaml", "motors[1].vel") == {"path": "motors[1].vel", "value": 1.0}
+    changed = answer("set", "etc/config.yaml", "speed", "0.75")
+    assert changed == {"path": "speed", "value": "0.75", "was": ".5"}
+    [wrong] = answer("set", "etc/config.yaml", "speed", "7", code=1)["diagnostics"]  # type: ignore[misc]
+    assert (wrong["code"], wrong["line"]) == ("RC3303", 3)
+
+
 def test_set_does_not_make_a_list_that_a_layer_holds(run: Run) -> None:
     result = run("config", "set", "sim.config.yaml", "motors[0].vel", "1")
     assert result.exit_code == 2
