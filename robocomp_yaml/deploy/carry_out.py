@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 import time
 from collections.abc import Awaitable, Callable, Iterable, Mapping
 from contextlib import aclosing
@@ -11,14 +12,12 @@ import msgspec
 
 from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step, in_order
-from robocomp_yaml.deploy.readiness import holds, until_ready, why_not
+from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_ready, why_not
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
 STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
-
-_LOOK = 0.05  # seconds for which what was seen of the processes holds while many wait
 
 
 class Event(msgspec.Struct, frozen=True):
@@ -51,18 +50,18 @@ class Watch:
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
         self._seen: dict[str, Running] = {}
-        self._until = 0.0
+        self._when = -math.inf
         self._changes = 0
         self._lock = asyncio.Lock()
 
-    def of(self, name: str) -> Callable[[], Awaitable[Running | None]]:
-        async def look() -> Running | None:
+    def of(self, name: str) -> State:
+        async def look(age: float) -> Running | None:
             async with self._lock:
-                if time.monotonic() > self._until:
+                if time.monotonic() > self._when + age:
                     changes = self._changes
                     self._seen = await self._engine.observe()
                     if changes == self._changes:
-                        self._until = time.monotonic() + _LOOK
+                        self._when = time.monotonic()
             return self._seen.get(name)
 
         return look
@@ -70,7 +69,7 @@ class Watch:
     def forget(self) -> None:
         """What was seen, and what is being looked at, no longer holds."""
         self._changes += 1
-        self._until = 0.0
+        self._when = -math.inf
 
 
 async def carry_out(
@@ -204,7 +203,7 @@ class _Starts:
     async def _is_late(self, step: Step) -> None:
         """It was still waited for when the time was over."""
         assert step.spec
-        why = why_not(step.spec, await self._watch.of(step.name)())
+        why = why_not(step.spec, await self._watch.of(step.name)(RECENT))
         where = step.spec.process.span
         self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=self._limit, why=why))
 

@@ -33,6 +33,13 @@ LOG_LINES = 1000
 
 _SHORTEST, _LONGEST = 0.01, 0.2  # seconds between two looks, which become rarer
 _ONE_TRY = 2.0  # seconds for an answer
+_NEW = 0.05  # seconds for which what was seen of a process that comes up is good enough
+
+RECENT = 0.2
+"""Seconds for which what was seen of a process is good enough where nobody waits for it to change."""
+
+State = Callable[[float], Awaitable[Running | None]]
+"""What the engine saw of a process, not longer ago than so many seconds."""
 
 
 async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
@@ -51,12 +58,9 @@ async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
     return await _look(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
 
 
-async def until_ready(
-    engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: Callable[[], Awaitable[Running | None]]
-) -> None:
-    """Waits for a process that was just started. Raises DeployFailed where it ends before, or takes too long.
-
-    `lines` are what it writes, from its start on; `state` gives what the engine last saw of it."""
+async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: State) -> None:
+    """Waits for a process that was just started. Raises DeployFailed where it ends before, or takes too long. `lines`
+    are what it writes, from its start on."""
     watch = asyncio.create_task(_until_it_ends(spec, state))
     look = asyncio.create_task(_until_it_holds(engine, spec, lines, state))
     try:
@@ -64,7 +68,7 @@ async def until_ready(
                                      return_when=asyncio.FIRST_COMPLETED)  # fmt: skip
         if look in done:
             return look.result()
-        running = await state()
+        running = await state(_NEW)
         if watch in done:
             raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=watch.result()))
         raise DeployFailed(
@@ -79,10 +83,10 @@ async def until_ready(
                 await task
 
 
-async def _until_it_ends(spec: Spec, state: Callable[[], Awaitable[Running | None]]) -> str:
+async def _until_it_ends(spec: Spec, state: State) -> str:
     """Until it has ended, and is not started again; says how."""
     while True:
-        running = await state()
+        running = await state(RECENT)
         if running is None or running.state in (GIVEN_UP, STOPPED, LOST):
             return (running.end if running else "") or "it was stopped meanwhile"
         if running.state == ENDED and _asks_for_something(spec):
@@ -92,9 +96,7 @@ async def _until_it_ends(spec: Spec, state: Callable[[], Awaitable[Running | Non
         await asyncio.sleep(_LONGEST / 2)
 
 
-async def _until_it_holds(
-    engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: Callable[[], Awaitable[Running | None]]
-) -> None:
+async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: State) -> None:
     if spec.process.ready.log:
         async for line in lines:
             if _is_sign(spec.process.ready.log, line.text):
@@ -104,7 +106,7 @@ async def _until_it_holds(
         if _asks_for_something(spec):
             if await _look(engine, spec, min(_ONE_TRY, spec.process.ready.within)):
                 return
-        elif running := await state():
+        elif running := await state(_NEW):
             if running.state == ENDED and spec.process.restart.policy != ALWAYS:
                 return
             if running.state == RUNNING and running.uptime >= SETTLED:
@@ -124,15 +126,19 @@ async def _look(engine: Engine, spec: Spec, within: float) -> bool:
     """One look at all but the log."""
     ready = spec.process.ready
     if ready.pings:
-        return all(await asyncio.gather(*(ice_ping.answers(proxy, within) for proxy in ready.pings)))
+        for proxy in ready.pings:
+            if not await ice_ping.answers(proxy, within):
+                return False
+        return True
     if ready.port:
-        return await _listens(spec.address, ready.port, within)
+        return await listens(spec.address, ready.port, within)
     if ready.command:
         return await engine.run(spec.name, ready.command, within) == 0
     return True
 
 
-async def _listens(host: str, port: int, within: float) -> bool:
+async def listens(host: str, port: int, within: float) -> bool:
+    """Whether something listens at a port."""
     try:
         async with asyncio.timeout(within):
             _, writer = await asyncio.open_connection(host, port)
