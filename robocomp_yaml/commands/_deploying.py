@@ -58,12 +58,18 @@ def open_(
     ctx: click.Context, ddsl: str, include: tuple[str, ...], format_: str, engine: str | None, *, lenient: bool = False
 ) -> Opened:  # fmt: skip
     """Reads the document and all that belongs to it. Ends the command where it has errors; `lenient` lets those pass
-    that leave the network readable: one that runs can be taken down whatever became of its documents."""
+    that leave the network readable, and takes what runs where they do not: it can be taken down whatever became of its
+    documents."""
     from robocomp_yaml.pipeline import analyse
 
     path = _document(ddsl)
     analysis = analyse([path], include)
     network = analysis.networks.get(os.path.realpath(path))
+    if network is None and lenient:
+        from robocomp_yaml.deploy.stand_in import stand_in
+
+        if network := stand_in(path):
+            click.echo(f"{path} cannot be read (see `rcyaml check`): this is about what runs of it", err=True)
     if network is None or (has_errors(analysis.diagnostics) and not lenient):
         _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)
     assert network

@@ -149,6 +149,23 @@ def test_what_was_compiled_before_its_interface_changed(rcyaml: Rcyaml, tmp_path
     assert "`rcyaml compile mouth/mouth.cdsl.yaml`" in told.stderr
 
 
+def test_what_runs_can_be_stopped_though_its_document_is_broken(robot: Path, rcyaml: Rcyaml) -> None:
+    broken = {"robot.ddsl.yaml": ROBOT + "x: [\n"}
+    write_tree(robot, broken)
+    assert deploy(rcyaml, "down").exit_code == 1  # nothing runs of it
+    write_tree(robot, {"robot.ddsl.yaml": ROBOT})
+    deploy(rcyaml, "up")
+    write_tree(robot, broken)
+    status = deploy(rcyaml, "status")
+    assert [line.split()[:2] for line in status.stdout.splitlines()[1:]] == [["base", "ready"], ["arm", "ready"]]
+    assert status.stderr == "robot.ddsl.yaml cannot be read (see `rcyaml check`): this is about what runs of it\n"
+    assert "base | hello\n" in deploy(rcyaml, "logs", "base").stdout
+    assert deploy(rcyaml, "up").exit_code == 1
+    assert deploy(rcyaml, "down", "arm").stdout == "arm   stopped\n"
+    down = deploy(rcyaml, "down")
+    assert (down.exit_code, down.stdout) == (0, "base  stopped\n")
+
+
 def test_a_second_name_means_the_same_process(robot: Path, rcyaml: Rcyaml, free_port: Ports) -> None:
     more = f"  hand: {{process: arm, endpoints: {{Hand: tcp -p {free_port()}}}}}\n"
     write_tree(robot, {"robot.ddsl.yaml": ROBOT + more})
@@ -301,6 +318,13 @@ def test_a_killed_supervisor_is_reported_once(robot: Path, rcyaml: Rcyaml, place
     assert "RC7007" not in deploy(rcyaml, "status").stderr
     assert deploy(rcyaml, "up").exit_code == 0
     deploy(rcyaml, "down")
+
+
+def test_an_address_that_does_not_resolve(robot: Path, rcyaml: Rcyaml) -> None:
+    write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("components:", "hosts: {moon: {address: nowhere.invalid}}\ncomponents:")})
+    result = deploy(rcyaml, "up", "--engine", "local")
+    assert result.exit_code == 1
+    assert "error[RC7008]: 'base' belongs on the host 'moon' (nowhere.invalid)" in result.stderr
 
 
 def test_only_one_changes_it_at_a_time(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
