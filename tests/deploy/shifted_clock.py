@@ -1,4 +1,4 @@
-"""A clock that a test sets, for all that it starts, while that runs (see shifted_clock.c); the machine's is left alone."""
+"""A clock that a test sets for all that it starts, while that runs (see shifted_clock.c). The machine's stays."""
 
 from __future__ import annotations
 

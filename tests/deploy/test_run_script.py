@@ -76,9 +76,10 @@ def test_words_reach_the_program_as_they_are(runner: Runner) -> None:
 
 
 def test_its_environment_is_set_and_ours_is_not_left(runner: Runner) -> None:
-    log = runner.to_end("eONE=a b$c=", "sTWO=SECRET", "=env", SECRET="s3cr t", RCYAML_CONFIG="x")
-    assert "ONE=a b$c=" in log and "TWO=s3cr t" in log
-    assert "RCYAML_CONFIG" not in log and "RCYAML_RESTART" not in log
+    entries = {"RCYAML_ENTRY_0": "ONE=a b\\0044c=\\\\n", "RCYAML_ENTRY_11": "EMPTY="}
+    log = runner.to_end("e0", "e11", "sTWO=SECRET", "=env", SECRET="s3cr t", RCYAML_CONFIG="x", **entries)
+    assert "\nONE=a b$c=\\n\n" in log and "\nEMPTY=\n" in log and "\nTWO=s3cr t\n" in log
+    assert "RCYAML_CONFIG" not in log and "RCYAML_RESTART" not in log and "RCYAML_ENTRY" not in log
 
 
 def test_a_secret_that_is_not_there_is_said_and_nothing_is_started(runner: Runner) -> None:

@@ -51,8 +51,13 @@ def server(places: Places, spec: Spec, user: str, number: int, *, is_here: bool)
     process = spec.process
     is_storm = process.kind == ICESTORM and process.config is not None
     words = [process.name, places.folder, *(f"f{path}" for path in process.folders)]
-    words += [f"s{v.name}={v.source}" if v.source else f"e{v.name}={v.value}" for v in process.env]
     environment = [f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}", f"RCYAML_RESTART={restart_rule(process, number)}"]
+    for place, variable in enumerate(process.env):
+        if variable.source:
+            words.append(f"s{variable.name}={variable.source}")
+        else:  # in the environment from the beginning: everybody can see the words of a command
+            words.append(f"e{place}")
+            environment.append(f"RCYAML_ENTRY_{place}={encoded(f'{variable.name}={variable.value}')}")
     command = spec.command
     if is_storm:
         words.append("k")  # IceGrid writes the configuration of an IceBox and its services itself

@@ -101,8 +101,11 @@ class IceGridEngine:
         return await self._beside("", "observed", observe, self._reached(), self._places, dict(self._specs), hosts)
 
     async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
-        """On this machine; other hosts are asked when a process starts there."""
+        """On this machine all that can be known; of other hosts, the ports."""
+        from robocomp_yaml.deploy.icegrid import far_ports
+
         own: set[int] = set()
+        running: dict[str, Running] = {}
         if self._grid:
             alive = procfs.table()
             running = await self.observe()
@@ -110,6 +113,7 @@ class IceGridEngine:
         found = obstacles([spec for spec in specs if is_here(spec.address)], own)
         if not found:
             self._clear = {spec.name: spec for spec in specs}
+        found += await far_ports.taken([spec for spec in specs if not is_here(spec.address)], running)
         return found + [
             deploying.REFUSED.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
             for spec in specs
