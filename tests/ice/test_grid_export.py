@@ -15,7 +15,16 @@ from networks import speaking
 from processes import Ports, Start, until
 
 from robocomp_yaml.emit.exports import export
-from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Host, Network, Process, Variable
+from robocomp_yaml.network.network import (
+    CONFIG,
+    LOOPBACK,
+    PROGRAM,
+    ConfigFile,
+    Host,
+    Network,
+    Process,
+    Variable,
+)
 
 pytestmark = pytest.mark.skipif(
     not (shutil.which("icegridnode") and shutil.which("icegridadmin")),
@@ -82,6 +91,21 @@ def test_a_program_runs_with_its_own_words(admin: Admin, tmp_path: Path, open_pl
     told = json.loads((open_place / "told").read_text(encoding="utf-8"))
     assert told == [list(ODD), [TITLE, "", os.environ["PATH"]], str(open_place)]
     assert admin("application remove Small").stderr == ""
+
+
+def test_a_program_reads_a_configuration_of_its_own(admin: Admin, tmp_path: Path, open_place: Path) -> None:
+    text = "a = \"b\" # no property\n${x} $HOME 100% \\ 'c'\n" * 200
+    script = SCRIPT.replace("sys.argv[1:]", "[open(word.rpartition('=')[2]).read() for word in sys.argv[1:]]")
+    script = script.replace('[os.environ[name] for name in ("TITLE", "NONE", "FROM")]', "len(sys.argv)")
+    network = Network("Small", "/small.ddsl.yaml", str(tmp_path), {LOOPBACK: Host(LOOPBACK)})
+    network.processes["read"] = Process(
+        "read", LOOPBACK, ("python3", "-c", script, CONFIG, f"--file={CONFIG}"), str(open_place), PROGRAM,
+        config=ConfigFile("config/read", text),
+    )  # fmt: skip
+    (tmp_path / "small.xml").write_text(export(network, "icegrid")["Small.xml"], encoding="utf-8")
+    assert admin(f"application add {tmp_path / 'small.xml'}").stderr == ""
+    until(lambda: (open_place / "told").exists(), lambda: admin("server state read").stdout)
+    assert json.loads((open_place / "told").read_text(encoding="utf-8")) == [[text, text], 3, str(open_place)]
 
 
 def test_everything_is_taken(admin: Admin, tmp_path: Path) -> None:

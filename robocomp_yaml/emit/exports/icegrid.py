@@ -8,13 +8,22 @@ from __future__ import annotations
 
 from robocomp_yaml.emit.exports._commands import file_name, without_config
 from robocomp_yaml.emit.exports._xml import HEAD, element
-from robocomp_yaml.network.network import ICESTORM, NEVER, Network, Process
+from robocomp_yaml.network.network import CONFIG, ICESTORM, NEVER, PROGRAM, Network, Process
 from robocomp_yaml.source import properties
 
 _DROP_LAST = 'n=$#; for word do shift; n=$((n-1)); [ "$n" -gt 0 ] && set -- "$@" "${word#=}"; done; exec "$@"'
 _TAKE_ALL = 'for word do shift; set -- "$@" "${word#=}"; done; exec "$@"'
 """A node appends `--Ice.Config=…` to every command, which only Ice's programs understand. It leaves empty words out, so
 they are given to the shell behind a sign of ours."""
+
+_MAKE_FILE = 'f=$(umask 077; mktemp) && printf %s "${1#=}" >"$f" && exec 9<"$f" && rm -f -- "$f" || exit 1; shift'
+_FILE_AND_DROP_LAST = (
+    'n=$#; for word do shift; n=$((n-1)); word=${word#=}; case $word in *"{config}"*) '
+    'word=${word%%"{config}"*}/dev/fd/9${word#*"{config}"};; esac; [ "$n" -gt 0 ] && set -- "$@" "$word"; done; exec "$@"'
+)
+"""For a program that reads a configuration of its own, a gate too: a file without a name, which nobody else can read."""
+
+_OPTION = f"--Ice.Config={CONFIG}"
 
 _MAKE_FOLDERS = 'while [ "$1" != -- ]; do mkdir -p "$1" || exit 1; shift; done; shift; exec "$@"'
 
@@ -30,14 +39,18 @@ def export(network: Network) -> dict[str, str]:
 
 
 def _server(process: Process) -> list[str]:
-    program, *arguments = without_config(process)
+    needs_file = process.config is not None and process.kind == PROGRAM and _OPTION not in process.command
+    is_ice = process.is_ice and not needs_file
+    program, *arguments = process.command if needs_file else without_config(process)
     bare = [f"{one.name}={one.value}" for one in process.env if "$" in one.value]
     if bare:  # a node puts variables of its own into values, and knows no way to say `$`
         program, arguments = "/usr/bin/env", [*bare, program, *arguments]
-    if not process.is_ice or "" in arguments:
+    if not is_ice or "" in arguments:
         words = [f"={word}" if word[:1] in ("", "=") else word for word in (program, *arguments)]
-        program = "/bin/sh"
-        arguments = ["-c", _TAKE_ALL if process.is_ice else _DROP_LAST, process.name, *words]
+        script = _TAKE_ALL if is_ice else _DROP_LAST
+        if needs_file and process.config is not None:
+            script, words = f"{_MAKE_FILE}; {_FILE_AND_DROP_LAST}", [f"={process.config.text}", *words]
+        program, arguments = "/bin/sh", ["-c", script, process.name, *words]
     if process.folders:
         program, arguments = "/bin/sh", ["-c", _MAKE_FOLDERS, process.name, *process.folders, "--", program, *arguments]
     attributes = {"id": process.name, "exe": _literal(program), "activation": _activation(process)}
@@ -48,8 +61,8 @@ def _server(process: Process) -> list[str]:
         if "$" not in variable.value:
             value = f"${variable.source}" if variable.source else variable.value
             inside += element("env", {}, text=f"{variable.name}={value}")
-    values = properties.read(process.config.text).values if process.config and process.is_ice else {}
-    if not process.is_ice:
+    values = properties.read(process.config.text).values if process.config and is_ice else {}
+    if not is_ice:
         values["Ice.Admin.Enabled"] = "0"  # a node would wait for its administrative object for ever
     given = [
         line for key, value in values.items()
