@@ -1,4 +1,4 @@
-"""A deployment whose document cannot be read any more: what runs of it on this machine can be seen and stopped still."""
+"""A deployment whose document cannot be read: what runs of it on this machine can be seen and stopped still."""
 
 from __future__ import annotations
 
