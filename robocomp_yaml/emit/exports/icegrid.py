@@ -19,9 +19,10 @@ they are given to the shell behind a sign of ours."""
 _MAKE_FILE = 'f=$(umask 077; mktemp) && printf %s "${1#=}" >"$f" && exec 9<"$f" && rm -f -- "$f" || exit 1; shift'
 _FILE_AND_DROP_LAST = (
     'n=$#; for word do shift; n=$((n-1)); word=${word#=}; case $word in *"{config}"*) '
-    'word=${word%%"{config}"*}/dev/fd/9${word#*"{config}"};; esac; [ "$n" -gt 0 ] && set -- "$@" "$word"; done; exec "$@"'
+    'word=${word%%"{config}"*}/dev/fd/9${word#*"{config}"};; esac; '
+    '[ "$n" -gt 0 ] && set -- "$@" "$word"; done; exec "$@"'
 )
-"""For a program that reads a configuration of its own, a gate too: a file without a name, which nobody else can read."""
+"""For a program that reads a configuration of its own, a gate too: a file without a name, which nobody else reads."""
 
 _OPTION = f"--Ice.Config={CONFIG}"
 
