@@ -26,12 +26,19 @@ def check(network: Network) -> Iterator[Diagnostic]:
                     yield codes.PORT_CONFLICT.at(
                         endpoint.span, port=endpoint.port, name=_name(process, endpoint), other=_name(other, served),
                         host=f"host '{process.host}'" if network.hosts[process.host].span.file else "this machine",
-                        hint="give one of them another port" if endpoint.span != served.span else
-                        "leave the port out, and each of them gets one of its own",
+                        hint=_mend(process, endpoint, served),
                         related=[Related(f"{_name(other, served)} has it, too", served.span)],
                     )
                     break
             others.append((bound, process, endpoint))
+
+
+def _mend(process: Process, endpoint: Endpoint, other: Endpoint) -> str:
+    if endpoint.span != other.span:
+        return "give one of them another port"
+    if process.component:
+        return "leave the port out, and each of them gets one of its own"
+    return f"give each one of its own; {{i}} counts instances: `-p {endpoint.port // 10}{{i}}`"
 
 
 def _machine(address: str, *, keep: bool = False) -> str:
