@@ -10,7 +10,7 @@ from msgspec import to_builtins
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._deploying import Opened, end
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.probe import Found, ProbeFailed, probe, programs
+from robocomp_yaml.deploy.probe import NODE, Found, ProbeFailed, probe, programs
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.network import Host, Network
@@ -56,7 +56,7 @@ def _host(network: Network, name: str) -> Host:
 
 
 def _can_run(network: Network, host: str, found: list[Found]) -> bool:
-    own = {process.name for process in network.enabled() if process.host == host}
+    own = {process.name for process in network.enabled() if process.host == host} | {NODE}
     return all(one.can_run for one in found if own & set(one.used_by))
 
 

@@ -18,6 +18,8 @@ from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.network.network import Host, Network
 
 WITHIN = 60.0
+NODE = "the IceGrid node"
+"""What is said to use `icegridnode`."""
 SCRIPT, MODULES = "templates/probe/ask.sh", "templates/probe/modules.py"
 
 
@@ -43,13 +45,13 @@ class Found(msgspec.Struct, frozen=True):
 
 def programs(network: Network) -> dict[str, tuple[str, ...]]:
     """The programs of a network's processes, each with the names of those. One whose name has a line break in it
-    cannot be asked for."""
+    cannot be asked for. Where there are several hosts, each needs IceGrid's node as well."""
     found: dict[str, tuple[str, ...]] = {}
     for process in network.enabled():
         program = process.command[0]
         if "\n" not in program:
             found[program] = (*found.get(program, ()), process.name)
-    return found
+    return found | {"icegridnode": (NODE,)} if network.is_distributed else found
 
 
 async def probe(host: Host, wanted: dict[str, tuple[str, ...]]) -> list[Found]:

@@ -58,6 +58,9 @@ async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
     return await _look(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
 
 
+_NOT_FOUND = "127 says that a program was not found: `rcyaml deploy probe` tells which ones host '{host}' has"
+
+
 async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: State) -> None:
     """Waits for a process that was just started. Raises DeployFailed where it ends before, or takes too long. `lines`
     are what it writes, from its start on."""
@@ -70,7 +73,9 @@ async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], st
             return look.result()
         running = await state(_NEW)
         if watch in done:
-            raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=watch.result()))
+            how = watch.result()
+            hint = _NOT_FOUND.format(host=spec.process.host) if "exit code 127" in how else ""
+            raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=how, hint=hint))
         raise DeployFailed(
             deploying.NOT_READY.at(
                 spec.process.span, name=spec.name, within=f"{spec.process.ready.within:g}", why=why_not(spec, running)

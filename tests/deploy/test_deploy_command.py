@@ -350,6 +350,18 @@ def test_a_host_is_asked_over_ssh(robot: Path, rcyaml: Rcyaml, monkeypatch: pyte
     assert "-- robot@192.0.2.7" in (robot / "ssh.log").read_text(encoding="utf-8")
 
 
+def test_several_hosts_need_icegrid_too(robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
+    from robocomp_yaml.deploy.probe import NODE
+
+    hosts = "hosts: {one: 127.0.0.1, two: 127.0.0.2}\ncomponents:\n"
+    entries = "  a: {program: sh, host: one}\n  b: {program: sh, host: two}\n"
+    write_tree(robot, {"robot.ddsl.yaml": f"deployment: Robot\n{hosts}{entries}"})
+    result = deploy(rcyaml, "probe", "one", "--format", "json")
+    assert [one["program"] for one in json.loads(result.stdout)["hosts"]["one"]] == ["sh", "icegridnode"]
+    monkeypatch.setattr("robocomp_yaml.commands._probing.programs", lambda network: {"no-node": (NODE,)})
+    assert deploy(rcyaml, "probe", "one").exit_code == 1
+
+
 def test_a_program_that_a_host_lacks(robot: Path, rcyaml: Rcyaml) -> None:
     write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("program: sleep", "program: no-such-sleep")})
     result = deploy(rcyaml, "probe")
