@@ -91,9 +91,10 @@ def test_the_clock_is_shifted(tmp_path: Path) -> None:
     """Else the others would prove nothing."""
     clock = make_clock(tmp_path)
     clock.set(-7)
-    script = f'{sys.executable} -c "import time; print(time.time())"; printf "%(%s)T\\n" -1; echo $EPOCHREALTIME; date +%s'
-    said = subprocess.run(["bash", "-c", script], env={**os.environ, **clock.environment, "LC_ALL": "C"},
-                          capture_output=True, text=True, check=True)  # fmt: skip
+    script = 'printf "%(%s)T\n" -1; echo $EPOCHREALTIME; date +%s; "$0" -c "import time; print(time.time())"'
+    environment = {**os.environ, **clock.environment, "LC_ALL": "C"}
+    command = ["bash", "-c", script, sys.executable]
+    said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     now = datetime.now(timezone.utc).timestamp()
     assert [round((now - float(line)) / 3600, 1) for line in said.stdout.split()] == [7.0] * 4
 

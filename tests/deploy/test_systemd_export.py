@@ -46,7 +46,7 @@ def systemctl() -> Iterator[Systemctl]:
     with tempfile.TemporaryDirectory(prefix="systemd") as name:
         home, own = Path(name), {"HOME": name, "XDG_RUNTIME_DIR": name, "PATH": os.environ["PATH"]}
         command = ["unshare", "--fork", "--pid", "--mount", "--mount-proc", "--kill-child",
-                   "sh", "-c", ALONE, "sh", MANAGER, "--user", "--log-target=console", "--unit=basic.target"]  # fmt: skip
+                   "sh", "-c", ALONE, "sh", MANAGER, "--user", "--unit=basic.target"]  # fmt: skip
         manager = Running(subprocess.Popen(command, env=own, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                            stderr=subprocess.STDOUT))  # fmt: skip
 
@@ -54,13 +54,14 @@ def systemctl() -> Iterator[Systemctl]:
             """It is obeyed only where its caller is among the manager's own processes."""
             children = Path(f"/proc/{manager.process.pid}/task/{manager.process.pid}/children").read_text()
             inside = ["nsenter", "--pid", "--mount", "--target", *children.split()]
-            done = subprocess.run([*inside, "systemctl", "--user", *words], env=own, capture_output=True, text=True,
-                                  timeout=30)  # fmt: skip
+            asked = [*inside, "systemctl", "--user", *words]
+            done = subprocess.run(asked, env=own, capture_output=True, text=True, timeout=30)
             return done.stdout + done.stderr
 
         try:
-            until(lambda: run("is-active", "basic.target") == "active\n" or manager.process.poll() is not None, "systemd")
-            if manager.process.poll() is not None:
+            ended = manager.process.poll
+            until(lambda: run("is-active", "basic.target") == "active\n" or ended() is not None, "systemd")
+            if ended() is not None:
                 pytest.skip(f"systemd does not run here: {manager.output.strip()}")
             run.home, run.manager = home, manager  # type: ignore[attr-defined]
             yield run
@@ -93,7 +94,8 @@ def test_the_units_run(systemctl: Systemctl, tmp_path: Path) -> None:
         env=(Variable("TITLE", 'a $title 50% "q" \\x'), Variable("TOKEN", source="ROBOT_TOKEN")),
     )  # fmt: skip
     logged = f"echo $0 >> {tmp_path}/order; exec sleep 600"
-    configured = shell("configured", f'cat "$0" > {tmp_path}/config', config=config_of("configured", "x = $HOME 100%\n"))
+    config = config_of("configured", "x = $HOME 100%\n")
+    configured = shell("configured", f'cat "$0" > {tmp_path}/config', config=config)
     in_folder = sleeper("in_folder", folders=(str(tmp_path / "made for it"),))
     processes = [Process(name, LOOPBACK, ("sh", "-c", logged, name), "/", PROGRAM, after=after, is_ice=False)
                  for name, after in (("last", ("middle",)), ("middle", ("first",)), ("first", ()))]  # fmt: skip
