@@ -8,7 +8,8 @@ _PLACES = frozenset({"span", "node", "at"})
 
 
 class Located(msgspec.Struct, frozen=True, eq=False):
-    """Equal to another one of the same content, wherever the two stand: `span`, `node` and `at` do not count."""
+    """Equal to another one of the same content, wherever the two stand: `span`, other names that end in `_span`, `node`
+    and `at` do not count."""
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -22,4 +23,4 @@ class Located(msgspec.Struct, frozen=True, eq=False):
         return hash(tuple(getattr(self, name) for name in self._content()))
 
     def _content(self) -> list[str]:
-        return [name for name in self.__struct_fields__ if name not in _PLACES]
+        return [name for name in self.__struct_fields__ if name not in _PLACES and not name.endswith("_span")]
