@@ -236,7 +236,7 @@ def _run(
             return asyncio.run(work)
         reason = "another rcyaml is changing this deployment"
     except DeployFailed as error:
-        opened.told += [*opened.engine.notes, error.diagnostic, *error.more]
+        opened.told += [*opened.engine.notes, error.diagnostic]
         opened.engine.notes = []
         end(ctx, opened)
         raise

@@ -73,18 +73,21 @@ class Watch:
 
 
 async def carry_out(
-    engine: Engine, plan: Plan, report: Report, *, keep_going: bool, limit: TimeLimit | None = None
+    engine: Engine, plan: Plan, report: Report, *, keep_going: bool, limit: TimeLimit | None = None,
+    blocked: Mapping[str, Diagnostic] | None = None,
 ) -> Outcome:  # fmt: skip
     """Does what the plan says. Where a process that is started fails, nothing more is, or, with `keep_going`, only what
     depends on it is not; the latter holds also where one that ran already is not ready. When the time is over, nothing
-    more is started, and what is not ready has failed."""
+    more is started, and what is not ready has failed. What is `blocked` is left as it is, and counts as failed."""
+    blocked = blocked or {}
     leaving = plan.of(STOP, RESTART) + [step for step in plan.of(START) if _is_in_the_way(step)]
+    leaving = [step for step in leaving if step.name not in blocked]
     await stop_all(engine, [step.running for step in leaving if step.running], report)
     if gone := [step.name for step in plan.of(STOP)]:
         await engine.forget(gone)
-    if specs := [step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec]:
+    if specs := [step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec and step.name not in blocked]:
         await engine.prepare(specs)
-    starts = _Starts(engine, plan, report, keep_going, limit or TimeLimit())
+    starts = _Starts(engine, plan, report, keep_going, limit or TimeLimit(), blocked)
     return await starts.run()
 
 
@@ -119,9 +122,12 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
 class _Starts:
     """The starts of one plan under way."""
 
-    def __init__(self, engine: Engine, plan: Plan, report: Report, keep_going: bool, limit: TimeLimit) -> None:
+    def __init__(
+        self, engine: Engine, plan: Plan, report: Report, keep_going: bool, limit: TimeLimit,
+        blocked: Mapping[str, Diagnostic],
+    ) -> None:  # fmt: skip
         self._engine, self._plan, self._report = engine, plan, report
-        self._keep_going, self._limit = keep_going, limit
+        self._keep_going, self._limit, self._blocked = keep_going, limit, blocked
         self._outcome = Outcome()
         self._watch = Watch(engine)
         self._since: dict[str, float] = {}  # when it began to be waited for; those of which it is not known how it ends
@@ -166,6 +172,10 @@ class _Starts:
     async def _start(self, step: Step, before: Mapping[str, asyncio.Task[bool]]) -> bool:
         """Starts a process when all it is after are ready, or have failed where it can do without; whether it is ready
         then."""
+        if step.name in self._blocked:
+            self._since[step.name] = time.monotonic()
+            self._fail(step.name, self._blocked[step.name])
+            return False
         ready = await asyncio.gather(*(asyncio.shield(task) for task in before.values()))
         optional = step.spec.process.optional if step.spec else ()
         if not all(is_ready or name in optional for name, is_ready in zip(before, ready, strict=True)):

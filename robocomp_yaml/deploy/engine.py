@@ -70,12 +70,11 @@ class Line(msgspec.Struct, frozen=True):
 
 
 class DeployFailed(Exception):
-    """What was wanted cannot be done; the diagnostic (RC7xxx) says why, and how to mend it; `more` say what else."""
+    """What was wanted cannot be done; the diagnostic (RC7xxx) says why, and how to mend it."""
 
-    def __init__(self, diagnostic: Diagnostic, *more: Diagnostic) -> None:
+    def __init__(self, diagnostic: Diagnostic) -> None:
         super().__init__(diagnostic.message)
         self.diagnostic = diagnostic
-        self.more = more
 
 
 class Engine(Protocol):

@@ -62,8 +62,9 @@ async def up(
     *, keep_going: bool = False, limit: TimeLimit | None = None,
 ) -> Result:  # fmt: skip
     """Brings about what the network says, and waits until all of it is ready. Nothing is touched where something stands
-    in the way that can be seen before. When a process that is started fails, or the time is over, `choose` says what
-    becomes of those that were; one that ran already and is not ready is only reported."""
+    in the way that can be seen before; with `keep_going`, only what it keeps from starting, and what needs that. When a
+    process that is started fails, or the time is over, `choose` says what becomes of those that were; one that ran
+    already and is not ready is only reported."""
     limit = limit or TimeLimit()
     before = await engine.observe()
     result = Result(plan(network, before, names, forced))
@@ -72,9 +73,13 @@ async def up(
     result.diagnostics = await engine.obstacles(starting, leaving) if starting else []
     if limit.is_over:
         result.diagnostics.append(deploying.LATE.at(Span(network.path), within=limit, when="before anything was done"))
-    if result.diagnostics:
+    blocked: dict[str, Diagnostic] = {}
+    if result.diagnostics and keep_going and not limit.is_over:
+        found = [(spec.name, await engine.obstacles([spec], leaving)) for spec in starting]
+        blocked = {name: obstacles[0] for name, obstacles in found if obstacles}
+    if result.diagnostics and not blocked:
         return result
-    result.outcome = await carry_out(engine, result.plan, report, keep_going=keep_going, limit=limit)
+    result.outcome = await carry_out(engine, result.plan, report, keep_going=keep_going, limit=limit, blocked=blocked)
     outcome = result.outcome
     if outcome.failed or outcome.is_late:
         result.diagnostics = await _what_failed(engine, network, result, limit)
@@ -104,7 +109,7 @@ async def _what_failed(engine: Engine, network: Network, result: Result, limit: 
     outcome = result.outcome
     logs = {name: await _last_lines(engine, name) for name in outcome.failed}
     failed = {name: found for name, found in outcome.failed.items() if name not in outcome.late}
-    told = [replace(found, more="\n".join(logs[name])) for name, found in failed.items()]
+    told = list(dict.fromkeys(replace(found, more="\n".join(logs[name])) for name, found in failed.items()))
     if not outcome.is_late:
         return told
     wanted = [step.name for step in result.plan.of(START, RESTART, CHANGE, KEEP)]

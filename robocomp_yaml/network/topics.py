@@ -159,14 +159,23 @@ class Topics(msgspec.Struct):
         ))
 
     def _other_names(self, end: _End) -> str:
-        """The names under which the same interface is published."""
-        published = sorted({
-            topic for (_, topic), ends in self._ends.items() for other in ends
-            if other.is_out and other.port.interface.name == end.port.interface.name
-        })
-        if not published:
-            return "add the component that publishes it"
-        return f"it is published as {', '.join(published)}: `topics: {{{end.port.name}: {published[0]}}}`"
+        """Where the same interface is published: under another name, or with another IceStorm."""
+        names, storms = set(), set()
+        for (_, topic), ends in self._ends.items():
+            for other in ends:
+                if other.is_out and other.port.interface.name == end.port.interface.name:
+                    if other.storm is end.storm:
+                        names.add(topic)
+                    elif other.storm is not None:
+                        storms.add(f"'{other.storm.name}'")
+        if names:
+            first = min(names)
+            is_inside = end.storm is not None and end.draft.instance.scope != end.storm.linked.scope
+            written = f"/{first}" if is_inside else first
+            return f"it is published as {', '.join(sorted(names))}: `topics: {{{end.port.name}: {written}}}`"
+        if storms:
+            return f"it is published with the IceStorm {', '.join(sorted(storms))}: where there is one only, all meet"
+        return "add the component that publishes it"
 
 
 def _too(others: list[Draft]) -> str:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from msgspec.structs import replace
 from processes import Ports
 from robocomp_yaml.deploy.carry_out import GONE, READY, STARTING, STOPPING
+from robocomp_yaml.deploy.engine import RUNNING
+from robocomp_yaml.deploy.operations import KEEP_GOING
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP
 from robocomp_yaml.network.network import Process, Readiness, Restart, Variable
 from small_networks import Place, config_of, listener, readable_by_others, shell, sleeper
@@ -112,6 +114,17 @@ def test_names_limit_it_to_some_with_what_they_need(place: Place) -> None:
     assert actions(place.up(*network)) == {"a": KEEP, "b": KEEP, "c": START}
     assert set(place.down("a")) == {"a", "b"}
     assert set(place.pids()) == {"c"}
+
+
+def test_what_stands_in_the_way_of_one_keeps_its_users_from_starting_and_no_others(place: Place) -> None:
+    """With `keep`; else nothing is started at all."""
+    missing = Process("b", "localhost", ("/no/such/program",), "/tmp", kind="program", is_ice=False)
+    network = (sleeper("a"), missing, sleeper("c", "b"))
+    assert place.up(*network).diagnostics and place.pids() == {}
+    result = place.up(*network, on_failure=KEEP_GOING)
+    assert [found.code for found in result.diagnostics] == ["RC7002"]
+    assert result.outcome.failed.keys() == {"b"} and result.outcome.skipped == ["c"]
+    assert place.observe()["a"].state == RUNNING
 
 
 def test_a_forced_one_restarts_though_nothing_changed(place: Place) -> None:

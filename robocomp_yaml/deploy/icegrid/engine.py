@@ -50,6 +50,7 @@ class IceGridEngine:
         self._specs: dict[str, Spec | None] = {}
         self._wanted: set[str] = set()
         self._kept: set[str] = set()  # those of the wanted that are written down
+        self._no_node: dict[str, Diagnostic] = {}  # by the host
         self._clear: dict[str, Spec] = {}  # what has just been found to have no obstacles
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
@@ -73,7 +74,7 @@ class IceGridEngine:
                 grid.close()
             grid = start_up.created(self._places, self._network)
             try:
-                start_up.ensure_nodes(grid, self._places, self._network, hosts)
+                self._no_node = start_up.ensure_nodes(grid, self._places, self._network, hosts)
             except BaseException:
                 if self._places.wanted():
                     grid.close()
@@ -101,7 +102,7 @@ class IceGridEngine:
         return await self._beside("", "observed", observe, self._reached(), self._places, dict(self._specs), hosts)
 
     async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
-        """On this machine all that can be known; of other hosts, the ports."""
+        """On this machine all that can be known; of other hosts, whether they have a node, and the ports."""
         from robocomp_yaml.deploy.icegrid import far_ports
 
         own: set[int] = set()
@@ -113,8 +114,11 @@ class IceGridEngine:
         found = obstacles([spec for spec in specs if is_here(spec.address)], own)
         if not found:
             self._clear = {spec.name: spec for spec in specs}
-        found += await far_ports.taken([spec for spec in specs if not is_here(spec.address)], running)
-        return found + [
+        lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
+                if spec.process.host in self._no_node}  # fmt: skip
+        far = [spec for spec in specs if not is_here(spec.address) and spec.process.host not in lost]
+        found += await far_ports.taken(far, running)
+        return [*lost.values(), *found] + [
             deploying.REFUSED.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
             for spec in specs
             if _is_too_long(spec)

@@ -20,6 +20,7 @@ from robocomp_yaml.deploy.icegrid.places import (
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.local.record import clear_up
 from robocomp_yaml.diag.codes import grids
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Host, Network
 
@@ -77,9 +78,9 @@ def _session(places: Places, registry: Registry, network: Network) -> Grid:
         raise _failed(network, said or str(error)) from error
 
 
-def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[Host]) -> None:
+def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[Host]) -> dict[str, Diagnostic]:
     """Every host has its node: those of this machine are started, others over SSH, unless one that was started by hand
-    finds the registry again. Raises DeployFailed for those that have none."""
+    finds the registry again. What is wrong with those that have none, by their names."""
     registry = places.registry()
     assert registry
     known = places.nodes()
@@ -93,7 +94,7 @@ def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[H
     tried |= {host.name: daemons.Start(was_there=True) for host in by_hand if grid.has_node(host.name)}
     is_ours = {name: not start.reason for name, start in tried.items() if not start.was_there}
     places.keep_nodes({**{host.name: False for host in hosts}, **known, **is_ours})
-    faults = []
+    faults = {}
     for host in missing:
         reason = tried[host.name].reason
         hint = f"start it by hand, then try again: {daemons.by_hand(shown_path(scripts[host.name]), host)}"
@@ -105,9 +106,10 @@ def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[H
         if reason:
             where = host.span if host.span.file else Span(network.path)
             hint = "" if is_here(host.address) else hint
-            faults.append(grids.NO_NODE.at(where, name=host.name, address=host.address, reason=reason, hint=hint))
-    if faults:
-        raise DeployFailed(*faults)
+            faults[host.name] = grids.NO_NODE.at(
+                where, name=host.name, address=host.address, reason=reason, hint=hint
+            )  # fmt: skip
+    return faults
 
 
 def _started(hosts: Sequence[Host], scripts: Mapping[str, str]) -> dict[str, daemons.Start]:

@@ -158,6 +158,23 @@ def test_who_is_outside_is_told_what_the_topic_is_called() -> None:
     assert found.hint == "it is published as left/Heard, right/Heard: `topics: {Heard: left/Heard}`"
 
 
+def test_the_name_is_that_which_leads_there_from_where_it_is_written() -> None:
+    outer = STORM + "include: {left: arm.ddsl.yaml, right: mind.ddsl.yaml}\n"
+    mind = "deployment: Mind\ncomponents: {mind: {component: mind}}\n"
+    (found,) = faults(deployed(outer, **ENDS, **{"arm.ddsl.yaml": ARM, "mind.ddsl.yaml": mind}))
+    assert found.hint == "it is published as left/Heard: `topics: {Heard: /left/Heard}`"
+    named = mind.replace("mind}", "mind, topics: {Heard: /left/Heard}}")
+    topic = topics(network(deployed(outer, **ENDS, **{"arm.ddsl.yaml": ARM, "mind.ddsl.yaml": named})))["right.mind"]
+    assert topic == "left/Heard"
+
+
+def test_what_another_icestorm_carries_is_told() -> None:
+    arm = ARM.replace("components", "services: {storm: {icestorm: {}}}\ncomponents", 1)
+    outer = STORM + "include: {left: arm.ddsl.yaml}\ncomponents: {mind: {component: mind}}\n"
+    (found,) = faults(deployed(outer, **ENDS, **{"arm.ddsl.yaml": arm}))
+    assert found.hint == "it is published with the IceStorm 'left.storm': where there is one only, all meet"
+
+
 def test_an_include_with_an_icestorm_of_its_own() -> None:
     arm = ARM.replace("components", "services: {storm: {icestorm: {}}}\ncomponents", 1)
     found = network(deployed(ARMS, **ENDS, **{"arm.ddsl.yaml": arm}))
