@@ -5,6 +5,7 @@ Only click is imported here, so that `rcyaml --help` answers at once.
 
 from __future__ import annotations
 
+import atexit
 import gc
 import importlib
 import io
@@ -96,6 +97,7 @@ def group(ctx: click.Context, color: str, quiet: bool, verbose: bool) -> None:
 def main() -> None:
     """Run rcyaml; the exit code is 0 (fine), 1 (the documents have errors) or 2 (wrong usage)."""
     gc.set_threshold(200_000, 20, 100)  # a run is short, and most of what it makes lives to its end
+    atexit.register(gc.freeze)  # which need not be looked through again then
     _make_streams_usable()
     try:
         group(prog_name="rcyaml")

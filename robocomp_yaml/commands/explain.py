@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from robocomp_yaml.diag.code import Code, Files
+from robocomp_yaml.diag.code import Code, Files, Repeated
 
 
 @click.command(short_help="Say what a diagnostic means, with examples.")
@@ -68,7 +68,7 @@ def _tree(files: Files) -> str:
         elif isinstance(content, str) and content.startswith("-> "):
             out.append(f"  {path} {content}  (a link)")
         else:
-            text = content if isinstance(content, str) else content.decode("utf-8", "backslashreplace")
+            text = content.decode("utf-8", "backslashreplace") if isinstance(content, bytes) else str(content)
             lines = [line if len(line) <= 100 else line[:97] + "…" for line in text.splitlines()]
             out.append("\n".join([f"  # {path}", *(f"  {line}".rstrip() for line in lines)]))
     return "\n".join(out)
@@ -77,8 +77,10 @@ def _tree(files: Files) -> str:
 def _as_json(rows: list[Code]) -> str:
     from robocomp_yaml.diag.render.json import dumps
 
-    def text(content: str | bytes | None) -> str | None:
-        return content.decode("utf-8", "backslashreplace") if isinstance(content, bytes) else content
+    def text(content: str | bytes | Repeated | None) -> str | None:
+        if content is None:
+            return None
+        return content.decode("utf-8", "backslashreplace") if isinstance(content, bytes) else str(content)
 
     data = [
         {

@@ -9,7 +9,20 @@ import msgspec
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 
-Files = Mapping[str, "str | bytes | None"]
+
+class Repeated(msgspec.Struct, frozen=True):
+    """A text so long that it is made only when somebody asks for it."""
+
+    before: str
+    text: str
+    times: int
+    after: str
+
+    def __str__(self) -> str:
+        return self.before + self.text * self.times + self.after
+
+
+Files = Mapping[str, str | bytes | Repeated | None]
 
 
 class Code(msgspec.Struct, frozen=True):

@@ -19,7 +19,7 @@ from robocomp_yaml.source.digest import digest
 
 JOURNAL = f"{STATE}/journal.json"
 JOURNAL_DONE = f"{STATE}/journal.done"
-_STAGED = re.compile(r"\.rcyaml-[0-9]+-[0-9]+\.(new|old)")
+_STAGED = r"\.rcyaml-[0-9]+-[0-9]+\.(new|old)"
 PART = "~"
 """Ends the name of a copy that is not complete yet."""
 
@@ -69,7 +69,7 @@ def _is_sound(journal: Journal, root: Root) -> bool:
         names = (mark.path, mark.new, mark.old, mark.orig)
         if not mark.path:
             return False
-        if not all(not name or _STAGED.fullmatch(os.path.basename(name)) for name in (mark.new, mark.old)):
+        if not all(not name or re.fullmatch(_STAGED, os.path.basename(name)) for name in (mark.new, mark.old)):
             return False
         if mark.orig and not mark.orig.startswith(f"{mark.path}.orig"):
             return False

@@ -15,7 +15,7 @@ LONGEST_WORD = 8_000  # characters; the preprocessor's buffer has 65,536 bytes
 
 _HANG = re.compile(r" *(?:[-*+] +|[0-9]+[.)] +)?")  # below what the lines of a paragraph or list item start
 _HARMFUL = re.compile("[\x00-\x09\x0b-\x1f\x7f-\x9f\ud800-\udfff]|\\*/|/\\*|\\\\|\"\"\"")
-_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]")
+_CONTROL = "[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]"
 
 
 def comment(doc: str, indent: str = "", *, unit: str = "", tags: Iterable[tuple[str, str]] = ()) -> list[str]:
@@ -79,6 +79,6 @@ def _closed(line: str) -> str:
 def _harmless(doc: str) -> str:
     if not _HARMFUL.search(doc):
         return doc
-    plain = _CONTROL.sub("", doc.replace("\r\n", "\n").replace("\t", "    "))
+    plain = re.sub(_CONTROL, "", doc.replace("\r\n", "\n").replace("\t", "    "))
     plain = plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''")
     return plain.replace("\\", "\\\\")

@@ -7,8 +7,8 @@ import re
 from robocomp_yaml.link.numbers import arrives, compiles, is_integer_literal
 from robocomp_yaml.model.interface import Literal
 
-_INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)\Z")
-_REAL = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z")
+_INTEGER = r"[-+]?(?:0|[1-9][0-9]*)\Z"
+_REAL = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z"
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 
 
@@ -22,7 +22,7 @@ def literal(value: Literal, type_name: str) -> str:
         case "float" | "double":
             return _real(value, type_name)
         case _:
-            return value.lexeme if _INTEGER.match(value.lexeme) else str(value.value)
+            return value.lexeme if re.match(_INTEGER, value.lexeme) else str(value.value)
 
 
 def quoted(text: str) -> str:
@@ -33,8 +33,8 @@ def quoted(text: str) -> str:
 
 def _real(value: Literal, type_name: str) -> str:
     number = float(value.value)
-    if _INTEGER.match(value.lexeme):
+    if re.match(_INTEGER, value.lexeme):
         return value.lexeme if is_integer_literal(number) else f"{value.lexeme}.0"
     if is_integer_literal(number) and not (compiles(number, type_name) and arrives(number, type_name)):
         return str(int(number))
-    return value.lexeme if _REAL.match(value.lexeme) else repr(number)
+    return value.lexeme if re.match(_REAL, value.lexeme) else repr(number)

@@ -11,7 +11,7 @@ import contextlib
 import json
 import os
 import stat
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 import msgspec
 from msgspec.structs import asdict
@@ -124,13 +124,19 @@ def tool() -> str:
         return robocomp_yaml.__version__
     parts = [robocomp_yaml.__version__]
     for top in (package, *(os.path.join(os.path.dirname(package), name) for name in _DATA)):
-        for where, below, names in os.walk(top):
-            below[:] = sorted(name for name in below if name != "__pycache__")
-            folder = os.path.relpath(where, package)
-            for name in sorted(names):
-                state = os.stat(os.path.join(where, name))
-                parts.append(f"{folder}/{name} {state.st_size} {state.st_mtime_ns}")
+        parts += sorted(_states(top, len(os.path.dirname(package))))
     return digest("\n".join(parts).encode())
+
+
+def _states(folder: str, base: int) -> Iterator[str]:
+    """Each file below a folder, with its size and time; of paths, what is behind the first `base` characters."""
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            if not entry.is_dir():
+                state = entry.stat()
+                yield f"{entry.path[base:]} {state.st_size} {state.st_mtime_ns}"
+            elif entry.name != "__pycache__":
+                yield from _states(entry.path, base)
 
 
 class _Real:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.model.statemachine import StateMachine
 
 _SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
-_DURATION = re.compile(r"(\d+(?:\.\d*)?|\.\d+)\s*(us|ms|s|min|h)")
+_DURATION = r"(\d+(?:\.\d*)?|\.\d+)\s*(us|ms|s|min|h)"
 
 
 def build(root: Mapping, path: str) -> Component:
@@ -78,7 +78,7 @@ def seconds(node: Node | None) -> float | None:
 
 def duration(text: str) -> float | None:
     """The seconds of `100 ms`, `10 s` or `2min`."""
-    parts = _DURATION.fullmatch(text.strip())
+    parts = re.fullmatch(_DURATION, text.strip())
     return float(parts[1]) * _SECONDS[parts[2]] if parts else None
 
 

@@ -8,8 +8,8 @@ import msgspec
 
 from robocomp_yaml.source import properties
 
-_ENDPOINT = re.compile(r"\s*(tcp|udp|ssl|ws|wss|default)\b((?:\"[^\"]*\"|[^:\"])*)")
-_OPTION = re.compile(r"-(\w)\s+(\"[^\"]*\"|\S+)")
+_ENDPOINT = r"\s*(tcp|udp|ssl|ws|wss|default)\b((?:\"[^\"]*\"|[^:\"])*)"
+_OPTION = r"-(\w)\s+(\"[^\"]*\"|\S+)"
 
 
 class IceEndpoint(msgspec.Struct, frozen=True):
@@ -31,10 +31,10 @@ def spelled_host(address: str) -> str:
 
 def parse_endpoint(value: str) -> IceEndpoint | None:
     """The first endpoint of a property with a fixed port."""
-    match = _ENDPOINT.match(properties.unquoted(value))
+    match = re.match(_ENDPOINT, properties.unquoted(value))
     if not match:
         return None
-    options = dict(_OPTION.findall(match[2]))
+    options = dict(re.findall(_OPTION, match[2]))
     port = options.get("p", "")
     if not port.isascii() or not port.isdigit() or not 0 < int(port) < 65536:
         return None

@@ -19,7 +19,6 @@ from robocomp_yaml.network.network import TOPIC, Connection
 from robocomp_yaml.network.order import Need
 from robocomp_yaml.network.topic_names import NamedEnd, full_names
 
-
 _MANY = 6
 
 
@@ -102,7 +101,7 @@ class Topics(msgspec.Struct):
         port = (*component.publishes, *component.subscribes)[0]
         return codes.NO_STORM.at(
             first.span, source=first.name, does="publishes" if port in component.publishes else "subscribes to",
-            topic=port.name, hint=f"add an IceStorm: `services: {{storm: {{icestorm: {{}}}}}}`" + _too(others),
+            topic=port.name, hint="add an IceStorm: `services: {storm: {icestorm: {}}}`" + _too(others),
             related=[Related(f"{port.name} stands here", port.use.span)],
         )
 

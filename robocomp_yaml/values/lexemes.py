@@ -13,9 +13,9 @@ from robocomp_yaml.model.parameters import EnumType, ScalarType
 
 TRUTHS = {"true": True, "True": True, "TRUE": True, "1": True, "false": False, "False": False, "FALSE": False,
           "0": False}
-_WHOLE = re.compile(r"[-+]?[0-9]{1,40}(?:\.0*)?\Z")
-_NUMBER = re.compile(r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z")
-REFERENCE = re.compile(r"\$\{env:([A-Za-z_][A-Za-z0-9_]*)\}\Z")
+_WHOLE = r"[-+]?[0-9]{1,40}(?:\.0*)?\Z"
+_NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z"
+_REFERENCE = r"\$\{env:([A-Za-z_][A-Za-z0-9_]*)\}\Z"
 
 
 def read(type_: ScalarType, text: str) -> bool | int | float | str:
@@ -28,12 +28,18 @@ def read(type_: ScalarType, text: str) -> bool | int | float | str:
             raise ValueError(f"'{text}' is neither true nor false")
         return TRUTHS[bare]
     if type_.is_integer:
-        if not _WHOLE.match(bare):
+        if not re.match(_WHOLE, bare):
             raise ValueError(f"'{text}' is no whole number")
         return int(bare.partition(".")[0])
-    if not _NUMBER.match(bare) or not isfinite(float(bare)):
+    if not re.match(_NUMBER, bare) or not isfinite(float(bare)):
         raise ValueError(f"'{text}' is no number")
     return float(bare)
+
+
+def reference(text: str) -> str | None:
+    """The variable of the environment that the text is a reference to."""
+    found = re.match(_REFERENCE, text) if text.startswith("$") else None
+    return found[1] if found else None
 
 
 def spelled(data: object) -> str:

@@ -117,12 +117,10 @@ class _Reader:
         is_text = isinstance(type_, EnumType) or type_.name == "string"
         if self.quoted and is_text:
             text = unquoted(text)
-        reference = lexemes.REFERENCE.match(text)
-        if reference is None:
+        variable = lexemes.reference(text)
+        if variable is None:
             return text
-        if not self.resolve:
-            return Reference(reference[1])
-        return os.environ.get(reference[1])
+        return os.environ.get(variable) if self.resolve else Reference(variable)
 
     def spelled(self, spelling: Spelling, type_: Type) -> Any:
         if isinstance(type_, BasicType | EnumType):

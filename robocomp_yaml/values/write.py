@@ -144,7 +144,7 @@ class Writer(msgspec.Struct):
             if any(char in data for char in "\r\n\0"):
                 self.fault(where, path, "it holds a line end")
                 return None
-            if lexemes.REFERENCE.match(data):
+            if lexemes.reference(data):
                 self.fault(where, path, "it would be read as a reference to the environment")
                 return None
             if (self.quote or self.unquotes) and unquoted(data) != data:

@@ -10,7 +10,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.component import LINK, PIP, Component, Library
 
-_NUMBERS = re.compile(r" *(>=|<=|==|=|>|<)? *\d+(\.\d+)* *")
+_NUMBERS = r" *(>=|<=|==|=|>|<)? *\d+(\.\d+)* *"
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -30,7 +30,7 @@ def _libraries(component: Component) -> Iterator[Diagnostic]:
             places = " and ".join(f"`{library.kind}`" for library in libraries)
             yield codes.TWO_PLACES.at(libraries[1].span, places=places, hint="write two entries")
     for library in component.libraries:
-        plain = all(_NUMBERS.fullmatch(part) for part in library.version.split(",")) and library.kind != LINK
+        plain = all(re.fullmatch(_NUMBERS, part) for part in library.version.split(",")) and library.kind != LINK
         if library.version and library.kind != PIP and not plain:
             yield codes.VERSION.at(library.span, version=library.version.strip(), kind=f"`{library.kind}`")
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.code import Code, Files, Repeated
 
 _GOOD = {"Speech.idsl.yaml": "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n      reset:\n"}
 
 
-def _wrong(text: str | bytes) -> dict[str, str | bytes | None]:
+def _wrong(text: str | bytes | Repeated) -> Files:
     return {"Speech.idsl.yaml": text}
 
 
@@ -42,7 +42,7 @@ TOO_LARGE = Code(
     "{what} is {size}, more than the {limit} that a document may have",
     "Documents are written and read by people. A limit keeps a mistake, such as a data file under a document's name, "
     "from taking the machine's memory.",
-    _wrong("doc: '" + "a" * (1 << 20) + "b'\n"),
+    _wrong(Repeated("doc: '", "a", 1 << 20, "b'\n")),
     _GOOD,
 )
 UNKNOWN_KIND = Code(

@@ -7,7 +7,7 @@ import re
 from robocomp_yaml.emit.plan import CONFIG
 from robocomp_yaml.source import properties
 
-_NEEDED = re.compile(r"(?P<name>.+?)(?:Topic)?\.Endpoints|(?P<proxy>.+)Proxy|(?P<manager>TopicManager)\.Proxy")
+_NEEDED = r"(?P<name>.+?)(?:Topic)?\.Endpoints|(?P<proxy>.+)Proxy|(?P<manager>TopicManager)\.Proxy"
 
 
 def is_entries(path: str) -> bool:
@@ -20,7 +20,7 @@ def lacking(base: str | None, yours: str, new: str) -> list[str]:
     if base is None:
         return []
     known = {*_keys(yours), *_keys(base)}
-    return [key for key in _keys(new) if not known & {key, *_spellings(key)} and _NEEDED.fullmatch(key)]
+    return [key for key in _keys(new) if not known & {key, *_spellings(key)} and re.fullmatch(_NEEDED, key)]
 
 
 def paste(new: str, keys: list[str]) -> str:
@@ -52,7 +52,7 @@ def _keys(text: str) -> dict[str, str]:
 
 def _spellings(key: str) -> set[str]:
     """The other names under which the run time looks for a property."""
-    found = _NEEDED.fullmatch(key)
+    found = re.fullmatch(_NEEDED, key)
     if found is None:
         return set()
     if found["manager"]:

@@ -12,16 +12,16 @@ import pytest
 from click.testing import Result
 
 from conftest import write_tree
-from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.code import Code, Files, Repeated
 from robocomp_yaml.diag.codes import table
 
 ROWS = list(table().values())
 
 
-def _run(row: Code, files: object, rcyaml: Callable[..., Result], folder: Path) -> list[dict[str, object]]:
+def _run(row: Code, files: Files, rcyaml: Callable[..., Result], folder: Path) -> list[dict[str, object]]:
     if "icegrid" in row.command:
         pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
-    write_tree(folder, files)  # type: ignore[arg-type]
+    write_tree(folder, {path: str(it) if isinstance(it, Repeated) else it for path, it in files.items()})
     words = [name for word in shlex.split(row.command) for name in (sorted(os.listdir()) if word == "*" else [word])]
     result = rcyaml(*words, "--format", "json")
     return json.loads(result.stdout)["diagnostics"]
