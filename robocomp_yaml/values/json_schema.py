@@ -8,7 +8,6 @@ messages, examples and snippets for them; the second, for tools, says what each 
 
 from __future__ import annotations
 
-import copy
 from typing import Any
 
 import msgspec
@@ -29,7 +28,7 @@ from robocomp_yaml.model.parameters import (
     kind_in_words,
     unit_of,
 )
-from robocomp_yaml.source.schema import schema as schema_of_kind
+from robocomp_yaml.source.schema import new_schema
 from robocomp_yaml.values.example_text import example_text
 from robocomp_yaml.values.prose import prose
 from robocomp_yaml.values.spell_yaml import flow
@@ -71,7 +70,7 @@ def complete_schema(type_: Type) -> Schema:
 
 def document_schema(parameters: Parameters, component: LinkedComponent | None, mode: str) -> Schema:
     """The self-contained schema of a component's whole values document."""
-    made = copy.deepcopy(schema_of_kind("config"))
+    made = new_schema("config")
     name = component.component.name if component else "the component"
     made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
     made["title"] = f"Values of {name}"
