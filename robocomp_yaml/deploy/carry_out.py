@@ -7,6 +7,7 @@ import math
 import time
 from collections.abc import Awaitable, Callable, Iterable, Mapping
 from contextlib import aclosing
+from typing import Any
 
 import msgspec
 
@@ -45,31 +46,32 @@ Report = Callable[[Event], None]
 
 
 class Watch:
-    """What the engine sees, asked for no more often than needed, however many wait for it."""
+    """What the engine sees, asked for by one at a time and no more often than needed, however many wait for it."""
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
         self._seen: dict[str, Running] = {}
         self._when = -math.inf
-        self._changes = 0
-        self._lock = asyncio.Lock()
+        self._look: asyncio.Task[None] | None = None
 
     def of(self, name: str) -> State:
-        async def look(age: float) -> Running | None:
-            async with self._lock:
-                if time.monotonic() > self._when + age:
-                    changes = self._changes
-                    self._seen = await self._engine.observe()
-                    if changes == self._changes:
-                        self._when = time.monotonic()
+        async def look(since: float) -> Running | None:
+            while self._when < since:
+                if self._look is None or self._look.done():
+                    self._look = asyncio.create_task(self._observe())
+                await asyncio.shield(self._look)  # others wait for it too
             return self._seen.get(name)
 
         return look
 
-    def forget(self) -> None:
-        """What was seen, and what is being looked at, no longer holds."""
-        self._changes += 1
-        self._when = -math.inf
+    async def _observe(self) -> None:
+        began = time.monotonic()
+        self._seen = await self._engine.observe()
+        self._when = began
+
+    async def close(self) -> None:
+        if self._look:
+            await _cancel([self._look])
 
 
 async def carry_out(
@@ -163,6 +165,7 @@ class _Starts:
             self._outcome.late = [*self._since]
             for name in self._outcome.late:
                 await self._is_late(self._plan.steps[name])
+        await self._watch.close()
         tried = {*self._outcome.began, *self._outcome.failed}
         self._outcome.skipped = [step.name for step in self._plan.of(START, RESTART) if step.name not in tried]
         for name in self._outcome.skipped:
@@ -190,7 +193,6 @@ class _Starts:
     async def _begin(self, name: str) -> None:
         self._outcome.began.append(name)
         await self._engine.start(name)
-        self._watch.forget()
 
     async def _ends_ready(self, step: Step, begin: Callable[[str], Awaitable[None]] | None) -> bool:
         assert step.spec
@@ -213,7 +215,7 @@ class _Starts:
     async def _is_late(self, step: Step) -> None:
         """It was still waited for when the time was over."""
         assert step.spec
-        why = why_not(step.spec, await self._watch.of(step.name)(RECENT))
+        why = why_not(step.spec, await self._watch.of(step.name)(time.monotonic() - RECENT))
         where = step.spec.process.span
         self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=self._limit, why=why))
 
@@ -230,7 +232,7 @@ def _after(step: Step) -> tuple[str, ...]:
     return step.spec.process.after if step.spec else ()
 
 
-async def _cancel(tasks: Iterable[asyncio.Task[bool]]) -> None:
+async def _cancel(tasks: Iterable[asyncio.Task[Any]]) -> None:
     rest = [task for task in tasks if not task.done()]
     for task in rest:
         task.cancel()

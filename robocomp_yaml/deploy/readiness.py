@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import re
+import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import aclosing, suppress
 
@@ -31,7 +32,7 @@ SETTLED = 0.1
 LOG_LINES = 1000
 """Lines of its log in which an older process's sign of readiness is looked for."""
 
-_SHORTEST, _LONGEST = 0.01, 0.2  # seconds between two looks, which become rarer
+_SHORTEST, _LONGEST, _SLOWER = 0.01, 0.2, 1.25  # seconds between two looks, and the factor by which they grow
 _ONE_TRY = 2.0  # seconds for an answer
 _NEW = 0.05  # seconds for which what was seen of a process that comes up is good enough
 
@@ -39,7 +40,7 @@ RECENT = 0.2
 """Seconds for which what was seen of a process is good enough where nobody waits for it to change."""
 
 State = Callable[[float], Awaitable[Running | None]]
-"""What the engine saw of a process, not longer ago than so many seconds."""
+"""What the engine sees of a process, looked at then (`time.monotonic`) or later."""
 
 
 async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
@@ -71,7 +72,7 @@ async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], st
                                      return_when=asyncio.FIRST_COMPLETED)  # fmt: skip
         if look in done:
             return look.result()
-        running = await state(_NEW)
+        running = await state(time.monotonic() - _NEW)
         if watch in done:
             how = watch.result()
             hint = _NOT_FOUND.format(host=spec.process.host) if "exit code 127" in how else ""
@@ -90,15 +91,17 @@ async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], st
 
 async def _until_it_ends(spec: Spec, state: State) -> str:
     """Until it has ended, and is not started again; says how."""
+    began = time.monotonic()
     while True:
-        running = await state(RECENT)
+        # First of all, so that many that start at once are looked at together.
+        await asyncio.sleep(RECENT)
+        running = await state(max(began, time.monotonic() - RECENT))
         if running is None or running.state in (GIVEN_UP, STOPPED, LOST):
             return (running.end if running else "") or "it was stopped meanwhile"
         if running.state == ENDED and _asks_for_something(spec):
             # The sign may be its last line, which those who follow the log see a little later.
             await asyncio.sleep(2 * _LONGEST if spec.process.ready.log else 0)
             return running.last_exit
-        await asyncio.sleep(_LONGEST / 2)
 
 
 async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: State) -> None:
@@ -106,20 +109,21 @@ async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line]
         async for line in lines:
             if _is_sign(spec.process.ready.log, line.text):
                 return
-    pause = _SHORTEST
+    is_asked = _asks_for_something(spec)
+    pause = _SHORTEST if is_asked else SETTLED
     while True:
-        if _asks_for_something(spec):
+        await asyncio.sleep(pause)
+        pause = min(pause * _SLOWER, _LONGEST)
+        if is_asked:
             if await _look(engine, spec, min(_ONE_TRY, spec.process.ready.within)):
                 return
-        elif running := await state(_NEW):
+        elif running := await state(time.monotonic() - _NEW):
             if running.state == ENDED and spec.process.restart.policy != ALWAYS:
                 return
             if running.state == RUNNING and running.uptime >= SETTLED:
                 return
             if running.state == RUNNING:
                 pause = max(SETTLED - running.uptime, _SHORTEST)
-        await asyncio.sleep(pause)
-        pause = min(pause * 1.5, _LONGEST)
 
 
 def _asks_for_something(spec: Spec) -> bool:

@@ -20,7 +20,7 @@ from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LogReader
 from robocomp_yaml.deploy.local.log_reader import merged as merged_here
-from robocomp_yaml.deploy.local.obstacles import is_here, obstacles
+from robocomp_yaml.deploy.local.obstacles import Cleared, is_here, obstacles
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying, grids
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -51,7 +51,7 @@ class IceGridEngine:
         self._wanted: set[str] = set()
         self._kept: set[str] = set()  # those of the wanted that are written down
         self._no_node: dict[str, Diagnostic] = {}  # by the host
-        self._clear: dict[str, Spec] = {}  # what has just been found to have no obstacles
+        self._cleared = Cleared()
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
 
@@ -113,7 +113,7 @@ class IceGridEngine:
             own = procfs.descendants({one.pid for name, one in running.items() if name in leaving and one.pid}, alive)
         found = obstacles([spec for spec in specs if is_here(spec.address)], own)
         if not found:
-            self._clear = {spec.name: spec for spec in specs}
+            self._cleared.note(specs)
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
         far = [spec for spec in specs if not is_here(spec.address) and spec.process.host not in lost]
@@ -189,8 +189,7 @@ class IceGridEngine:
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
-        is_unseen = spec is not None and self._clear.pop(name, None) is not spec
-        if spec and is_unseen and is_here(spec.address) and (found := obstacles([spec], ())):
+        if spec and is_here(spec.address) and not self._cleared.take(spec) and (found := obstacles([spec], ())):
             raise DeployFailed(found[0])
         await self._want(self._wanted | {name})
         await self._beside(name, "started", self._reached().start, name)

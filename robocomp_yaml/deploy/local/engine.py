@@ -16,7 +16,7 @@ from robocomp_yaml.deploy.local import launch, record
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
 from robocomp_yaml.deploy.local.kernel import die_with
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
-from robocomp_yaml.deploy.local.obstacles import environment_of, not_here, obstacles
+from robocomp_yaml.deploy.local.obstacles import Cleared, environment_of, not_here, obstacles
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
@@ -34,6 +34,7 @@ class LocalEngine:
         self._client: Client | None = None
         self._network = Network("", "", "")
         self._specs: dict[str, Spec] = {}
+        self._cleared = Cleared()
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network = network
@@ -69,7 +70,9 @@ class LocalEngine:
             for entry in (await self._ask("", "observe"))["processes"]:
                 if entry["spec"]["process"]["name"] in leaving:
                     own.update(entry["members"])
-        return obstacles(specs, own)
+        if not (found := obstacles(specs, own)):
+            self._cleared.note(specs)
+        return found
 
     async def prepare(self, specs: Sequence[Spec]) -> None:
         for spec in specs:
@@ -86,7 +89,7 @@ class LocalEngine:
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
-        if found := obstacles([spec], ()):
+        if not self._cleared.take(spec) and (found := obstacles([spec], ())):
             raise DeployFailed(found[0])
         await self._ask(name, "start", name=name, environment=environment_of(spec.process))
 

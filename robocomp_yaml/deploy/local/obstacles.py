@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import socket
-from collections.abc import Collection, Iterator, Sequence
+import time
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.local import procfs, program
@@ -12,6 +13,8 @@ from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import FOLDER, LOOPBACK, Network, Process
+
+_JUST = 2.0  # seconds
 
 
 def environment_of(process: Process) -> dict[str, str]:
@@ -32,6 +35,22 @@ def obstacles(specs: Sequence[Spec], own: Collection[int]) -> list[Diagnostic]:
         if not pids or not set(pids) <= set(own)
     }
     return [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
+
+
+class Cleared:
+    """What has just been found to have no obstacles: who starts it at once need not look again."""
+
+    def __init__(self) -> None:
+        self._specs: dict[str, Spec] = {}
+        self._until = 0.0
+
+    def note(self, specs: Iterable[Spec]) -> None:
+        self._specs = {spec.name: spec for spec in specs}
+        self._until = time.monotonic() + _JUST
+
+    def take(self, spec: Spec) -> bool:
+        """Whether it is one of these; once only."""
+        return self._specs.pop(spec.name, None) is spec and time.monotonic() < self._until
 
 
 def not_here(network: Network) -> Diagnostic | None:
