@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from components import Built, build
-from cpp_programs import cmake, needs_cpp
+from cpp_programs import FAST, cmake, needs_cpp
 from processes import Ports, Running, Start, until
 
 from conftest import ROOT
@@ -169,7 +169,7 @@ def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
         (made.root / "src" / "specificworker.py").write_text(PYTHON)
     else:
         (made.root / "src" / "specificworker.cpp").write_text(CPP)
-        cmake(made.root, "-DCMAKE_BUILD_TYPE=Plain", jobs=1)
+        cmake(made.root, *FAST)
     return made
 
 
@@ -251,11 +251,15 @@ def test_options_that_do_not_fit_together(component: Component, start: Start) ->
 
 def test_a_misspelled_property_is_told_of(component: Component, start: Start) -> None:
     component.write(motors_0_speed="1", offsets_z="1", other_thing="1")
-    running = component.run(start, "--motors.0.velo=1").wait_for("ParaComp is running")
+    options = ["--motors.0.velo=1", "--moters.0.vel=1", "--BasicPeriod=1", "--bsaicPeriod=1", "--Ice.Trace.Network=0"]
+    running = component.run(start, *options, "--Endpoints.Arm=", "--basics=1").wait_for("ParaComp is running")
     for key in ("motors.0.speed", "offsets.z"):
         running.wait_for(f"WARNING ParaComp: {component.config}: there is no parameter '{key}'")
     running.wait_for("WARNING ParaComp: --motors.0.velo on the command line: there is no parameter 'motors.0.velo'")
-    assert "other.thing" not in running.output
+    for key, meant in (("moters.0.vel", "motors"), ("BasicPeriod", "basicPeriod"), ("bsaicPeriod", "basicPeriod")):
+        where = f"WARNING ParaComp: --{key} on the command line: "
+        running.wait_for(f"{where}there is no parameter '{key}' (did you mean '{meant}'?)")
+    assert running.output.count("there is no parameter") == 6
 
 
 def test_the_list_of_parameters(component: Component, start: Start, behavior: Ask) -> None:
@@ -387,7 +391,7 @@ def test_the_papers_component(rcyaml: Callable[..., Any], tmp_path: Path, start:
     suffix = {"python": "py", "cpp": "cpp"}[language]
     (root / "src" / f"specificworker.{suffix}").write_text(_with_stubs(root, SHOW[language], language))
     if language == "cpp":
-        cmake(root, "-DCMAKE_BUILD_TYPE=Plain", jobs=1)
+        cmake(root, *FAST)
     (program,) = (root / "bin").iterdir()
     running = start([*([sys.executable] if language == "python" else []), program, "--startup-check"])
     running.wait_for("Dunkermotoren /dev/ttyUSB0 115200 220 2\n")

@@ -73,7 +73,8 @@ void loadParameters(Store& store, const Settings& settings)
 void warnOfProperties(const Store& store, const Settings& settings, const Log& log)
 {
     const std::string tail = ".Endpoints";
-    std::set<std::string> ports; // their names may begin a property of Ice
+    // Their names may begin a property of Ice; the first ones are what RoboComp's spellings of ports begin with.
+    std::set<std::string> ports{"Endpoints", "Proxies", "Period", "TopicManager"};
     for (const auto& [key, text] : settings.parameters())
     {
         if (key.size() > tail.size() && key.compare(key.size() - tail.size(), tail.size(), tail) == 0)
@@ -81,9 +82,10 @@ void warnOfProperties(const Store& store, const Settings& settings, const Log& l
             ports.insert(key.substr(0, key.size() - tail.size()));
         }
     }
-    for (const auto& key : store.misspelled(ports))
+    for (const auto& [key, meant] : store.misspelled(ports))
     {
-        log.warning(settings.source(key) + ": there is no parameter '" + key + "'");
+        const auto hint = meant.empty() ? "" : " (did you mean '" + meant + "'?)";
+        log.warning(settings.source(key) + ": there is no parameter '" + key + "'" + hint);
     }
 }
 

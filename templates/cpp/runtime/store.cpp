@@ -3,6 +3,7 @@
 
 #include "log.h"
 
+#include <algorithm>
 #include <exception>
 
 namespace runtime
@@ -169,16 +170,30 @@ Texts Store::others() const
     return others_;
 }
 
-std::vector<std::string> Store::misspelled(const std::set<std::string>& ports) const
+Texts Store::misspelled(const std::set<std::string>& ports) const
 {
-    std::vector<std::string> found;
+    Texts found;
     for (const auto& [key, text] : others())
     {
         const auto first = key.substr(0, key.find('.'));
-        const auto* member = table_.kind.member(first);
-        if (first != key && member != nullptr && !member->kind.isPlain() && ports.count(first) == 0)
+        if (ports.count(first) != 0)
         {
-            found.push_back(key);
+            continue;
+        }
+        if (const auto* member = table_.kind.member(first))
+        {
+            if (first != key && !member->kind.isPlain())
+            {
+                found[key] = "";
+            }
+            continue;
+        }
+        const auto& members = table_.kind.members;
+        const auto meant = std::find_if(
+            members.begin(), members.end(), [&](const Member& member) { return alike(first, member.key); });
+        if (meant != members.end())
+        {
+            found[key] = meant->key;
         }
     }
     return found;

@@ -79,8 +79,8 @@ public:
     /// The properties that are no parameter's.
     Texts others() const;
 
-    /// Those of them that seem to be misspelled parameters.
-    std::vector<std::string> misspelled(const std::set<std::string>& ports) const;
+    /// Those of them below a parameter, or called almost as one, which they then lead to.
+    Texts misspelled(const std::set<std::string>& ports) const;
 
     /// The whole number at a path, or `otherwise`.
     int number(const std::string& path, int otherwise) const;

@@ -56,6 +56,10 @@ Value resolved(const std::string& text);
 /// The same for the data `{"env": NAME}`.
 Value referred(const Value& data);
 
+/// Whether two names differ by a slip: in case, or in one character that is wrong, missing, too many, or changed places
+/// with the next.
+bool alike(const std::string& one, const std::string& other);
+
 /// Without the double quotes around it that TOML wants and Ice does not know.
 std::string unquoted(const std::string& value);
 

@@ -6,12 +6,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Optional
 
+from generated.runtime import texts
 from generated.runtime.errors import StartError
 from generated.runtime.parameters import Store, Table
 from generated.runtime.plain import Plain
 from generated.runtime.problems import ParameterError
 from generated.runtime.schedule import Schedule
 from generated.runtime.settings import Settings, on_the_command_line
+
+_NOT_PARAMETERS = ("Endpoints", "Proxies", "Period", "TopicManager")  # what RoboComp's spellings of ports begin with
 
 
 def load(table: Table, settings: Settings) -> Store:
@@ -59,13 +62,21 @@ def _messages(table: Table, settings: Settings) -> set[str]:
     return set()
 
 
-def misspelled(store: Store, ports: Iterable[str]) -> Iterator[str]:
-    """Properties below a parameter that nothing reads; a port's name may begin a property of Ice."""
-    holders = {key for key, member in store.kind.members.items() if not isinstance(member.kind, Plain)}
+def misspelled(store: Store, ports: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """Properties that nothing reads, below a parameter or called almost as one, which then is the second; a port's name
+    may begin a property of Ice."""
+    members = store.kind.members
+    others = {*_NOT_PARAMETERS, *ports}
     for key in sorted(store.unread):
         first, dot, _ = key.partition(".")
-        if dot and first in holders and first not in ports:
-            yield key
+        if first in others:
+            continue
+        if first not in members:
+            meant = next((name for name in members if texts.alike(first, name)), "")
+            if meant:
+                yield key, meant
+        elif dot and not isinstance(members[first].kind, Plain):
+            yield key, ""
 
 
 def drive(schedule: Schedule, store: Store) -> None:

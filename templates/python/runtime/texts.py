@@ -52,6 +52,17 @@ def referred(raw: Any) -> Any:
     return resolved(f"${{env:{raw['env']}}}") if _VARIABLE.match(raw["env"]) else raw
 
 
+def alike(one: str, other: str) -> bool:
+    """Whether two names differ by a slip: in case, or in one character that is wrong, missing, too many, or changed
+    places with the next."""
+    short, long = sorted((one.lower(), other.lower()), key=len)
+    if short == long or len(long) < 4:
+        return short == long
+    same = len(os.path.commonprefix((short, long)))
+    rest, longer = short[same:], long[same:]
+    return longer[1:] in (rest, rest[1:]) or (longer[1::-1] == rest[:2] and longer[2:] == rest[2:])
+
+
 def unquoted(value: str) -> str:
     """Without the double quotes around it that TOML wants and Ice does not know."""
     quoted = len(value) > 1 and value[0] == value[-1] == '"' and '"' not in value[1:-1]
