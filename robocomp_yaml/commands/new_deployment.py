@@ -88,7 +88,7 @@ def _has_values(linked: LinkedComponent) -> bool:
 def _required(record: RecordType) -> dict[str, object]:
     """A value, for example, of each parameter that needs one."""
     from robocomp_yaml.model.parameters import RecordType
-    from robocomp_yaml.values.json_schema import example
+    from robocomp_yaml.values.example import example
 
     found: dict[str, object] = {}
     for member in record.members:

@@ -29,7 +29,7 @@ from robocomp_yaml.model.parameters import (
     unit_of,
 )
 from robocomp_yaml.source.schema import new_schema
-from robocomp_yaml.values.example_text import example_text
+from robocomp_yaml.values.example import example, example_of
 from robocomp_yaml.values.prose import prose
 from robocomp_yaml.values.spell_yaml import flow
 
@@ -302,50 +302,3 @@ def shortened(data: object) -> str:
     """Data as YAML spells it on one line, or how that begins."""
     text = flow(data)
     return text if len(text) <= 60 else f"{text[:59]}…"
-
-
-def example(member: Member) -> object:
-    """A value that fits: the default, else the simplest."""
-    return member.default.data if member.default is not None else example_of(member.type)
-
-
-def example_of(type_: Type) -> object:
-    match type_:
-        case EnumType():
-            return type_.allowed[0]
-        case BasicType(name="bool"):
-            return False
-        case BasicType(name="string"):
-            if type_.values:
-                return str(type_.values[0].value)
-            return example_text(type_.pattern) if type_.pattern else "text"
-        case BasicType():
-            return _example_number(type_)
-        case ListType(element=element, size=size):
-            return [example_of(element)] * _count(size)
-        case MapType(element=element, size=size):
-            return {f"name{place or ''}": example_of(element) for place in range(_count(size))}
-        case _:
-            return {m.name: example(m) for m in type_.members if not m.optional}
-
-
-def _count(size: Size) -> int:
-    """How many entries an example has: enough, where that is not too many to read."""
-    return max(1, size.least if size.least <= 16 else 3)
-
-
-def _example_number(type_: BasicType) -> int | float:
-    if type_.values:
-        return type_.values[0].value  # type: ignore[return-value]
-    if type_.range is None or type_.range.holds(0):
-        return 0
-    low, high = type_.range.low, type_.range.high
-    if low is not None and not low.is_open:
-        return low.value
-    if high is not None and not high.is_open:
-        return high.value
-    if type_.is_integer:
-        return int(low.value) + 1 if low is not None else int(high.value) - 1  # type: ignore[union-attr]
-    if low is not None and high is not None:
-        return (low.value + high.value) / 2
-    return low.value + 1 if low is not None else high.value - 1  # type: ignore[union-attr]

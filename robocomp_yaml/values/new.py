@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from robocomp_yaml.model.parameters import EnumType, Member, Parameters, RecordType
-from robocomp_yaml.values.json_schema import example, in_words
+from robocomp_yaml.values.example import example
+from robocomp_yaml.values.json_schema import in_words
 from robocomp_yaml.values.spell_yaml import comment, flow, scalar
 
 

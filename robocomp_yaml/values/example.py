@@ -1,0 +1,80 @@
+"""A value that fits a parameter: its default, else the simplest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+
+from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, Member, ScalarType, Size, Type
+from robocomp_yaml.values.example_text import example_text
+
+_MOST = 16  # entries of an example: more are too many to read
+
+
+def example(member: Member) -> object:
+    return member.default.data if member.default is not None else example_of(member.type)
+
+
+def example_of(type_: Type) -> object:
+    match type_:
+        case EnumType() | BasicType():
+            return next(_simplest(type_))
+        case ListType(element=element, size=size, unique=unique):
+            return _different(element, _count(size)) if unique else [example_of(element)] * _count(size)
+        case MapType(element=element, size=size):
+            return {f"name{place or ''}": example_of(element) for place in range(_count(size))}
+        case _:
+            return {m.name: example(m) for m in type_.members if not m.optional}
+
+
+def _count(size: Size) -> int:
+    """How many entries an example has: enough, where that is not too many."""
+    return max(1, size.least if size.least <= _MOST else 3)
+
+
+def _different(element: Type, count: int) -> list[object]:
+    """As many different entries as are easily found; the rest, which a person must change, repeat the last."""
+    plain = element if isinstance(element, EnumType | BasicType) else None
+    entries = list(islice(_simplest(plain), count)) if plain else [example_of(element)]
+    return entries + entries[-1:] * (count - len(entries))
+
+
+def _simplest(type_: ScalarType) -> Iterator[object]:
+    """Values that fit, all different, the simplest first; at least one."""
+    if isinstance(type_, EnumType):
+        yield from type_.allowed
+    elif type_.values:
+        is_text = type_.name == "string"
+        yield from (str(literal.value) if is_text else literal.value for literal in type_.values)
+    elif type_.name == "bool":
+        yield from (False, True)
+    elif type_.name != "string":
+        yield from _numbers(type_)
+    elif type_.pattern:
+        yield example_text(type_.pattern)
+    else:
+        yield from ("text", *(f"text{number}" for number in range(2, _MOST + 1)))
+
+
+def _numbers(type_: BasicType) -> Iterator[int | float]:
+    """What is nearest to zero, and others around it in steps of 1, or of less where the range is narrow."""
+    first = _nearest(type_)
+    yield first
+    for step in (1, -1) if type_.is_integer else (1, -1, 1 / 64, -1 / 64):
+        others = (first + number * step for number in range(1, _MOST))
+        yield from (other for other in others if type_.range is None or type_.range.holds(other))
+
+
+def _nearest(type_: BasicType) -> int | float:
+    if type_.range is None or type_.range.holds(0):
+        return 0
+    low, high = type_.range.low, type_.range.high
+    if low is not None and not low.is_open:
+        return low.value
+    if high is not None and not high.is_open:
+        return high.value
+    if type_.is_integer:
+        return int(low.value) + 1 if low is not None else int(high.value) - 1  # type: ignore[union-attr]
+    if low is not None and high is not None:
+        return (low.value + high.value) / 2
+    return low.value + 1 if low is not None else high.value - 1  # type: ignore[union-attr]
