@@ -7,6 +7,7 @@ once, and where Ice is not installed. What is not plain TCP, or names no address
 from __future__ import annotations
 
 import asyncio
+import functools
 import re
 import struct
 
@@ -21,6 +22,7 @@ _PROXY = re.compile(r"(?P<identity>\"[^\"]+\"|'[^']+'|[^\s:\"'@\\]+)(?P<options>
 _OPTION = re.compile(r"-([hp])\s+(\"[^\"]*\"|\S+)")
 
 
+@functools.cache
 def address_of(proxy: str) -> tuple[str, str, int] | None:
     """The identity, host and port of a proxy's first endpoint; None where the endpoint is not plain TCP."""
     parts = _PROXY.fullmatch(proxy.strip())
@@ -42,7 +44,8 @@ async def answers(proxy: str, within: float) -> bool:
             if address is None:
                 return await asyncio.to_thread(_answers_by_ice, proxy, within)
             identity, host, port = address
-            reader, writer = await asyncio.open_connection(host, port)
+            # Names are looked up in a thread, which costs more than all the rest.
+            reader, writer = await asyncio.open_connection("127.0.0.1" if host == "localhost" else host, port)
             try:
                 return await _ping(identity, reader, writer)
             finally:

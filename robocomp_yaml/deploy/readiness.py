@@ -32,7 +32,7 @@ SETTLED = 0.1
 LOG_LINES = 1000
 """Lines of its log in which an older process's sign of readiness is looked for."""
 
-_SHORTEST, _LONGEST, _SLOWER = 0.01, 0.2, 1.25  # seconds between two looks, and the factor by which they grow
+_SHORTEST, _LONGEST, _SLOWER = 0.02, 0.2, 1.3  # seconds between two looks, and the factor by which they grow
 _ONE_TRY = 2.0  # seconds for an answer
 _NEW = 0.05  # seconds for which what was seen of a process that comes up is good enough
 

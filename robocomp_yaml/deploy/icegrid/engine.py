@@ -50,6 +50,7 @@ class IceGridEngine:
         self._specs: dict[str, Spec | None] = {}
         self._wanted: set[str] = set()
         self._kept: set[str] = set()  # those of the wanted that are written down
+        self._nodes: asyncio.Task[None] | None = None  # brings them up; what needs none need not wait
         self._no_node: dict[str, Diagnostic] = {}  # by the host
         self._cleared = Cleared()
         self._lock = threading.Lock()
@@ -59,33 +60,38 @@ class IceGridEngine:
         self._network, self._places = network, Places(network.folder)
         if missing := _missing():
             raise DeployFailed(grids.NO_REGISTRY.at(Span(network.path), reason=missing))
-        return await self._beside("", "reached", self._open, create)
-
-    def _open(self, create: bool) -> bool:
-        from robocomp_yaml.deploy.icegrid import start_up
-
-        grid = start_up.reached(self._places, self._network)
-        if grid is None and not create:
+        self._grid = await self._call("", "reached", self._reach, create)
+        if self._grid is None:
             return False
-        used = {process.host for process in self._network.enabled()}
-        hosts = [self._network.hosts[name] for name in self._network.hosts if name in used]
         if create:
-            if grid:
-                grid.close()
-            grid = start_up.created(self._places, self._network)
-            try:
-                self._no_node = start_up.ensure_nodes(grid, self._places, self._network, hosts)
-            except BaseException:
-                if self._places.wanted():
-                    grid.close()
-                else:
-                    start_up.ended(grid, self._places, self._network.name)
-                raise
-            self._end_left(grid)
-        self._grid = grid
+            self._nodes = asyncio.create_task(self._call("", "reached", self._ensure_nodes, self._grid))
+            await asyncio.sleep(0)  # so that it begins
         self._specs = self._places.specs()
         self._kept = self._wanted = self._places.wanted()
         return True
+
+    def _reach(self, create: bool) -> Grid | None:
+        from robocomp_yaml.deploy.icegrid import start_up
+
+        grid = start_up.reached(self._places, self._network)
+        if grid and create:
+            grid.close()
+        return start_up.created(self._places, self._network) if create else grid
+
+    def _ensure_nodes(self, grid: Grid) -> None:
+        from robocomp_yaml.deploy.icegrid import start_up
+
+        used = {process.host for process in self._network.enabled()}
+        hosts = [host for host in self._network.hosts.values() if host.name in used]
+        try:
+            self._no_node = start_up.ensure_nodes(grid, self._places, self._network, hosts)
+        except BaseException:
+            if self._places.wanted():
+                grid.close()
+            else:
+                start_up.ended(grid, self._places, self._network.name)
+            raise
+        self._end_left(grid)
 
     def _end_left(self, grid: Grid) -> None:
         """The keeper does so too: where there is none, or it was faster, nothing is lost."""
@@ -98,6 +104,8 @@ class IceGridEngine:
     async def observe(self) -> dict[str, Running]:
         from robocomp_yaml.deploy.icegrid.status import observe
 
+        if not self._specs:
+            return {}
         hosts = {name: process.host for name, process in self._network.processes.items()}
         return await self._beside("", "observed", observe, self._reached(), self._places, dict(self._specs), hosts)
 
@@ -105,15 +113,14 @@ class IceGridEngine:
         """On this machine all that can be known; of other hosts, whether they have a node, and the ports."""
         from robocomp_yaml.deploy.icegrid import far_ports
 
-        own: set[int] = set()
-        running: dict[str, Running] = {}
-        if self._grid:
-            alive = procfs.table()
-            running = await self.observe()
-            own = procfs.descendants({one.pid for name, one in running.items() if name in leaving and one.pid}, alive)
+        running = await self.observe() if self._grid else {}
+        roots = {one.pid for name, one in running.items() if name in leaving and one.pid}
+        own = procfs.descendants(roots, procfs.table()) if roots else set()
         found = obstacles([spec for spec in specs if is_here(spec.address)], own)
         if not found:
             self._cleared.note(specs)
+        if self._nodes:
+            await asyncio.shield(self._nodes)
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
         far = [spec for spec in specs if not is_here(spec.address) and spec.process.host not in lost]
@@ -131,7 +138,10 @@ class IceGridEngine:
         from robocomp_yaml.deploy.icegrid import descriptors, leftovers
 
         grid, number = self._reached(), self._places.next_rule()
-        states = grid.states([spec.name for spec in specs])
+        before = grid.descriptor(self._network.name)
+        deployed = {one.id for node in before.nodes.values() for one in node.servers} if before else set()
+        states = {spec.name: ("", 0) for spec in specs}
+        states |= grid.states([spec.name for spec in specs if spec.name in deployed])
         running = [spec for spec in specs if states[spec.name][0] not in ("", "Inactive")]
         starting = [spec for spec in specs if spec not in running]
         for spec in specs:
@@ -268,6 +278,12 @@ class IceGridEngine:
         return self._grid
 
     async def _beside(self, about: str, what: str, work: Callable[..., T], *arguments: Any) -> T:
+        """Carries out work when the nodes are there."""
+        if self._nodes:
+            await asyncio.shield(self._nodes)
+        return await self._call(about, what, work, *arguments)
+
+    async def _call(self, about: str, what: str, work: Callable[..., T], *arguments: Any) -> T:
         """Carries out work that waits; what fails it is told of the process of that name, where there is one."""
         from robocomp_yaml.deploy.icegrid.grid import GridFailed
 

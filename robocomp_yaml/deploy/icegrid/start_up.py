@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _PATIENCE = 20.0  # seconds: far more than is needed, also where a machine is busy
 _ENDS_WITHIN, _REGISTRY_ENDS_WITHIN = 15.0, 3.0
 _RECONNECTS_WITHIN = 15.0  # seconds in which a node finds a registry that has come back
-_LOOK = 0.02
+_LOOK = 0.01
 _AT_ONCE = 8  # connections over SSH
 
 

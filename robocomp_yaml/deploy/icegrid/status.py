@@ -68,10 +68,15 @@ def is_over(grid: Grid, places: Places, name: str, *, here: bool) -> bool:
 def observe(
     grid: Grid, places: Places, specs: Mapping[str, Spec | None], hosts: Mapping[str, str]
 ) -> dict[str, Running]:  # fmt: skip
-    """All processes as they are now; `hosts` are the names of those whose spec cannot be read."""
-    wanted, states = places.wanted(), grid.states(specs)
+    """All processes as they are now; `hosts` are the names of those whose spec cannot be read. Of those whose `run` is
+    alive on this machine, IceGrid need not be asked."""
+    wanted = places.wanted()
     here = {spec.address: is_here(spec.address) for spec in specs.values() if spec}
-    alive = procfs.table() if any(here.values()) else {}
+    near = {name: told(grid, places, name, here=True) for name, spec in specs.items() if spec and here[spec.address]}
+    alive = procfs.table() if near else {}
+    runners = {name: last.runner for name, last in near.items() if last and _runs(places, name, last, alive)}
+    states = {name: ("Active", runner) for name, runner in runners.items()}
+    states |= grid.states(name for name in specs if name not in runners)
     found: dict[str, Running] = {}
     for name, spec in specs.items():
         state, runner = states[name]
@@ -79,10 +84,16 @@ def observe(
         if not state:
             found[name] = Running(name, spec, host, LOST if name in wanted else STOPPED)
             continue
-        is_near = spec is not None and here[spec.address]
-        last = told(grid, places, name, here=is_near)
-        found[name] = _seen(name, spec, host, state, runner, last, name in wanted, alive if is_near else None)
+        # What was asked for after it told something may have told more meanwhile.
+        last = near[name] if name in runners else told(grid, places, name, here=name in near)
+        found[name] = _seen(name, spec, host, state, runner, last, name in wanted, alive if name in near else None)
     return found
+
+
+def _runs(places: Places, name: str, last: Told, alive: Mapping[int, procfs.Entry]) -> bool:
+    """Whether the `run` that tells so has a process now; another program may have its number since."""
+    is_told = last.state in (RUNNING, WAITING) and last.runner in alive
+    return is_told and procfs.command(last.runner)[2:4] == [name, places.folder]
 
 
 def _seen(

@@ -160,10 +160,14 @@ def listeners(ports: Collection[int]) -> dict[int, list[int]]:
     return found
 
 
+def command(pid: int) -> list[str]:
+    """The words of a process's command; [''] for one that is gone."""
+    return os.fsdecode(_read(f"/proc/{pid}/cmdline").rstrip(b"\0")).split("\0")
+
+
 def command_line(pid: int) -> str:
     """A process's command as one would type it; '' for one that is gone."""
-    words = _read(f"/proc/{pid}/cmdline").rstrip(b"\0").split(b"\0")
-    return os.fsdecode(b" ".join(words))
+    return " ".join(command(pid))
 
 
 def _open_files(pid: int) -> Iterator[str]:
