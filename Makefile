@@ -55,7 +55,7 @@ system:
 	  else echo "some tests will be skipped; to run them all: sudo apt install$$missing"; fi; fi
 
 test: system $(VENV)/tests
-	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist worksteal -q --reruns 2 --reruns-delay 1
+	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q --reruns 2 --reruns-delay 1
 
 fast: $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) -q -m 'not slow' --ignore tests/editor --ignore tests/ice

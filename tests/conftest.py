@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -14,6 +15,14 @@ from robocomp_yaml.cli import group
 
 ROOT = Path(__file__).resolve().parent.parent
 CORPUS = ROOT.parent / "shared" / "corpus"
+
+# What takes longest begins first where whole files are handed out to several processes (`--dist loadfile`).
+LONGEST = (
+    "test_changes", "test_icegrid_moves", "test_cpp_qt", "test_clock", "test_cpp_build", "test_merge", "test_cpp_config",
+    "test_icegrid", "test_parameters", "test_compile_migrated", "test_cpp_names", "test_cpp_topics", "test_cpp_calls",
+    "test_cpp_stop", "test_verdicts_cpp", "test_engines", "test_packages", "test_icegrid_faults", "test_migrate_config",
+    "test_cpp_corpus", "test_cpp_absent", "test_values_ice", "test_docs", "test_statemachine", "test_schemas", "test_codes",
+)  # fmt: skip
 
 needs_corpus = pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus of legacy files is not beside the checkout")
 
@@ -69,6 +78,18 @@ def diagnostics(rcyaml: Callable[..., Result], tmp_path: Path) -> Callable[..., 
         return json.loads(rcyaml("check", "--format", "json", *args).stdout)["diagnostics"]
 
     return check
+
+
+def pytest_configure() -> None:
+    """Tests interrupt what they start, which ignores that if we do: so does what a script runs in the background."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        ranks = {name: rank for rank, name in enumerate(LONGEST)}
+        items.sort(key=lambda item: ranks.get(item.path.stem, len(LONGEST)))
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from cpp_programs import cmake, needs_cpp
+from cpp_programs import FAST, cmake, needs_cpp
 
 from conftest import needs_corpus
 from robocomp_yaml.cli import group
@@ -77,5 +77,5 @@ def test_a_sample_of_the_cpp_components_is_built(migrated: Path, tmp_path: Path)
         if "gui:" not in "".join(path.read_text(encoding="utf-8") for path in root.glob("*.cdsl.yaml"))
     }
     root = components[max(sizes, key=lambda name: sizes[name])]
-    cmake(root, "-DCMAKE_BUILD_TYPE=Plain")
+    cmake(root, *FAST)
     assert any((root / "bin").iterdir())

@@ -6,6 +6,7 @@ import fcntl
 import os
 import shutil
 import subprocess
+import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -50,11 +51,20 @@ class Program:
 Programs = Callable[[str], Program]
 
 
-def cmake(root: Path, *options: str, jobs: int = 2) -> None:
+HERE = Path(__file__).resolve().parent
+CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "rcyaml" / "test-objects"
+# As fast as can be: the compiler optimizes nothing, and need not compile twice what other tests build too.
+FAST = (
+    "-DCMAKE_BUILD_TYPE=Plain", f"-DCMAKE_PROJECT_INCLUDE={HERE / 'kept_objects.cmake'}",
+    f"-DKEPT_OBJECTS={';'.join((sys.executable, str(HERE / 'kept_objects.py'), str(CACHE)))}",
+)  # fmt: skip
+
+
+def cmake(root: Path, *options: str) -> None:
     """Configures and builds; any warning fails."""
     folder = str(root / "build")
     for command in (["cmake", "-S", str(root), "-B", folder, "-DCMAKE_CXX_FLAGS=-Werror", *options],
-                    ["cmake", "--build", folder, "-j", str(jobs)]):
+                    ["cmake", "--build", folder, "-j", str(1 if "PYTEST_XDIST_WORKER" in os.environ else 2)]):
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, f"{' '.join(command)}\n{done.stdout}\n{done.stderr}"
 
@@ -92,8 +102,8 @@ def shared_programs(
         found = Program(name, folder / name.lower())
         with locked(shared / f"{name}.lock"):
             if not found.path.is_file():
-                # The server as users build it, with the optimizer's warnings; the others as fast as can be.
-                cmake(found.root, *([] if name == "Server" else ["-DCMAKE_BUILD_TYPE=Plain"]))
+                # The server as users build it, with the optimizer's warnings.
+                cmake(found.root, *(() if name == "Server" else FAST))
         return found
 
     return program

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import Result
-from cpp_programs import cmake, needs_cpp, needs_qt
+from cpp_programs import FAST, cmake, needs_cpp, needs_qt
 from processes import Storm
 from scenario import INTERFACES
 
@@ -65,29 +65,6 @@ CHANGES = [
     Change("a later standard", {"language": {"name": "cpp", "standard": 20}}, languages=("cpp",)),
 ]  # fmt: skip
 CASES = [(change, language) for change in CHANGES for language in change.languages]
-
-# Files that change together are one unit for the compiler; Ice's headers are read once.
-FAST = """
-get_target_property(sources Robot SOURCES)
-foreach(file IN LISTS sources)
-  set(group worker)
-  if(file MATCHES "/slice/|/(application|commonbehavior)[.]cpp$")
-    set(group slice)
-  elseif(file MATCHES "/(topics|runtime|machine)(/[^/]*|[.]cpp)$")
-    set(group ${CMAKE_MATCH_1})
-  endif()
-  set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${group})
-endforeach()
-target_precompile_headers(Robot PRIVATE <Ice/Communicator.h> <Ice/Object.h> <Ice/Proxy.h> <functional> <map> <string>)
-"""
-# In place of slice2cpp: what comes out as it was keeps its time, so that nothing is compiled again for it.
-SLICE2CPP = """#!/bin/sh
-rm -rf before && cp -a slice before && slice2cpp "$@" || exit 1
-for file in before/*; do
-  new=slice/${file#before/}
-  if cmp -s "$file" "$new"; then touch -r "$file" "$new"; fi
-done
-"""
 
 
 def name(case: object) -> str:
@@ -192,18 +169,13 @@ def write_as_a_user(root: Path) -> None:
         else:
             text += "\nstatic_assert(sizeof(SpecificWorker) > 0); // mine\n"
         path.write_text(text)
-    if (root / "CMakeLists.txt").is_file():
-        with (root / "CMakeLists.txt").open("a") as file:
-            file.write(FAST)
-        (root / "slice2cpp").write_text(SLICE2CPP)
-        (root / "slice2cpp").chmod(0o755)
 
 
 def assert_runs(root: Path, language: str, storm: Storm | None) -> None:
     """Builds it, starts all of it once, and stops it."""
     if language == "cpp":
-        ninja = ["-GNinja"] if shutil.which("ninja") else []  # unlike make, it knows what need not be compiled again
-        cmake(root, *ninja, "-DCMAKE_BUILD_TYPE=Plain", f"-DIce_SLICE2CPP_EXECUTABLE={root / 'slice2cpp'}", jobs=1)
+        ninja = ["-GNinja"] if shutil.which("ninja") else []  # here; other builds are make's
+        cmake(root, *ninja, *FAST)
     config = root / "test.config"
     endpoints = {f"{name}.Endpoints": "tcp -h 127.0.0.1 -p 0" for name in ("Arm", "Hand", "ArmEventsTopic")}
     proxies = {"HandProxy": "hand:tcp -h 127.0.0.1 -p 1", "TopicManager.Proxy": storm.manager if storm else ""}

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 from components import build
-from cpp_programs import cmake, needs_cpp
+from cpp_programs import cmake, in_all_builds, needs_cpp
 from mouth import MOUTH
 from processes import Start
 from scenario import INTERFACES, cdsl
@@ -62,9 +62,9 @@ def test_a_method_that_the_user_lacks(tmp_path: Path) -> None:
     root = build({**INTERFACES, "x/x.cdsl.yaml": cdsl("X", "cpp", implements=["Hand"])}, tmp_path)["X"].root
     header = root / "src" / "specificworker.h"
     header.write_text(header.read_text().replace("Hand_grasp(", "Hand_gripped("))
-    for source in ("generated/main.cpp", "generated/genericworker.cpp"):
-        done = subprocess.run([*SYNTAX, *slices(root), source], cwd=root, capture_output=True, text=True)
-        assert done.returncode == 0, done.stderr
+    (root / "all.cpp").write_text('#include "generated/main.cpp"\n#include "generated/genericworker.cpp"\n')
+    done = subprocess.run([*SYNTAX, *slices(root), "all.cpp"], cwd=root, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def test_a_method_that_no_longer_fits(tmp_path: Path) -> None:
@@ -77,7 +77,8 @@ def test_a_method_that_no_longer_fits(tmp_path: Path) -> None:
     assert "Hand_grasp(const RoboCompTypes::Image&)" in done.stderr and "was hidden" in done.stderr
 
 
-@pytest.mark.parametrize("standard", [17, 20])
+# All components of other tests are built in C++17.
+@pytest.mark.parametrize("standard", [pytest.param(17, marks=in_all_builds), 20])
 def test_the_golden_component(tmp_path: Path, standard: int) -> None:
     """And the whole run time with it, in the standard that components ask for."""
     golden = ROOT / "tests" / "golden" / "cpp" / "mouth"

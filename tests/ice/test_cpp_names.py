@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from components import build
-from cpp_programs import Program, cmake, locked, needs_cpp
+from cpp_programs import FAST, Program, cmake, locked, needs_cpp
 from processes import Ports, Start
 
 from robocomp_yaml.emit.targets.cpp_names import ICE_ESCAPES, ice_name
@@ -169,7 +169,7 @@ def test_odd_names(tmp_path: Path, start: Start, free_port: Ports, icestorm: obj
     skeleton.write_text(skeleton.read_text().replace('"specificworker.h"', '"skeleton.h"'))
     source.write_text(WORKER)
     with locked(tmp_path / "lock"):
-        cmake(odd.root, "-DCMAKE_BUILD_TYPE=Plain")
+        cmake(odd.root, *FAST)
     endpoint = f"tcp -h 127.0.0.1 -p {free_port()}"
     manager = icestorm.manager  # type: ignore[attr-defined]
     other = f"tcp -h 127.0.0.1 -p {free_port()}"

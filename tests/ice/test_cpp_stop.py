@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -27,9 +26,8 @@ def server(programs: Programs, free_port: Ports, tmp_path: Path) -> list[str | P
 @BOTH
 def test_a_signal_stops_it(server: list[str | Path], start: Start, number: int) -> None:
     running = start(server).wait_for("Server is running")
-    begin = time.monotonic()
     assert running.stop(number) == 0
-    assert time.monotonic() - begin < 1, "at once: nothing holds it up"
+    assert "ending without it" not in running.output, "at once: nothing holds it up"
     assert "terminate" not in running.output
 
 

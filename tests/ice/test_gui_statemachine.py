@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from components import Build
-from cpp_programs import cmake, in_all_builds, needs_cpp, needs_qt
+from cpp_programs import FAST, cmake, in_all_builds, needs_cpp, needs_qt
 from forms import FORM
 from processes import Running, Start
 from scenario import INTERFACES, cdsl
@@ -111,5 +111,5 @@ def test_cpp(build: Build, start: Start) -> None:
     (any_.root / "src" / "specificworker.h").write_text(HEADER)
     (any_.root / "src" / "specificworker.cpp").write_text('#include "specificworker.h"\n')
     (any_.root / "src" / "mainUI.ui").write_text(FORM.format(base="QDialog"))
-    cmake(any_.root, "-DCMAKE_BUILD_TYPE=Plain")
+    cmake(any_.root, *FAST)
     assert_each_in_its_thread(start(any_.command, env=OFFSCREEN))

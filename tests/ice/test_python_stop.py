@@ -35,9 +35,8 @@ def write(arm: Built, methods: str) -> None:
 @BOTH
 def test_a_signal_stops_it(arm: Built, start: Start, number: int) -> None:
     running = start(arm.command).wait_for("ArmComp is running")
-    begin = time.monotonic()
     assert running.stop(number) == 0
-    assert time.monotonic() - begin < 1, "at once: nothing holds it up"
+    assert "ending without it" not in running.output, "at once: nothing holds it up"
     assert "Traceback" not in running.output and "terminate" not in running.output
 
 

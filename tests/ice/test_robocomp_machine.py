@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from components import Build, Built
-from cpp_programs import cmake, in_all_builds, needs_cpp, needs_qt
+from cpp_programs import FAST, cmake, in_all_builds, needs_cpp, needs_qt
 from processes import Ports, Running, Start, until
 from robocomp_machines import EXPECTED, HEADER, MACHINE, PYTHON, SOURCE
 from scenario import INTERFACES, cdsl
@@ -75,7 +75,7 @@ def test_cpp(build: Build, start: Start, free_port: Ports, behavior: Behavior, t
     robot = configured(build(documents("cpp"))["Robot"], port)
     (robot.root / "src" / "specificworker.h").write_text(HEADER)
     (robot.root / "src" / "specificworker.cpp").write_text(SOURCE)
-    cmake(robot.root, "-DCMAKE_BUILD_TYPE=Plain")
+    cmake(robot.root, *FAST)
     running = start(robot.command, cwd=robot.root)
     assert_patrols(running, behavior, port)
     assert "Destroying SpecificWorker\n" in running.output
@@ -100,7 +100,7 @@ def test_the_skeleton_in_cpp(build: Build, start: Start, free_port: Ports, behav
     worker.write_text(worker.read_text().replace("SpecificWorker::compute()\n{", """SpecificWorker::compute()
 {
     events.t_initialize_to_compute();"""))
-    cmake(robot.root, "-DCMAKE_BUILD_TYPE=Plain")
+    cmake(robot.root, *FAST)
     running = start(robot.command, cwd=robot.root, env=OFFSCREEN)
     running.wait_for("sm_initialize() is still to be written").wait_for("ready() is still to be written")
     assert behavior(port).getParameterList()["statemachine.state"].value == "initialize", "ready() says no"

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from components import Build
-from cpp_programs import cmake, needs_cpp
+from cpp_programs import FAST, cmake, needs_cpp
 from processes import Ports, Start, until
 
 DOCUMENT = """
@@ -149,7 +149,7 @@ def make_cpp(build: Build, folder: Path) -> list[str | Path]:
     states = "".join(f'    void sm_{name}() override {{ say("{name}"); }}\n' for name in STATES)
     (door.root / "src" / "specificworker.h").write_text(HEADER.replace("STATES", states))
     (door.root / "src" / "specificworker.cpp").write_text('#include "specificworker.h"\n')
-    cmake(door.root, "-DCMAKE_BUILD_TYPE=Plain", jobs=1)
+    cmake(door.root, *FAST)
     return door.command
 
 

@@ -16,10 +16,11 @@ from robocomp_yaml.values.properties import as_dict, properties
 from robocomp_yaml.values.read import properties_to_values
 import accessors
 from parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
+from verdicts import CASES
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")
 RELAXED = settings(
-    max_examples=200, deadline=None, suppress_health_check=list(HealthCheck),
+    max_examples=CASES, deadline=None, suppress_health_check=list(HealthCheck),
     phases=[Phase.explicit, Phase.reuse, Phase.generate],  # a case is small as it is; shrinking one takes minutes
 )
 
@@ -95,29 +96,28 @@ MOTORS = st.fixed_dictionaries(
     {"name": WORDS, "min": st.floats(-5, 5) | st.integers(-5, 5)},
     optional={"kind": st.sampled_from(("slow", "fast")), "tag": WORDS, "note": WORDS, "on": st.booleans()},
 )
-SPELLED = st.fixed_dictionaries({
+PARAMETERS = {
     "motors": st.lists(MOTORS, max_size=3), "cams": st.lists(MOTORS, max_size=2), "one": MOTORS,
     "groups": st.lists(st.lists(WORDS, max_size=2), max_size=3), "table": st.lists(MOTORS, max_size=2),
     "ids": st.lists(WORDS, max_size=3), "byKey": st.lists(MOTORS, max_size=1), "device": WORDS,
-})
+}
+
+
+SIMPLE: Data = {"motors": [], "one": {"name": "x", "min": 1}, "groups": [], "table": [], "device": "d"}
+# One at a time: a fault of one hides nothing of another.
+SPELLED = st.one_of(*(value.map(lambda value, name=name: {**SIMPLE, name: value}) for name, value in PARAMETERS.items()))
 
 
 @given(SPELLED)
-@settings(RELAXED, max_examples=50)
+@settings(RELAXED, max_examples=max(CASES // 2, 1))
 def test_spelled_values_come_back_or_are_refused(by_ice, data: Data) -> None:
-    of = linked(MOTOR)
-    for name, value in data.items():  # one at a time: a fault of one hides nothing of another
-        simple = {"motors": [], "one": {"name": "x", "min": 1}, "groups": [], "table": [], "device": "d"}
-        comes_back(by_ice, of, {**simple, name: value})
+    comes_back(by_ice, linked(MOTOR), data)
 
 
 @given(SPELLED)
-@settings(RELAXED, max_examples=20)
+@settings(RELAXED, max_examples=max(CASES // 5, 1))
 def test_spelled_values_of_files_that_seem_to_be_toml(by_ice, data: Data) -> None:
-    of = linked({**MOTOR, "legacy": {**MOTOR["legacy"], "period.compute": "Period.Compute"}})
-    for name, value in data.items():
-        simple = {"motors": [], "one": {"name": "x", "min": 1}, "groups": [], "table": [], "device": "d"}
-        comes_back(by_ice, of, {**simple, name: value})
+    comes_back(by_ice, linked({**MOTOR, "legacy": {**MOTOR["legacy"], "period.compute": "Period.Compute"}}), data)
 
 
 def test_a_plain_case_of_each_spelling_is_not_refused(by_ice) -> None:

@@ -89,9 +89,9 @@ def build_cpp(folder: Path, program: str, *sources: Path) -> Path:
     """The program of this folder's `PROGRAM.cpp` with the interpreter; any warning fails."""
     shutil.copytree(CPP, folder / "machine")
     interpreter = [path for path in sorted((folder / "machine").glob("*.cpp")) if path.name not in _OF_WORKERS]
-    command = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-O0", "-I", folder, "-o", folder / program]
-    done = subprocess.run(
-        [*command, HERE / f"{program}.cpp", *sources, *interpreter], capture_output=True, text=True, timeout=600
-    )
+    whole = folder / "whole.cpp"  # one unit, as in components
+    whole.write_text("".join(f'#include "{source}"\n' for source in (*interpreter, *sources, HERE / f"{program}.cpp")))
+    command = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-O0", "-I", folder, "-o", folder / program, whole]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     return folder / program
