@@ -16,7 +16,8 @@ import sys
 import time
 from pathlib import Path
 
-_BEFORE_A_PATH = ("-o", "-c", "-I", "-isystem", "-MF", "-MT", "-MQ", "-fmacro-prefix-map")
+_BEFORE_A_PATH = ("-o", "-c", "-I", "-isystem", "-MF", "-MT", "-MQ")
+_WITH_A_PATH = ("-I", "-isystem", "-fmacro-prefix-map")
 _WEEK = 7 * 24 * 3600
 
 
@@ -53,7 +54,7 @@ def _identity(command: list[str]) -> bytes:
     compiler = os.stat(os.path.realpath(shutil.which(command[0]) or command[0]))
     words = [
         word for before, word in zip(command, command[1:])
-        if before not in _BEFORE_A_PATH and not word.startswith(_BEFORE_A_PATH)
+        if before not in _BEFORE_A_PATH and word not in _BEFORE_A_PATH and not word.startswith(_WITH_A_PATH)
     ]  # fmt: skip
     return repr((compiler.st_size, compiler.st_mtime_ns, words)).encode()
 
