@@ -82,6 +82,34 @@ def test_its_environment_is_set_and_ours_is_not_left(runner: Runner) -> None:
     assert "RCYAML_CONFIG" not in log and "RCYAML_RESTART" not in log and "RCYAML_ENTRY" not in log
 
 
+@pytest.mark.parametrize(
+    ("words", "environment", "is_set"),
+    [
+        ((), {}, None),
+        ((), {"LC_ALL": "C.UTF-8"}, "C.UTF-8"),
+        ((), {"LC_ALL": "C", "RCYAML_LANGUAGE": "none"}, None),
+        ((), {"LC_ALL": "C", "RCYAML_LANGUAGE": "C.UTF-8"}, "C.UTF-8"),
+        (("e0",), {"RCYAML_ENTRY_0": "LC_ALL=POSIX"}, "POSIX"),
+        (("sLC_ALL=OTHER",), {"OTHER": "POSIX"}, "POSIX"),
+        (("sLC_ALL=LC_ALL",), {"LC_ALL": "C", "RCYAML_LANGUAGE": "C.UTF-8"}, "C.UTF-8"),
+    ],
+)
+def test_its_language_is_that_of_its_document_or_of_the_node(
+    runner: Runner, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], environment: dict[str, str],
+    is_set: str | None,
+) -> None:  # fmt: skip
+    monkeypatch.delenv("LC_ALL", raising=False)
+    lines = runner.to_end(*words, "=env", **environment).splitlines()
+    assert [line for line in lines if line.startswith(("LC_ALL=", "RCYAML_LANGUAGE="))] == (
+        [] if is_set is None else [f"LC_ALL={is_set}"]
+    )
+
+
+def test_a_language_that_the_node_had_not_is_said(runner: Runner) -> None:
+    log = runner.to_end("sTWO=LC_ALL", "=echo", "=here I am", LC_ALL="C", RCYAML_LANGUAGE="none")
+    assert "the variable LC_ALL was not set" in log and "here I am" not in log
+
+
 def test_a_secret_that_is_not_there_is_said_and_nothing_is_started(runner: Runner) -> None:
     log = runner.to_end("sTWO=NO_SUCH_SECRET", "=echo", "=here I am")
     assert "the variable NO_SUCH_SECRET was not set" in log and "here I am" not in log

@@ -1,0 +1,107 @@
+"""What an engine sees, shared by many who wait: one looks at a time, for all, and whoever no longer waits spoils nothing."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from typing import cast
+
+import pytest
+
+from robocomp_yaml.deploy.carry_out import Watch
+from robocomp_yaml.deploy.engine import RUNNING, STOPPED, DeployFailed, Engine, Running
+from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.diag.span import Span
+
+
+class Slow:
+    """An engine that takes a moment to look; counts the looks, and those at once. `state` is that of its process."""
+
+    def __init__(self) -> None:
+        self.state, self.looks, self.at_once, self.most = STOPPED, 0, 0, 0
+        self.fails = False
+
+    async def observe(self) -> dict[str, Running]:
+        self.looks += 1
+        self.at_once += 1
+        self.most = max(self.most, self.at_once)
+        seen = {"a": Running("a", None, "here", self.state)}
+        await asyncio.sleep(0.05)
+        self.at_once -= 1
+        if self.fails:
+            raise DeployFailed(deploying.SUPERVISOR_KILLED.at(Span("n.ddsl.yaml")))
+        return seen
+
+
+def watch(engine: Slow) -> Watch:
+    return Watch(cast(Engine, engine))
+
+
+def test_one_look_is_for_all() -> None:
+    async def look() -> None:
+        of_a, now = watch(engine).of("a"), time.monotonic()
+        found = await asyncio.gather(*(of_a(now) for _ in range(50)))
+        assert {one.state for one in found if one} == {STOPPED}
+
+    engine = Slow()
+    asyncio.run(look())
+    assert engine.looks == 1
+
+
+def test_who_no_longer_waits_spoils_it_for_nobody() -> None:
+    async def look() -> None:
+        of_a, now = watch(engine).of("a"), time.monotonic()
+        first, second = asyncio.ensure_future(of_a(now)), asyncio.ensure_future(of_a(now))
+        await asyncio.sleep(0.01)
+        first.cancel()
+        found = await second
+        assert found and found.state == STOPPED
+
+    engine = Slow()
+    asyncio.run(look())
+    assert (engine.looks, engine.most) == (1, 1)
+
+
+def test_a_look_that_began_before_is_not_enough() -> None:
+    async def look() -> None:
+        of_a = watch(engine).of("a")
+        early = asyncio.ensure_future(of_a(time.monotonic()))
+        await asyncio.sleep(0.01)
+        engine.state = RUNNING
+        found = await of_a(time.monotonic())
+        assert found and found.state == RUNNING
+        seen = await early
+        assert seen and await of_a(0.0) == found
+
+    engine = Slow()
+    asyncio.run(look())
+    assert (engine.looks, engine.most) == (2, 1)
+
+
+def test_all_who_wait_are_told_that_it_fails_and_the_next_look_is_a_new_one() -> None:
+    async def look() -> None:
+        one, now = watch(engine), time.monotonic()
+        engine.fails = True
+        found = await asyncio.gather(*(one.of("a")(now) for _ in range(3)), return_exceptions=True)
+        assert all(isinstance(each, DeployFailed) for each in found)
+        engine.fails = False
+        assert await one.of("a")(now) is not None
+        await one.close()
+
+    engine = Slow()
+    asyncio.run(look())
+    assert engine.looks == 2
+
+
+def test_the_end_waits_for_no_look(capfd: pytest.CaptureFixture[str]) -> None:
+    async def look() -> None:
+        one = watch(engine)
+        waiting = asyncio.ensure_future(one.of("a")(time.monotonic()))
+        await asyncio.sleep(0.01)
+        waiting.cancel()
+        await one.close()
+
+    engine = Slow()
+    engine.fails = True
+    asyncio.run(look())
+    assert engine.at_once == 1 and capfd.readouterr().err == ""
