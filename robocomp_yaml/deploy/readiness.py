@@ -32,8 +32,9 @@ SETTLED = 0.1
 LOG_LINES = 1000
 """Lines of its log in which an older process's sign of readiness is looked for."""
 
-_SHORTEST, _LONGEST, _SLOWER = 0.02, 0.2, 1.3  # seconds between two looks, and the factor by which they grow
+_SHORTEST, _LONGEST, _SLOWER = 0.02, 0.2, 1.2  # seconds between two looks, and the factor by which they grow
 _ONE_TRY = 2.0  # seconds for an answer
+_END = 0.4  # seconds between two looks whether it has ended
 _NEW = 0.05  # seconds for which what was seen of a process that comes up is good enough
 
 RECENT = 0.2
@@ -93,8 +94,8 @@ async def _until_it_ends(spec: Spec, state: State) -> str:
     """Until it has ended, and is not started again; says how."""
     began = time.monotonic()
     while True:
-        # First of all, so that many that start at once are looked at together.
-        await asyncio.sleep(RECENT)
+        # First of all: most are ready by then, and the rest is looked at together.
+        await asyncio.sleep(_END)
         running = await state(max(began, time.monotonic() - RECENT))
         if running is None or running.state in (GIVEN_UP, STOPPED, LOST):
             return (running.end if running else "") or "it was stopped meanwhile"
