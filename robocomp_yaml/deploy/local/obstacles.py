@@ -45,7 +45,8 @@ class Cleared:
         self._until = 0.0
 
     def note(self, specs: Iterable[Spec]) -> None:
-        self._specs = {spec.name: spec for spec in specs}
+        # What waits for others is looked at again: a port that was free may be theirs by then.
+        self._specs = {spec.name: spec for spec in specs if not (spec.process.after and spec.process.endpoints)}
         self._until = time.monotonic() + _JUST
 
     def take(self, spec: Spec) -> bool:
