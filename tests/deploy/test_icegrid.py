@@ -134,6 +134,17 @@ def test_a_second_up_touches_nothing(talk: Deployment, ready: dict[str, int]) ->
     assert talk.pids() == ready
 
 
+def test_a_node_that_is_started_twice_leaves_what_is_at_work_as_it_is(talk: Deployment, ready: dict[str, int]) -> None:
+    """Bash reads a script while it carries it out: another one does not take its place in the same file."""
+    if not talk.hosts.prefix:
+        pytest.skip("nodes of this machine are not started by hand")
+    script = talk.state / "nodes" / "arm" / "run"
+    before = script.stat().st_ino
+    talk.start_node("arm")
+    assert script.stat().st_ino != before and script.stat().st_mode & 0o777 == 0o700
+    assert talk.pids() == ready
+
+
 def test_a_killed_component_is_back(talk: Deployment, ready: dict[str, int]) -> None:
     before = talk.status()["mouth"]["restarts"]
     os.kill(ready["mouth"], signal.SIGKILL)
