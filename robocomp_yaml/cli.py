@@ -11,6 +11,7 @@ import importlib
 import io
 import os
 import sys
+from contextlib import suppress
 
 import click
 
@@ -97,14 +98,32 @@ def group(ctx: click.Context, color: str, quiet: bool, verbose: bool) -> None:
 def main() -> None:
     """Run rcyaml; the exit code is 0 (fine), 1 (the documents have errors) or 2 (wrong usage)."""
     gc.set_threshold(200_000, 20, 100)  # a run is short, and most of what it makes lives to its end
-    atexit.register(gc.freeze)  # which need not be looked through again then
+    end = _End()
+    atexit.register(end.at_once)  # the first to be registered is the last to be called
     _make_streams_usable()
     try:
         group(prog_name="rcyaml")
+    except SystemExit as error:
+        end.code = error.code or 0
+        raise
     except OSError as error:  # commands tell of files that fail them: this is the output itself
         reason = (error.strerror or str(error)).lower()
         print(f"Error: cannot write what there is to say: {reason}", file=sys.stderr)
         sys.exit(1)
+
+
+class _End:
+    """The end of the process, with the exit code once it is known."""
+
+    code: int | str | None = None
+
+    def at_once(self) -> None:
+        """To give back piece by piece what a run made takes as long as a small run: the system takes all of it."""
+        with suppress(OSError):  # what cannot be written, Python tells of
+            sys.stdout.flush()
+            sys.stderr.flush()
+            if isinstance(self.code, int):
+                os._exit(self.code)
 
 
 def _make_streams_usable() -> None:
