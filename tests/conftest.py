@@ -46,11 +46,11 @@ def write_tree(folder: Path, files: Tree) -> Path:
 
 
 def read_tree(folder: Path) -> dict[str, str]:
-    """Every file below a folder, path to text, sorted."""
+    """Every file below a folder, path to text, sorted; without what Python itself leaves there."""
     return {
         str(path.relative_to(folder)): path.read_text(encoding="utf-8")
         for path in sorted(folder.rglob("*"))
-        if path.is_file()
+        if path.is_file() and "__pycache__" not in path.parts
     }
 
 
