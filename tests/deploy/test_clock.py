@@ -204,7 +204,7 @@ def test_a_rule_for_restarts_that_is_newer_by_no_clock(robot: Robot) -> None:
 @pytest.mark.parametrize("year", [1970, 2100])
 def test_a_clock_that_is_wrong_from_the_beginning(robot: Robot, year: int) -> None:
     """As on a machine without a battery for it."""
-    wrong = datetime(year, 1, 2, tzinfo=timezone.utc) - datetime.now(timezone.utc)
+    wrong = datetime(year, 1, 2, 12, tzinfo=timezone.utc) - datetime.now(timezone.utc)
     robot.clock.set(wrong.total_seconds() / 3600)
     robot.deploy("up")
     assert robot.deploy("logs", "-t", "-n", "1").startswith(f"{year}-01-02T")
