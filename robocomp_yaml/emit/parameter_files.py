@@ -9,7 +9,7 @@ import msgspec
 
 from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.values.json_schema import DOCUMENT, EFFECTIVE, document_schema
+from robocomp_yaml.values.json_schema import DOCUMENT, EFFECTIVE, document_schemas
 
 SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"
 DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
@@ -17,9 +17,9 @@ DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
 
 def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:
     """The JSON Schemas of a component's values."""
-    for path, mode in ((SCHEMA, DOCUMENT), (EFFECTIVE_SCHEMA, EFFECTIVE)):
-        made = document_schema(linked.parameters.parameters, linked, mode)
-        yield FilePlan(path, _lines(made))
+    made = document_schemas(linked, (DOCUMENT, EFFECTIVE))
+    for path, schema in zip((SCHEMA, EFFECTIVE_SCHEMA), made, strict=True):
+        yield FilePlan(path, _lines(schema))
 
 
 def _lines(schema: dict[str, object]) -> str:

@@ -8,6 +8,7 @@ messages, examples and snippets for them; the second, for tools, says what each 
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import msgspec
@@ -68,24 +69,29 @@ def complete_schema(type_: Type) -> Schema:
     return {**made, "definitions": maker.definitions}
 
 
-def document_schema(parameters: Parameters, component: LinkedComponent | None, mode: str) -> Schema:
-    """The self-contained schema of a component's whole values document."""
+def document_schemas(component: LinkedComponent, modes: Iterable[str]) -> Iterator[Schema]:
+    """The self-contained schemas of a component's whole values document, one for each mode."""
+    words: dict[int, str] = {}
+    facts: dict[int, _Facts] = {}
+    for mode in modes:
+        yield _document_schema(component, _Maker(mode, words=words, facts=facts))
+
+
+def _document_schema(component: LinkedComponent, maker: _Maker) -> Schema:
+    parameters, name, mode = component.parameters.parameters, component.component.name, maker.mode
     made = new_schema("config")
-    name = component.component.name if component else "the component"
     made["$id"] = f"https://rcyaml.invalid/schemas/values/{name}.{mode}.schema.json"
     made["title"] = f"Values of {name}"
     made["description"] = f"The values of {name}'s parameters, and where it and the others are."
     made["markdownDescription"] = made["description"] + (f"\n\n{prose(parameters.doc)}" if parameters.doc else "")
     made["examples"] = [{"parameters": {}}]
-    maker = _Maker(mode)
     head = {key: made["properties"]["parameters"][key] for key in ("title", "description", "markdownDescription")}
     made["properties"]["parameters"] = {**maker.record(parameters.root, nullable=mode == DOCUMENT), **head}
     made["definitions"].update(maker.definitions)
     if mode == EFFECTIVE:
         made["required"] = ["parameters"] if any(m.required for m in parameters.root.members) else []
-    if component is not None:
-        for key, names in _ports(component).items():
-            made["properties"][key]["properties"] = {name: {"$ref": f"#/definitions/{_PORTS[key]}"} for name in names}
+    for key, names in _ports(component).items():
+        made["properties"][key]["properties"] = {name: {"$ref": f"#/definitions/{_PORTS[key]}"} for name in names}
     return made
 
 
@@ -97,12 +103,23 @@ def _ports(component: LinkedComponent) -> dict[str, list[str]]:
     return {"endpoints": [*served, "CommonBehavior"], "proxies": [port.name for port in component.requires]}
 
 
+class _Facts(msgspec.Struct, frozen=True):
+    """What is told of a member: `description` is its `doc` and the facts as `text`."""
+
+    title: str
+    description: str
+    doc: str
+    text: str
+
+
 class _Maker(msgspec.Struct):
     """Makes schemas in one mode; structs go to `definitions`."""
 
     mode: str
     definitions: dict[str, Schema] = msgspec.field(default_factory=lambda: {"env": _REFERENCE})
-    _words: dict[int, str] = {}
+    # Types in words, and what is told of members: both are said in several places and modes, and made once.
+    words: dict[int, str] = {}
+    facts: dict[int, _Facts] = {}
 
     @property
     def for_editors(self) -> bool:
@@ -144,7 +161,7 @@ class _Maker(msgspec.Struct):
         """A list or mapping: what holds for it, and one message for everything else."""
         made: Schema = {"if": {"type": kind}, "then": then, "else": {"type": _types(kind, nullable)}}
         if self.for_editors:
-            words = self.words(type_)
+            words = self.in_words(type_)
             made["else"]["errorMessage"] = f"this is {words}"
             if not (isinstance(type_, RecordType) and type_.is_group):
                 snippet = {"label": _label(type_), "description": words, "body": flow(example_of(type_))}
@@ -153,7 +170,7 @@ class _Maker(msgspec.Struct):
 
     def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
         limits = self.limits(type_)
-        said = {"errorMessage": f"this is {self.words(type_)}"} if self.for_editors else {}
+        said = {"errorMessage": f"this is {self.in_words(type_)}"} if self.for_editors else {}
         kind = _json_type(type_)
         otherwise: Schema
         if "enum" in limits:
@@ -213,15 +230,28 @@ class _Maker(msgspec.Struct):
     def member(self, member: Member) -> Schema:
         made = self.type(member.type, nullable=self.mode == DOCUMENT)
         if self.mode != COMPLETE:
-            made |= _about(member, self.words(member.type), self.for_editors)
+            made |= self.about(member)
         return made
 
-    def words(self, type_: Type) -> str:
-        """Each type in words, once: a place says them several times, and types are shared."""
-        said = self._words.get(id(type_))
+    def in_words(self, type_: Type) -> str:
+        said = self.words.get(id(type_))
         if said is None:
-            said = self._words[id(type_)] = in_words(type_)
+            said = self.words[id(type_)] = in_words(type_)
         return said
+
+    def about(self, member: Member) -> Schema:
+        """Title, description, default; an editor also shows Markdown and examples."""
+        facts = self.facts.get(id(member))
+        if facts is None:
+            facts = self.facts[id(member)] = _facts(member, self.in_words(member.type))
+        made: Schema = {"title": facts.title, "description": facts.description}
+        can_be_shown = not self.for_editors or _is_simple(example(member))
+        if member.default is not None and can_be_shown:
+            made["default"] = member.default.data
+        if self.for_editors:
+            made["markdownDescription"] = "\n\n".join(part for part in (prose(facts.doc), prose(facts.text)) if part)
+            made |= {"examples": [example(member)]} if can_be_shown else {}
+        return made
 
 
 def _label(type_: Type) -> str:
@@ -264,8 +294,7 @@ def in_words(type_: Type) -> str:
     return words
 
 
-def _about(member: Member, kind: str, for_editors: bool) -> Schema:
-    """Title, description, default; an editor also shows Markdown and examples."""
+def _facts(member: Member, kind: str) -> _Facts:
     unit = unit_of(member.type)
     doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
     facts = [kind[0].upper() + kind[1:]] if not member.is_group else []
@@ -280,15 +309,8 @@ def _about(member: Member, kind: str, for_editors: bool) -> Schema:
     text = "; ".join(facts) + ("." if facts else "")
     if isinstance(member.type, EnumType):
         text += "".join(f"\n- `{name}`: {said}" for name, said in member.type.enumerators if said)
-    made: Schema = {"title": f"{member.name} ({unit})" if unit else member.name}
-    made["description"] = "\n".join(part for part in (doc, text) if part)
-    can_be_shown = not for_editors or _is_simple(example(member))
-    if member.default is not None and can_be_shown:
-        made["default"] = member.default.data
-    if for_editors:
-        made["markdownDescription"] = "\n\n".join(part for part in (prose(doc), prose(text)) if part)
-        made |= {"examples": [example(member)]} if can_be_shown else {}
-    return made
+    title = f"{member.name} ({unit})" if unit else member.name
+    return _Facts(title, "\n".join(part for part in (doc, text) if part), doc, text)
 
 
 def _is_simple(data: object) -> bool:
