@@ -203,17 +203,17 @@ def test_a_real_kill(tmp_path: Path) -> None:
     (tmp_path / "o").touch()
     command = [sys.executable, "-c", _COMPILE, str(tmp_path)]
     one = subprocess.Popen([*command, "one\n"], stdout=subprocess.PIPE)
-    two = subprocess.Popen([*command, "two\n"], stdout=subprocess.PIPE)
+    two = subprocess.Popen([*command, "two\n"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     for process in (one, two):
         assert process.stdout
         process.stdout.readline()
     time.sleep(0.2)
     one.send_signal(signal.SIGKILL)
     one.communicate()
-    two.communicate()
-    assert two.returncode == 0
+    said = two.communicate()[1]
+    assert two.returncode == 0, said
     planned = RootPlan(str(tmp_path), "o", [always(f"generated/{n}", "end\n") for n in range(200)])
-    carry_out(planned)
+    assert not carry_out(planned)[1]
     texts = tree(tmp_path / "generated")
     assert {text for name, text in texts.items() if not name.endswith(".orig")} == {"end\n"}
     assert len(texts) == 200
