@@ -8,8 +8,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping
-
-import msgspec
+from typing import NamedTuple
 
 MARK = "RCYAML_PROCESS"
 """The variable by which everything that a process of a deployment started is known: `FOLDER:NAME`."""
@@ -20,7 +19,7 @@ _LISTEN = "0A"
 _MOMENT = 0.02  # seconds
 
 
-class Entry(msgspec.Struct, frozen=True):
+class Entry(NamedTuple):
     """A process: `start` is in clock ticks since boot, so that (pid, start) is never used twice."""
 
     pid: int
