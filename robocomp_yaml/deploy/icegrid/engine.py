@@ -309,7 +309,8 @@ def _is_too_long(spec: Spec) -> bool:
 
 def _missing() -> str:
     """What the engine needs and this machine lacks, in words, or ''."""
-    if not all(map(importlib.util.find_spec, ("Ice", "IceGrid"))):
+    # What is compiled of Ice is found only by the Python that it was compiled for.
+    if not all(map(importlib.util.find_spec, ("Ice", "IceGrid", "IcePy"))):
         return "Ice for Python is not installed (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
     for program, package in (("icegridregistry", "zeroc-icegrid"), ("icegridnode", "zeroc-icegrid"),
                              ("openssl", "openssl"), ("setpriv", "util-linux")):  # fmt: skip
