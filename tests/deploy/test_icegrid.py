@@ -11,9 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, write_tree
 from processes import until
-from three_hosts import Deployment, three_hosts
+from three_hosts import Deployment, talking_head
 
 pytestmark = [
     pytest.mark.slow,
@@ -67,32 +66,20 @@ components:
 def talk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
     """The network, up on three hosts; two of the nodes were started by hand where that is needed."""
     pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
-    root = tmp_path_factory.mktemp("talk")
-    with three_hosts() as hosts:
-        deployment = Deployment(hosts, root)
-        shutil.copytree(ROOT / "examples" / "talkinghead", root / "talkinghead")
-        write_tree(root, {
-            "talk.ddsl.yaml": NETWORK.format(**hosts.addresses),
-            "words/rcyaml.yaml": "interfaces: [interfaces/]\n",
-            "words/interfaces/Words.idsl.yaml": WORDS,
-            **{
-                f"words/{name}/{name}.cdsl.yaml": (
-                    f"component: {name.title()}\nlanguage: python\nimports: [Words]\n{key}: [Words]\nperiod: 20 ms\n"
-                )
-                for name, key in (("teller", "publishes"), ("hearer", "subscribes"))
-            },
-            "words/teller/src/specificworker.py": TELLER,
-            "words/hearer/src/specificworker.py": HEARER,
-        })  # fmt: skip
-        try:
-            deployment.rcyaml("migrate", "talkinghead")
-            deployment.rcyaml("compile", "talkinghead", "words")
-            if hosts.prefix:
-                _start_by_hand(deployment)
-            deployment.deploy("up")
-            yield deployment
-        finally:
-            deployment.clean_up()
+    words = {
+        "words/rcyaml.yaml": "interfaces: [interfaces/]\n",
+        "words/interfaces/Words.idsl.yaml": WORDS,
+        **{
+            f"words/{name}/{name}.cdsl.yaml": (
+                f"component: {name.title()}\nlanguage: python\nimports: [Words]\n{key}: [Words]\nperiod: 20 ms\n"
+            )
+            for name, key in (("teller", "publishes"), ("hearer", "subscribes"))
+        },
+        "words/teller/src/specificworker.py": TELLER,
+        "words/hearer/src/specificworker.py": HEARER,
+    }
+    with talking_head(tmp_path_factory.mktemp("talk"), NETWORK, _start_by_hand, words) as deployment:
+        yield deployment
 
 
 def _start_by_hand(deployment: Deployment) -> None:

@@ -9,10 +9,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import ROOT
 from processes import until
 from small_networks import is_alive
-from three_hosts import Deployment, three_hosts
+from three_hosts import Deployment, talking_head
 
 pytestmark = [
     pytest.mark.slow,
@@ -41,20 +40,8 @@ GREETING = 4
 def talk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
     """The network, up on three hosts."""
     pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
-    root = tmp_path_factory.mktemp("moves")
-    with three_hosts() as hosts:
-        deployment = Deployment(hosts, root)
-        shutil.copytree(ROOT / "examples" / "talkinghead", root / "talkinghead")
-        (root / "talk.ddsl.yaml").write_text(NETWORK.format(**hosts.addresses), encoding="utf-8")
-        try:
-            deployment.rcyaml("migrate", "talkinghead")
-            deployment.rcyaml("compile", "talkinghead")
-            if hosts.prefix:
-                _start_one_after_the_other(deployment)
-            deployment.deploy("up")
-            yield deployment
-        finally:
-            deployment.clean_up()
+    with talking_head(tmp_path_factory.mktemp("moves"), NETWORK, _start_one_after_the_other) as deployment:
+        yield deployment
 
 
 def _start_one_after_the_other(talk: Deployment) -> None:

@@ -10,7 +10,6 @@ import pytest
 from click.testing import Result
 
 from conftest import write_tree
-from processes import Ports
 from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import SKIPPED
 from robocomp_yaml.deploy.engine import RUNNING

@@ -10,15 +10,17 @@ import json
 import os
 import random
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from conftest import ROOT, write_tree
 from processes import until
 
 from robocomp_yaml.deploy.local import procfs
@@ -93,6 +95,27 @@ def _can_make(space: str) -> bool:
 def _ip(*words: str) -> None:
     done = subprocess.run(["ip", *words], capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"ip {shlex.join(words)}: {done.stderr}"
+
+
+@contextmanager
+def talking_head(
+    root: Path, network: str, start_nodes: Callable[[Deployment], None], others: Mapping[str, str] | None = None
+) -> Iterator[Deployment]:
+    """A network of the example's components, and of those that the files `others` hold, up on three hosts. Where there
+    are three, `start_nodes` starts those that no SSH reaches."""
+    with three_hosts() as hosts:
+        deployment = Deployment(hosts, root)
+        shutil.copytree(ROOT / "examples" / "talkinghead", root / "talkinghead")
+        write_tree(root, {"talk.ddsl.yaml": network.format(**hosts.addresses), **(others or {})})
+        try:
+            deployment.rcyaml("migrate", "talkinghead")
+            deployment.rcyaml("compile")
+            if hosts.prefix:
+                start_nodes(deployment)
+            deployment.deploy("up")
+            yield deployment
+        finally:
+            deployment.clean_up()
 
 
 @dataclass

@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 PATIENCE = 60.0  # seconds: generous, because the machines that run the tests may be busy; never waited in full
-SLACK = 8.0  # seconds that such a machine may take longer than what a component promises
+SLACK = 3.0  # seconds that such a machine may take longer than what a component promises
 
 
 def until(condition: Callable[[], Any], what: str | Callable[[], str], timeout: float = PATIENCE) -> Any:
