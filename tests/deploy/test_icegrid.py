@@ -143,6 +143,14 @@ def test_a_killed_component_is_back(talk: Deployment, ready: dict[str, int]) -> 
     assert talk.copies("mouth") == 1
 
 
+def test_a_killed_icestorm_is_back_with_its_subscribers(talk: Deployment, ready: dict[str, int]) -> None:
+    os.kill(ready["storm"], signal.SIGKILL)
+    until(lambda: talk.pids()["storm"] not in (0, ready["storm"]), lambda: talk.logs())
+    now = talk.until_ready()
+    assert {name: one["pid"] for name, one in now.items() if name != "storm"} == _without(ready, "storm")
+    test_a_topic_crosses_hosts(talk)
+
+
 def test_a_killed_runner_takes_its_component_with_it_and_both_are_back(
     talk: Deployment, ready: dict[str, int]
 ) -> None:
