@@ -43,11 +43,32 @@ legacy:
 """
 CDSL = "component: ParaComp\nlanguage: {language}\nparameters: para.pdsl.yaml\nperiod: 20 ms\n"
 PYTHON = """\
+import threading
+
 from generated.genericworker import GenericWorker
+
+
+def race(parameters):
+    def write():
+        for number in range(500):
+            value = 0.5 if number % 2 else 1.0
+            parameters.change({"gains": [value] * 3, "motors[0].vel": value})
+
+    parameters.change({"gains": [1.0] * 3, "motors[0].vel": 1.0})
+    writer = threading.Thread(target=write)
+    writer.start()
+    seen = set()
+    while writer.is_alive():
+        now = parameters.now
+        seen.add((*now.gains, now.motors[0].vel))
+    writer.join()
+    print("seen:", *sorted({" ".join(f"{value:g}" for value in values) for values in seen}), sep=" | ", flush=True)
 
 
 class SpecificWorker(GenericWorker):
     def initialize(self):
+        if self.parameters.device == "/dev/race":
+            race(self.parameters)
         self.parameters.listen(self.show)
         self.show(None)
 
@@ -68,10 +89,57 @@ class SpecificWorker(GenericWorker):
 CPP = """\
 #include "specificworker.h"
 
+#include <atomic>
 #include <iostream>
+#include <set>
+#include <sstream>
+#include <thread>
 
 namespace
 {
+
+void race(Parameters& parameters)
+{
+    const auto write = [&](float value)
+    {
+        parameters.change(
+            [value](parameters::Values& values)
+            {
+                values.gains.assign(3, value);
+                values.motors.at(0).vel = value;
+            });
+    };
+    write(1);
+    std::atomic<bool> isDone = false;
+    std::thread writer(
+        [&]
+        {
+            for (int number = 0; number < 2000; ++number)
+            {
+                write(number % 2 == 0 ? 1.0F : 0.5F);
+            }
+            isDone = true;
+        });
+    std::set<std::string> seen;
+    while (!isDone)
+    {
+        const auto now = parameters.now();
+        std::ostringstream text;
+        for (const auto gain : now->gains)
+        {
+            text << gain << " ";
+        }
+        text << now->motors.at(0).vel;
+        seen.insert(text.str());
+    }
+    writer.join();
+    std::cout << "seen:";
+    for (const auto& text : seen)
+    {
+        std::cout << " | " << text;
+    }
+    std::cout << std::endl;
+}
 
 void show(Parameters& parameters, const runtime::Change& change)
 {
@@ -120,6 +188,10 @@ void show(Parameters& parameters, const runtime::Change& change)
 
 void SpecificWorker::initialize()
 {
+    if (parameters.device() == "/dev/race")
+    {
+        race(parameters);
+    }
     parameters.listen([this](const runtime::Change& change) { show(parameters, change); });
     show(parameters, {});
 }
@@ -260,6 +332,13 @@ def test_a_misspelled_property_is_told_of(component: Component, start: Start) ->
         where = f"WARNING ParaComp: --{key} on the command line: "
         running.wait_for(f"{where}there is no parameter '{key}' (did you mean '{meant}'?)")
     assert running.output.count("there is no parameter") == 6
+
+
+def test_no_half_of_a_change_is_seen_by_another_thread(component: Component, start: Start) -> None:
+    component.write(Arm_Device="/dev/race")
+    output = component.run(start).wait_for("seen:").wait_for("ParaComp is running").output
+    (seen,) = (line for line in output.splitlines() if line.startswith("seen:"))
+    assert {*seen.removeprefix("seen: | ").split(" | ")} == {"0.5 0.5 0.5 0.5", "1 1 1 1"}, "both, whole"
 
 
 def test_the_list_of_parameters(component: Component, start: Start, behavior: Ask) -> None:
