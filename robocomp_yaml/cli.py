@@ -12,10 +12,13 @@ import io
 import os
 import sys
 from contextlib import suppress
+from typing import Any
 
 import click
 
 from robocomp_yaml import __version__
+from robocomp_yaml.commands import _signals
+from robocomp_yaml.diag import terminal
 
 COMMANDS = {
     "init": "Make a folder a workspace that already checks.",
@@ -40,6 +43,31 @@ class Options:
 
 class LazyGroup(click.Group):
     """A group whose commands live in `robocomp_yaml.commands.NAME.command`."""
+
+    def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
+        """Runs a command line, and tells what is wrong with it. Returns the exit code; `standalone_mode` ends with it."""
+        code = self._code(*args, **extra)
+        if standalone_mode:
+            sys.exit(code)
+        return code
+
+    def _code(self, *args: Any, **extra: Any) -> int:
+        try:
+            code = super().main(*args, standalone_mode=False, **extra)
+            return code if isinstance(code, int) else 0
+        except click.ClickException as error:
+            _tell(error)
+            return error.exit_code
+        except click.Abort as error:
+            cause = error.__cause__ or error.__context__
+            if isinstance(cause, EOFError):
+                terminal.say("Error: there was a question, and no answer", err=True)
+                return 1
+            return _signals.code_of(cause)
+        except SystemExit as error:
+            if isinstance(error.__context__, BrokenPipeError):
+                return _signals.READER_GONE
+            raise
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -95,44 +123,67 @@ def group(ctx: click.Context, color: str, quiet: bool, verbose: bool) -> None:
     ctx.obj = Options(wanted, -1 if quiet else int(verbose))
 
 
+def _tell(error: click.ClickException) -> None:
+    """What is wrong with a command line. It quotes what was typed, which is no more to be trusted than a document."""
+    if isinstance(error, click.exceptions.NoArgsIsHelpError):
+        terminal.say_text(error.format_message(), err=True)
+        return
+    ctx = error.ctx if isinstance(error, click.UsageError) else None
+    if ctx is not None:
+        terminal.say_text(ctx.get_usage(), err=True)
+        if ctx.command.get_help_option(ctx) is not None:
+            terminal.say(f"Try '{ctx.command_path} {max(ctx.help_option_names, key=len)}' for help.", err=True)
+        terminal.say("", err=True)
+    message = f"Error: {error.format_message()}"
+    if isinstance(error, click.MissingParameter):  # a text of click's own, of several lines
+        terminal.say_text(message, err=True)
+    else:
+        terminal.say(message, err=True)
+
+
 def main() -> None:
-    """Run rcyaml; the exit code is 0 (fine), 1 (the documents have errors) or 2 (wrong usage)."""
+    """Run rcyaml; the exit code is 0 (fine), 1 (the documents have errors), 2 (wrong usage), or what signals give."""
     gc.set_threshold(200_000, 20, 100)  # a run is short, and most of what it makes lives to its end
     end = _End()
     atexit.register(end.at_once)  # the first to be registered is the last to be called
     _make_streams_usable()
     try:
-        group(prog_name="rcyaml")
-    except SystemExit as error:
-        end.code = error.code or 0
-        raise
+        with _signals.heeded():
+            end.code = group(prog_name="rcyaml", standalone_mode=False)
+    except KeyboardInterrupt as error:  # on the way out
+        end.code = _signals.code_of(error)
     except OSError as error:  # commands tell of files that fail them: this is the output itself
-        reason = (error.strerror or str(error)).lower()
-        print(f"Error: cannot write what there is to say: {reason}", file=sys.stderr)
-        sys.exit(1)
+        end.code = _output_failed(error)
+    sys.exit(end.code)
+
+
+def _output_failed(error: OSError) -> int:
+    reason = (error.strerror or str(error)).lower()
+    with suppress(OSError):
+        terminal.say(f"Error: cannot write what there is to say: {reason}", err=True)
+    return 1
 
 
 class _End:
     """The end of the process, with the exit code once it is known."""
 
-    code: int | str | None = None
+    code: int | None = None
 
     def at_once(self) -> None:
         """To give back piece by piece what a run made takes as long as a small run: the system takes all of it."""
         with suppress(OSError):  # what cannot be written, Python tells of
             sys.stdout.flush()
             sys.stderr.flush()
-            if isinstance(self.code, int):
+            if self.code is not None:
                 os._exit(self.code)
 
 
 def _make_streams_usable() -> None:
-    """Standard streams that are closed swallow what they are given, and no character is refused: a name that is not
-    text leaves as the bytes that it has on the disk, and what an old encoding lacks as a question mark."""
+    """Standard streams that are closed swallow what they are given, and no character is refused: what an old encoding
+    lacks leaves as a question mark."""
     if sys.stdout is None:
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (for the whole run)
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     if isinstance(sys.stdout, io.TextIOWrapper):
-        is_utf8 = sys.stdout.encoding.lower().replace("-", "") == "utf8"
-        sys.stdout.reconfigure(errors="surrogateescape" if is_utf8 else "replace")
+        sys.stdout.reconfigure(errors="replace")

@@ -15,6 +15,7 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import stop_all
 from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, WAITING
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
@@ -49,7 +50,7 @@ async def attached(ctx: click.Context, opened: Opened, wanted: bool) -> AsyncIte
 async def _print(ctx: click.Context, opened: Opened) -> None:
     shown = views.LogView(opened.enabled, _options.colored(ctx), times=False)
     async for line in await opened.engine.lines(list(opened.network.processes), 0, True):
-        click.echo(shown.text(line), color=ctx.color)
+        terminal.say(shown.text(line))
 
 
 async def _stay(ctx: click.Context, opened: Opened) -> list[Diagnostic]:
@@ -57,7 +58,7 @@ async def _stay(ctx: click.Context, opened: Opened) -> list[Diagnostic]:
     for number in (signal.SIGINT, signal.SIGTERM):
         asyncio.get_running_loop().add_signal_handler(number, enough.set)
     if opened.format_ == "text" and ctx.obj.verbosity >= 0:
-        click.echo(f"{opened.network.name}: Ctrl-C takes it down")
+        terminal.say(f"{opened.network.name}: Ctrl-C takes it down")
     failed: dict[str, Diagnostic] = {}
     while not enough.is_set():
         running = await opened.engine.observe()

@@ -105,7 +105,7 @@ def _outcome_of(
     analysis: Analysis, built: Build, changes: Changes, told: list[Diagnostic], *, with_diff: bool
 ) -> Outcome:
     files = [
-        File(root.root, change.path, change.action, change.orig, "".join(change.diff()) if with_diff else "")
+        File(root.root, change.path, change.action, change.orig, change.diff() if with_diff else "")
         for root in changes.roots
         for change in root.changes
     ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import zlib
 from collections.abc import Collection, Sequence
 from typing import Any
@@ -11,28 +10,27 @@ from typing import Any
 from robocomp_yaml.deploy.engine import OWN, Line
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step
+from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown
 from robocomp_yaml.network.network import Network
 
 _SIGNS = {START: "+", STOP: "-", RESTART: "~", CHANGE: "*", KEEP: "="}
 _TINTS = {START: "32", STOP: "31", RESTART: "33", CHANGE: "36", KEEP: "2"}
 _LOG_TINTS = ("36", "33", "32", "35", "34", "96", "93", "92", "95", "94")
-_CODES = re.compile(r"\x1b\[[0-9;]*m")
-_CONTROLS = re.compile(r"\x1b\[[0-?]*[ -/]*[@-~]|\x1b[@-_]|[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 
-def plan_text(plan: Plan, color: bool, *, everything: bool) -> str:
+def plan_lines(plan: Plan, color: bool, *, everything: bool) -> list[Shown]:
     """A line for each process that something happens to, its changes below, and a last line that counts."""
-    width = max(map(len, plan.steps), default=0)
+    width = max(map(columns, plan.steps), default=0)
     lines = []
     for step in plan.steps.values():
         if step.action != KEEP or everything:
-            head = f"{_SIGNS[step.action]} {step.name:<{width}}  {step.action}"
-            lines.append(f"{_paint(head, _TINTS[step.action], color)}: {step.reason}")
+            head = line(f"{_SIGNS[step.action]} ", pad(step.name, width), f"  {step.action}")
+            lines.append(line(paint(head, _TINTS[step.action], color), f": {step.reason}"))
             if len(step.changes) > 1:
-                lines += [f"    {change}" for change in step.changes]
+                lines += [shown(f"    {change}") for change in step.changes]
     counts = [(len(plan.of(action)), action) for action in (START, STOP, RESTART, CHANGE, KEEP)]
     told = ", ".join(f"{count} to {action}" for count, action in counts if count)
-    return "\n".join([*lines, "nothing to do" if plan.is_empty else told])
+    return [*lines, shown("nothing to do" if plan.is_empty else told)]
 
 
 def plan_data(plan: Plan) -> list[dict[str, Any]]:
@@ -70,7 +68,9 @@ def result_data(result: Result) -> dict[str, object]:
     }
 
 
-def status_text(network: Network, found: Sequence[Status], color: bool, room: int | None = None) -> str:
+def status_lines(
+    network: Network, found: Sequence[Status], color: bool, room: int | None = None
+) -> list[Shown]:  # fmt: skip
     """`room` are the columns of a terminal: what is served is cut where it would not fit."""
     rows = [("PROCESS", "STATE", "PID", "HOST", "UP", "RESTARTS", "MEMORY", "SERVES")]
     for status in found:
@@ -88,20 +88,19 @@ def status_text(network: Network, found: Sequence[Status], color: bool, room: in
                 _endpoints(network, status.name),
             )
         )
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    widths = [max(columns(row[column]) for row in rows) for column in range(len(rows[0]))]
     if room is not None:
         widths[-1] = min(widths[-1], max(room - sum(widths[:-1]) - 2 * len(widths[:-1]), len(rows[0][-1])))
     lines = []
     states: list[Status | None] = [None, *found]
     for row, one in zip(rows, states, strict=True):
-        cells = [f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)]
-        if len(row[-1]) > widths[-1]:
-            cells[-1] = f"{row[-1][: widths[-1] - 1]}…"
+        cells = [pad(cell, width) for cell, width in zip(row, widths, strict=True)]
+        cells[-1] = cut(row[-1], widths[-1])
         if one:
             tint = "31" if one.is_down else "32" if one.is_ready else "33" if one.running else "2"
-            cells[1] = _paint(cells[1], tint, color)
-        lines.append("  ".join(cells).rstrip())
-    return "\n".join(lines)
+            cells[1] = paint(cells[1], tint, color)
+        lines.append(Shown("  ".join(cells).rstrip()))
+    return lines
 
 
 def _state(one: Status) -> str:
@@ -135,28 +134,22 @@ def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any
 
 
 class LogView:
-    """Lines of logs, each behind the name of its process. What a process prints cannot command the terminal: of its
-    control characters, colours alone are left, and these only where colours are wanted."""
+    """Lines of logs, each behind the name of its process."""
 
     def __init__(self, names: Collection[str], color: bool, times: bool) -> None:
-        self._width, self._color, self._times = max(map(len, names), default=0), color, times
+        self._width, self._color, self._times = max(map(columns, names), default=0), color, times
 
-    def text(self, line: Line) -> str:
-        tint = _LOG_TINTS[zlib.crc32(line.name.encode()) % len(_LOG_TINTS)]
-        text = _CONTROLS.sub(self._allowed, line.text)
+    def text(self, said: Line) -> Shown:
+        tint = _LOG_TINTS[zlib.crc32(said.name.encode()) % len(_LOG_TINTS)]
+        text = shown(said.text, tabs=True)
         if text.startswith(OWN):
-            text = _paint(text, "2", self._color)
-        elif self._color and "\x1b" in text:
-            text += "\x1b[0m"
-        time = f"{line.time} " if self._times else ""
-        return f"{time}{_paint(f'{line.name:<{self._width}} |', tint, self._color)} {text}"
-
-    def _allowed(self, found: re.Match[str]) -> str:
-        return found[0] if self._color and _CODES.fullmatch(found[0]) else ""
+            text = paint(text, "2", self._color)
+        head = paint(line(pad(said.name, self._width), " |"), tint, self._color)
+        return line(f"{said.time} " if self._times else "", head, " ", text)
 
 
-def line_data(line: Line) -> str:
-    return json.dumps({"name": line.name, "time": line.time, "text": line.text}, ensure_ascii=False)
+def line_data(said: Line) -> str:
+    return json.dumps({"name": said.name, "time": said.time, "text": said.text}, ensure_ascii=False) + "\n"
 
 
 def _endpoints(network: Network, name: str) -> str:
@@ -177,7 +170,3 @@ def _duration(seconds: float) -> str:
 
 def _count(number: int) -> str:
     return f"{number} process{'' if number == 1 else 'es'}"
-
-
-def _paint(text: str, tint: str, color: bool) -> str:
-    return f"\x1b[{tint}m{text}\x1b[0m" if color else text

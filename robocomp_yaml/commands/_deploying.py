@@ -15,7 +15,7 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.commands import _deploy_views as views
-from robocomp_yaml.commands import _options
+from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._attaching import attached
 from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy import folder, operations
@@ -23,9 +23,10 @@ from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Engine
 from robocomp_yaml.deploy.engines import make_engine
 from robocomp_yaml.deploy.time_limit import TimeLimit
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.diag.render import render
+from robocomp_yaml.diag.render import text
 from robocomp_yaml.diag.render.json import as_data, dumps
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import suggest
@@ -69,7 +70,7 @@ def open_(
         from robocomp_yaml.deploy.stand_in import stand_in
 
         if network := stand_in(path):
-            click.echo(f"{path} cannot be read (see `rcyaml check`): this is about what runs of it", err=True)
+            terminal.say(f"{path} cannot be read (see `rcyaml check`): this is about what runs of it", err=True)
     if network is None or (has_errors(analysis.diagnostics) and not lenient):
         _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)
     assert network
@@ -121,7 +122,7 @@ def plan(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
         await opened.engine.close()
         if opened.format_ == "json":
             end(ctx, opened, {"plan": views.plan_data(found)})
-        click.echo(views.plan_text(found, _options.colored(ctx), everything=ctx.obj.verbosity > 0), color=ctx.color)
+        terminal.say(*views.plan_lines(found, _options.colored(ctx), everything=ctx.obj.verbosity > 0))
 
     _run(ctx, opened, work())
     end(ctx, opened)
@@ -169,7 +170,7 @@ def up(
     if opened.format_ == "json":
         end(ctx, opened, views.result_data(result))
     if not attach and ctx.obj.verbosity >= 0:
-        click.echo(views.result_text(opened.network, result), color=ctx.color)
+        terminal.say(views.result_text(opened.network, result))
     end(ctx, opened)
 
 
@@ -187,7 +188,7 @@ def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
     if opened.format_ == "json":
         end(ctx, opened, {"processes": views.status_data(opened.network, found)}, code)
     room = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
-    click.echo(views.status_text(opened.network, found, _options.colored(ctx), room), color=ctx.color)
+    terminal.say(*views.status_lines(opened.network, found, _options.colored(ctx), room))
     end(ctx, opened, code=code)
 
 
@@ -199,8 +200,10 @@ def logs(ctx: click.Context, opened: Opened, names: tuple[str, ...], last: int, 
         await opened.engine.open(opened.network, create=False)
         lines = await opened.engine.lines([name for name in opened.network.processes if name in wanted], last, follow)
         async for line in lines:
-            text = views.line_data(line) if opened.format_ == "json" else shown.text(line)
-            click.echo(text, color=ctx.color)
+            if opened.format_ == "json":
+                terminal.data(views.line_data(line), json=True)
+            else:
+                terminal.say(shown.text(line))
         await opened.engine.close()
 
     _run(ctx, opened, work(), on_interrupt="")
@@ -220,7 +223,7 @@ def down(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
     if opened.format_ == "json":
         end(ctx, opened, {"stopped": stopped})
     if not stopped:
-        click.echo(f"{opened.network.name}: nothing ran")
+        terminal.say(f"{opened.network.name}: nothing ran")
     end(ctx, opened)
 
 
@@ -244,10 +247,10 @@ def _run(
         raise  # whoever reads what is printed has had enough
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as error:
         if on_interrupt:
-            click.echo(on_interrupt, err=True)
-        ctx.exit(130)
+            terminal.say(on_interrupt, err=True)
+        ctx.exit(_signals.code_of(error))
     finally:
         work.close()
         opened.lock.close()
@@ -262,7 +265,7 @@ def end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = Non
     told = [*opened.told, *opened.engine.notes]
     if opened.format_ == "json":
         head: dict[str, object] = {"deployment": opened.network.name, "engine": opened.engine.name, **(data or {})}
-        click.echo(dumps({**head, "diagnostics": [as_data(_placed(opened, one)) for one in told]}), nl=False)
+        terminal.data(dumps({**head, "diagnostics": [as_data(_placed(opened, one)) for one in told]}), json=True)
     else:
         _show(ctx, opened, told)
     ctx.exit(1 if has_errors(told) else code)
@@ -273,9 +276,8 @@ def _show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> Non
     new = [_placed(opened, one) for one in told if one not in opened.shown]
     opened.shown += told
     if new:
-        text = render("text", new, opened.documents, _options.colored(ctx, sys.stderr))
-        # Its last line counts the documents, which is not what this is about.
-        click.echo(text.rstrip("\n").rpartition("\n")[0].rstrip("\n"), color=ctx.color, err=True)
+        blocks = text.each(new, _options.colored(ctx, sys.stderr))
+        terminal.say(*[line for block in blocks for line in (terminal.Shown(), *block)][1:], err=True)
 
 
 def _placed(opened: Opened, told: Diagnostic) -> Diagnostic:

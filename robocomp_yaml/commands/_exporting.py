@@ -8,6 +8,7 @@ import click
 
 from robocomp_yaml.commands._deploying import Opened, end
 from robocomp_yaml.deploy import exported
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.codes import emitting
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.render.json import dumps
@@ -38,15 +39,15 @@ def export(ctx: click.Context, opened: Opened, form: str, output: str | None) ->
     if opened.format_ == "json":
         end(ctx, opened, {"written": written})
     for path in written if ctx.obj.verbosity >= 0 else ():
-        click.echo(f"wrote {path}")
+        terminal.say(f"wrote {path}")
     end(ctx, opened)
 
 
 def _show(files: dict[str, str], format_: str) -> None:
     if format_ == "json":
-        click.echo(dumps({"files": files}), nl=False)
+        terminal.data(dumps({"files": files}), json=True)
         return
     for path, text in files.items():
         if len(files) > 1:
-            click.echo(f"# {path}")
-        click.echo(text, nl=not text.endswith("\n"))
+            terminal.data(f"# {path}\n")
+        terminal.data(text if text.endswith("\n") else f"{text}\n")

@@ -11,7 +11,7 @@ from typing import Any
 import click
 
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.diag.render import FORMATS, render
+from robocomp_yaml.diag.render import FORMATS, tell
 
 MANY = 300  # documents: fewer are read before a bar could be seen
 
@@ -58,5 +58,5 @@ def report(ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], 
     """Prints the diagnostics and ends the command: with 1 where one is an error, else with 0."""
     told = list(diagnostics)
     if ctx.obj.verbosity >= 0 or told:
-        click.echo(render(format_, told, documents, format_ == "text" and colored(ctx)), nl=False, color=ctx.color)
+        tell(format_, told, documents, colored(ctx))
     ctx.exit(1 if has_errors(told) else 0)

@@ -11,8 +11,9 @@ import click
 import msgspec
 
 from robocomp_yaml.commands import _options
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.diag.render import render
+from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps, run_as_data
 
 SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
@@ -83,27 +84,19 @@ def report(ctx: click.Context, outcome: Outcome, format_: str, *, diff: bool = F
             {"path": file.path, "action": file.action, **({"orig": file.orig} if file.orig else {})}
             for file in outcome.files
         ]
-        click.echo(dumps({**run_as_data(told, outcome.documents), "files": files}), nl=False)
+        terminal.data(dumps({**run_as_data(told, outcome.documents), "files": files}), json=True)
     elif format_ == "sarif":
-        click.echo(render("sarif", told, outcome.documents), nl=False)
+        tell("sarif", told, outcome.documents)
     else:
         if diff:
-            click.echo("".join(_painted(outcome, color)), nl=False, color=ctx.color)
+            terminal.diff((file.diff for file in outcome.files), color)
         elif ctx.obj.verbosity >= 0 or check:
-            for line in _listed(outcome, verbose=ctx.obj.verbosity > 0):
-                click.echo(line)
+            terminal.say(*_listed(outcome, verbose=ctx.obj.verbosity > 0))
         if told:
-            click.echo(render("text", told, outcome.documents, color), nl=False, color=ctx.color)
+            tell("text", told, outcome.documents, color)
         if ctx.obj.verbosity >= 0 and not diff:
-            click.echo(_summary(outcome))
+            terminal.say(_summary(outcome))
     ctx.exit(1 if has_errors(told) or (check and outcome.dirty) else 0)
-
-
-def _painted(outcome: Outcome, color: bool) -> Iterator[str]:
-    tints = {"+": "green", "-": "red", "@": "cyan"}
-    for file in outcome.files:
-        for line in file.diff.splitlines(keepends=True):
-            yield click.style(line, fg=tints[line[0]]) if color and line[0] in tints else line
 
 
 def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:

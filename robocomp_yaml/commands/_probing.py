@@ -11,6 +11,7 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._deploying import Opened, end
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.probe import NODE, Found, ProbeFailed, probe, programs
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.network import Host, Network
@@ -41,9 +42,7 @@ def tell(ctx: click.Context, opened: Opened, name: str | None) -> None:
         data = {host: [to_builtins(one) for one in found] for host, found in answers.items()}
         end(ctx, opened, {"hosts": data}, code)
     for host, found in answers.items():
-        click.echo(f"{host} ({opened.network.hosts[host].address}):")
-        for line in _lines(found, _options.colored(ctx)):
-            click.echo(f"  {line}", color=ctx.color)
+        terminal.say(f"{host} ({opened.network.hosts[host].address}):", *_lines(found, _options.colored(ctx)))
     end(ctx, opened, code=code)
 
 
@@ -60,14 +59,16 @@ def _can_run(network: Network, host: str, found: list[Found]) -> bool:
     return all(one.can_run for one in found if own & set(one.used_by))
 
 
-def _lines(found: list[Found], color: bool) -> list[str]:
+def _lines(found: list[Found], color: bool) -> list[terminal.Shown]:
     rows = [(shown_path(one.program) if "/" in one.program else one.program, *_verdict(one)) for one in found]
-    width = max((len(row[0]) for row in rows), default=0)
-    lines = []
-    for (program, verdict, tint), one in zip(rows, found, strict=True):
-        word = f"\x1b[{tint}m{verdict}\x1b[0m" if color else verdict
-        lines.append(f"{program:<{width}}  {word}, for {', '.join(one.used_by)}")
-    return lines
+    width = max((terminal.columns(row[0]) for row in rows), default=0)
+    return [
+        terminal.line(
+            "  ", terminal.pad(program, width), "  ", terminal.paint(verdict, tint, color),
+            f", for {', '.join(one.used_by)}",
+        )
+        for (program, verdict, tint), one in zip(rows, found, strict=True)
+    ]  # fmt: skip
 
 
 def _verdict(one: Found) -> tuple[str, str]:

@@ -10,6 +10,7 @@ from collections.abc import Collection
 from types import TracebackType
 
 from robocomp_yaml.deploy.carry_out import FAILED, GONE, READY, SKIPPED, STARTING, STOPPING, Event
+from robocomp_yaml.diag import terminal
 
 _PERIOD = 0.1
 _COLORS = {READY: "32", GONE: "32", FAILED: "31", SKIPPED: "33"}
@@ -22,7 +23,7 @@ class Progress:
     def __init__(self, shown: bool, color: bool, names: Collection[str]) -> None:
         self._shown, self._color = shown, color
         self._is_live = shown and sys.stdout.isatty()
-        self._width = max(map(len, names), default=0)
+        self._width = max(map(terminal.columns, names), default=0)
         self._busy: dict[str, tuple[str, float]] = {}
         self._drawn = 0
         self._ticker: asyncio.Task[None] | None = None
@@ -47,14 +48,13 @@ class Progress:
             self._busy.pop(event.name, None)
             self.pause()
             if self._shown:
-                print(self._line(event.name, event.kind, event.seconds), flush=True)
+                terminal.say(self._line(event.name, event.kind, event.seconds, self._color))
         self._draw()
 
     def pause(self) -> None:
         """Takes away what is drawn of the busy ones."""
         if self._drawn:
-            sys.stdout.write(f"\x1b[{self._drawn}A\x1b[J")
-            sys.stdout.flush()
+            terminal.take_away(self._drawn)
             self._drawn = 0
 
     async def _tick(self) -> None:
@@ -71,16 +71,14 @@ class Progress:
         now = time.monotonic()
         columns = shutil.get_terminal_size().columns - 1  # a line that wraps would be two to take away
         busy = list(self._busy.items())[:room]
-        lines = [self._line(name, kind, now - since)[:columns] for name, (kind, since) in busy]
+        lines = [terminal.cut(self._line(name, kind, now - since), columns) for name, (kind, since) in busy]
         if len(self._busy) > room:
-            lines[-1] = f"and {len(self._busy) - room + 1} more"
-        sys.stdout.write("".join(f"{line}\n" for line in lines))
-        sys.stdout.flush()
+            lines[-1] = terminal.shown(f"and {len(self._busy) - room + 1} more")
+        terminal.say(*lines)
         self._drawn = len(lines)
 
-    def _line(self, name: str, kind: str, seconds: float) -> str:
+    def _line(self, name: str, kind: str, seconds: float, color: bool = False) -> terminal.Shown:
         """Seconds are for those who watch; a file of output is the same each time."""
-        tint = _COLORS.get(kind) if self._color else None
-        word = f"\x1b[{tint}m{kind}\x1b[0m" if tint else kind
+        word = terminal.paint(kind, _COLORS.get(kind, ""), color and kind in _COLORS)
         took = f"  {seconds:.1f} s" if self._is_live and seconds > _SHORT else ""
-        return f"{name:<{self._width}}  {word}{took}"
+        return terminal.line(terminal.pad(name, self._width), "  ", word, took)

@@ -16,9 +16,11 @@ from msgspec.structs import replace
 
 from robocomp_yaml.check.pdsl import values as check
 from robocomp_yaml.commands import _options
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
+from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
@@ -86,13 +88,8 @@ def _effective(ctx: click.Context, file: str, include: tuple[str, ...]) -> tuple
 
 def _fail(ctx: click.Context, diagnostics: list[Diagnostic], documents: int) -> NoReturn:
     """What is wrong: on standard error, where standard output is for values; as JSON in their stead."""
-    from robocomp_yaml.diag.render import render
-
-    if ctx.params.get("format_") == "json":
-        click.echo(render("json", diagnostics, documents, False), nl=False)
-        ctx.exit(1)
-    color = _options.colored(ctx, sys.stderr)
-    click.echo(render("text", diagnostics, documents, color), nl=False, err=True, color=ctx.color)
+    is_json = ctx.params.get("format_") == "json"
+    tell("json" if is_json else "text", diagnostics, documents, _options.colored(ctx, sys.stderr), err=not is_json)
     ctx.exit(1)
 
 
@@ -118,11 +115,10 @@ def show(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) 
     _, values = _effective(ctx, file, include)
     rows = list(values_show.shown(values))
     if format_ == "json":
-        click.echo(dumps({"values": [_as_json(row) for row in rows]}), nl=False)
+        terminal.data(dumps({"values": [_as_json(row) for row in rows]}), json=True)
         return
     width = max((min(len(_assignment(row)), 50) for row in rows), default=0)
-    for row in rows:
-        click.echo(f"{_assignment(row):<{width}}  # {_origin(row)}")
+    terminal.data("".join(f"{_assignment(row):<{width}}  # {_origin(row)}\n" for row in rows))
 
 
 def _assignment(row: values_show.Shown) -> str:
@@ -163,13 +159,13 @@ def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...], form
     steps, _ = _steps(path, values.parameters.root)
     found = values_show.find(values, steps)
     if found is None:
-        click.echo(f"{path} has no value", err=True)
+        terminal.say(f"{path} has no value", err=True)
         ctx.exit(1)
     data = found[0]
     if format_ == "json":
-        click.echo(dumps({"path": path, "value": data}), nl=False)
+        terminal.data(dumps({"path": path, "value": data}), json=True)
         return
-    click.echo(data if isinstance(data, str) else flow(data))
+    terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
 
 
 def set_value(ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...], format_: str) -> None:
@@ -206,10 +202,10 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     except OSError as error:
         raise click.UsageError(f"{file} cannot be written: {(error.strerror or str(error)).lower()}") from None
     if format_ == "json":
-        click.echo(dumps({"path": path, "value": value, "was": change.was or None}), nl=False)
+        terminal.data(dumps({"path": path, "value": value, "was": change.was or None}), json=True)
     elif ctx.obj.verbosity >= 0:
         was = f" (was {change.was})" if change.was else ""
-        click.echo(f"{path} = {value}{was}")
+        terminal.say(f"{path} = {value}{was}")
 
 
 def _replace(file: str, content: bytes) -> None:
@@ -262,7 +258,7 @@ def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...]) -
     if form == "toml":
         from robocomp_yaml.emit.toml_text import toml_text
 
-        click.echo(toml_text(loaded.values, values), nl=False)
+        terminal.data(toml_text(loaded.values, values))
         return
     from robocomp_yaml.values.properties import properties
     from robocomp_yaml.values.property_text import property_text
@@ -270,7 +266,7 @@ def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...]) -
     sections, _ = properties(loaded.values, values)
     component = loaded.parameters.component
     name = component.component.name if component else "the component"
-    click.echo(property_text(sections, name, os.path.basename(file)), nl=False)
+    terminal.data(property_text(sections, name, os.path.basename(file)))
 
 
 def write_new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
@@ -295,7 +291,7 @@ def write_new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
     except OSError as error:
         raise click.UsageError(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
     if ctx.obj.verbosity >= 0:
-        click.echo(f"wrote {target}\nnext: rcyaml config check {target}")
+        terminal.say(f"wrote {target}", f"next: {terminal.typed('rcyaml', 'config', 'check', str(target))}")
 
 
 def _component_near(file: str) -> str:

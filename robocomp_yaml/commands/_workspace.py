@@ -8,6 +8,8 @@ from pathlib import Path
 import click
 import msgspec
 
+from robocomp_yaml.diag import terminal
+
 
 class WorkspaceView(msgspec.Struct, frozen=True):
     modeline: str
@@ -31,12 +33,12 @@ def make(ctx: click.Context, folder: Path) -> None:
         tell(ctx, "wrote", path)
     problem = workspace_files.settings_problem(folder)
     if problem:
-        click.echo(f"note: {problem}", err=True)
+        terminal.say(f"note: {problem}", err=True)
 
 
 def tell(ctx: click.Context, done: str, path: Path) -> None:
     if ctx.obj.verbosity >= 0:
-        click.echo(f"{done:<5} {path}")
+        terminal.say(f"{done:<5} {path}")
 
 
 def unwritable(error: OSError) -> click.ClickException:

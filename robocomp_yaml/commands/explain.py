@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.code import Code, Files, Repeated
 
 
@@ -18,13 +19,16 @@ def command(ctx: click.Context, code: str | None, format_: str) -> None:
 
     rows = table()
     if code is None:
-        click.echo(_as_json(list(rows.values())) if format_ == "json" else _listed(list(rows.values())), nl=False)
-        return
-    row = rows.get(code.upper())
-    if row is None:
+        chosen = list(rows.values())
+    elif (row := rows.get(code.upper())) is None:
         meant = suggest(code.upper(), rows)
         raise click.UsageError(f"no diagnostic is called {code}" + (f"; did you mean {meant}?" if meant else ""))
-    click.echo(_as_json([row]) if format_ == "json" else _explained(row), nl=False)
+    else:
+        chosen = [row]
+    if format_ == "json":
+        terminal.data(_as_json(chosen), json=True)
+    else:
+        terminal.say_text(_listed(chosen) if code is None else _explained(chosen[0]))
 
 
 def summary(row: Code) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_yaml.commands import _options
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.emit.graphs.forms import forms
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def command(
     of them implement what others require.
     """
     from robocomp_yaml.diag.diagnostic import has_errors
-    from robocomp_yaml.diag.render import render
+    from robocomp_yaml.diag.render import tell
     from robocomp_yaml.emit.graphs.forms import draw
     from robocomp_yaml.pipeline import analyse
 
@@ -43,13 +44,12 @@ def command(
         return
     text = draw(made, form)
     if output is None:
-        click.echo(text, nl=False)
+        terminal.data(text, json=form == "json")
     else:
         _save(output, text)
     told = analysis.diagnostics
     if told and not (output is None and form in ("text", "json")):  # which tell them themselves
-        colored = format_ == "text" and _options.colored(ctx, sys.stderr)
-        click.echo(render(format_, told, analysis.program.documents, colored), nl=False, err=True, color=ctx.color)
+        tell(format_, told, analysis.program.documents, _options.colored(ctx, sys.stderr), err=True)
     ctx.exit(1 if has_errors(told) else 0)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from robocomp_yaml.commands import _workspace
+from robocomp_yaml.diag import terminal
 
 EXAMPLE = "Hello"
 
@@ -32,4 +33,4 @@ def command(ctx: click.Context, folder: Path, bare: bool) -> None:
     except OSError as error:
         raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
-        click.echo("next: rcyaml check, rcyaml compile, or rcyaml new interface NAME")
+        terminal.say("next: rcyaml check, rcyaml compile, or rcyaml new interface NAME")

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_yaml.commands import _options
+from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.render import tell
 
 if TYPE_CHECKING:
     from robocomp_yaml.legacy.result import Migration
@@ -64,7 +66,7 @@ def command(
     )
     shown = run.changes() if show_diff else run.forced()
     for path, change in list(shown):
-        click.echo(change.diff(path), nl=False, err=format_ != "text" or report == "-")
+        terminal.data(change.diff(path), err=format_ != "text" or report == "-")
     if not dry_run:
         run.write()
     lost = sum(entry.lines()["lost"] for entry in run.entries)
@@ -72,7 +74,7 @@ def command(
     if report is not None:
         _save(report, as_json(run.entries))
     if strict and lost:
-        click.echo(f"{lost} line{'s are' if lost > 1 else ' is'} lost, and --strict does not allow that", err=True)
+        terminal.say(f"{lost} line{'s are' if lost > 1 else ' is'} lost, and --strict does not allow that", err=True)
     ctx.exit(1 if run.failed or (strict and lost) else 0)
 
 
@@ -108,14 +110,11 @@ def _save(path: str, text: str) -> None:
 def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, err: bool) -> None:
     """Diagnostics, each document if asked for, and the summary by format: on standard output, or where the report
     goes there, on standard error."""
-    from robocomp_yaml.diag.render import render
-
-    say = partial(click.echo, err=err)
+    say = partial(terminal.say, err=err)
     told = run.diagnostics
     documents = sum(len(entry.outputs) for entry in run.entries)
     if format_ != "text" or told:
-        colored = format_ == "text" and _options.colored(ctx, sys.stderr if err else None)
-        say(render(format_, told, documents, colored), nl=False, color=ctx.color)
+        tell(format_, told, documents, _options.colored(ctx, sys.stderr if err else None), err=err)
     if format_ != "text" or ctx.obj.verbosity < 0:
         return
     if ctx.obj.verbosity > 0:
@@ -123,12 +122,12 @@ def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, e
             for output in root.outputs:
                 say(f"{output.state:9} {root.root.shown(output.path)}")
     if run.entries:
-        say(_table(run))
+        say(*_table(run))
     if dry_run:
         say("nothing was written (--dry-run)")
 
 
-def _table(run: Migration) -> str:
+def _table(run: Migration) -> list[str]:
     """How many files of each format ended how."""
     from robocomp_yaml.legacy.ledger import STATUSES
 
@@ -143,4 +142,4 @@ def _table(run: Migration) -> str:
     for row in rows:
         cells = [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
         lines.append("  ".join(cells).rstrip())
-    return "\n".join(lines)
+    return lines

@@ -17,6 +17,7 @@ import click
 import msgspec
 
 from robocomp_yaml.commands import _options, _workspace
+from robocomp_yaml.diag import terminal
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LONGEST_NAME = 200
@@ -180,7 +181,7 @@ def _create(ctx: click.Context, make: Callable[[Path], NewDocument], next_: str 
     except OSError as error:
         raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
-        click.echo(f"next: rcyaml {next_} {document.path}")
+        terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), str(document.path))}")
 
 
 def _root() -> Path | None:

@@ -9,6 +9,8 @@ from pathlib import Path
 import click
 from click.shell_completion import CompletionItem
 
+from robocomp_yaml.diag import terminal
+
 _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
 
 
@@ -30,9 +32,9 @@ def command(ctx: click.Context, kind: str | None) -> None:
 
     if kind is None:
         for name, globs in GLOBS.items():
-            click.echo(f"{name:<10} {', '.join(globs):<28} {resources.folder('schemas') / f'{name}.schema.json'}")
+            terminal.say(f"{name:<10} {', '.join(globs):<28} {resources.folder('schemas') / f'{name}.schema.json'}")
     elif kind in GLOBS:
-        click.echo(resources.text(f"schemas/{kind}.schema.json"), nl=False)
+        terminal.data(resources.text(f"schemas/{kind}.schema.json"), json=True)
     else:
         _tell(Path(kind))
 
@@ -44,18 +46,18 @@ def _tell(document: Path) -> None:
 
     kind = _kind_of(document)
     root = Path(root_above(str(document.parent)) or document.parent)
-    click.echo(f"{document} has the schema '{kind}'")
+    terminal.say(f"{document} has the schema '{kind}'")
     named = _named(document)
     installed = root / schema_path(kind)
     if named is not None:
-        click.echo(f"editors find it by the first lines of the document: {named}")
+        terminal.say(f"editors find it by the first lines of the document: {named}")
         _tell_whether_right(kind, Path(os.path.normpath(document.parent / named)), named)
     elif installed.is_file():
-        click.echo(f"editors find it by the workspace's settings: {installed}")
+        terminal.say(f"editors find it by the workspace's settings: {installed}")
         _tell_whether_right(kind, installed, str(installed))
     else:
-        click.echo("editors do not find it: `rcyaml init` installs it, and the document's first line would name it:")
-        click.echo(modeline(kind, document, root))
+        terminal.say("editors do not find it: `rcyaml init` installs it, and the document's first line would name it:")
+        terminal.say(modeline(kind, document, root))
 
 
 def _kind_of(document: Path) -> str:
@@ -90,6 +92,6 @@ def _tell_whether_right(kind: str, path: Path, named: str) -> None:
     if "://" in named:
         return
     if not path.is_file():
-        click.echo("that file is missing: `rcyaml init` writes it again")
+        terminal.say("that file is missing: `rcyaml init` writes it again")
     elif path.read_bytes() != resources.text(f"schemas/{kind}.schema.json").encode("utf-8"):
-        click.echo("that file is not this version's schema: `rcyaml init` writes it again")
+        terminal.say("that file is not this version's schema: `rcyaml init` writes it again")

@@ -34,12 +34,11 @@ class Change(msgspec.Struct, frozen=True):
     after: bytes | None = None
     orig: str = ""
 
-    def diff(self) -> Iterator[str]:
-        """A unified diff, line by line."""
-        import difflib  # asked for with --diff only
-
-        yield from difflib.unified_diff(
-            _lines(self.before), _lines(self.after),
+    def diff(self) -> str:
+        """A unified diff, which `patch` takes: bytes that are no text stay what they are."""
+        return unified(
+            (self.before or b"").decode("utf-8", "surrogateescape"),
+            (self.after or b"").decode("utf-8", "surrogateescape"),
             os.devnull if self.before is None else f"a/{self.path}",
             os.devnull if self.after is None else f"b/{self.path}",
         )
@@ -95,9 +94,14 @@ class Changes(msgspec.Struct):
         return [os.path.join(root.root, name) for root in self.roots for name in (JOURNAL, JOURNAL_DONE)]
 
 
-def _lines(data: bytes | None) -> list[str]:
+def unified(before: str, after: str, old: str, new: str) -> str:
+    """The difference of two texts, as a unified diff of the files `old` and `new`."""
+    import difflib  # asked for with --diff only
+
+    return "".join(difflib.unified_diff(_lines(before), _lines(after), old, new))
+
+
+def _lines(text: str) -> list[str]:
     """With ends, the last one too: a file without one shows as the text it is."""
-    lines = (data or b"").decode("utf-8", "replace").splitlines(keepends=True)
-    if lines and not lines[-1].endswith("\n"):
-        lines[-1] += "\n\\ No newline at end of file\n"
-    return lines
+    *lines, last = text.split("\n")
+    return [*(f"{line}\n" for line in lines), *([f"{last}\n\\ No newline at end of file\n"] if last else [])]

@@ -6,13 +6,13 @@ from those that a user wrote or edited.
 
 from __future__ import annotations
 
-import difflib
 import json
 
 import msgspec
 
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.emit.atomic import Batch, Step, WriteFailed, carry_out, recover
+from robocomp_yaml.emit.changes import unified
 from robocomp_yaml.emit.places import STATE, Root
 from robocomp_yaml.source.digest import digest
 
@@ -37,9 +37,8 @@ class Output(msgspec.Struct):
 
     def diff(self, shown: str) -> str:
         """From what stands there to what shall, as a unified diff."""
-        old, new = self.before.splitlines(keepends=True), self.text.splitlines(keepends=True)
         name = "/dev/null" if self.state == CREATED else shown
-        return "".join(difflib.unified_diff(old, new, name, shown))
+        return unified(self.before, self.text, name, shown)
 
 
 class OutputRoot(msgspec.Struct):

@@ -40,6 +40,28 @@ def test_modules_of_tests_have_names_of_their_own() -> None:
     assert [name for name, count in names.items() if count > 1] == []
 
 
+SPEAKING = {
+    *("click.echo", "click.secho", "click.style", "click.echo_via_pager", "click.confirm", "print"),
+    *("sys.stdout.write", "sys.stderr.write", "sys.stdout.buffer.write", "sys.stderr.buffer.write"),
+}
+ASKING = {"click.prompt", "click.progressbar"}
+
+
+def test_text_meets_a_terminal_in_one_place() -> None:
+    """Elsewhere nothing is printed, whoever would have to escape it; what click asks or draws is a text of ours."""
+    for path in MODULES:
+        if named(path) == "robocomp_yaml/diag/terminal.py":
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Attribute | ast.Name):
+                assert ast.unparse(node) not in SPEAKING, f"{named(path)}:{node.lineno}: use diag.terminal"
+            if isinstance(node, ast.Call) and ast.unparse(node.func) in ASKING:
+                words = [*node.args, *(k.value for k in node.keywords if k.arg in ("label", "text", "default"))]
+                for word in words:
+                    is_ours = isinstance(word, ast.Constant | ast.Name)
+                    assert is_ours, f"{named(path)}:{node.lineno}: what is asked is a text of ours"
+
+
 def test_help_imports_nothing_heavy() -> None:
     script = (
         "import sys\nfrom robocomp_yaml.cli import group\n"

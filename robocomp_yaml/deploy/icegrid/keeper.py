@@ -23,6 +23,7 @@ from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.icegrid.status import is_over
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.plan import in_order
+from robocomp_yaml.diag import terminal
 
 _PERIOD = 2.0  # seconds between two looks without an event
 _SHORTEST, _LONGEST = 0.1, 10.0  # seconds between two tries to start a process
@@ -73,7 +74,7 @@ class Keeper:
             try:
                 self._watch(grid)
             except (GridFailed, Ice.Exception) as error:
-                print(f"the registry does not answer: {error}", file=sys.stderr)
+                terminal.say(f"the registry does not answer: {error}", err=True)
                 self.over.wait(0.2)
             finally:
                 grid.close()
@@ -120,11 +121,11 @@ class Keeper:
                 continue  # it was stopped meanwhile
             try:
                 grid.start(name)
-                print(f"{name}: started again", file=sys.stderr)
+                terminal.say(f"{name}: started again", err=True)
             except Unreachable:
                 raise
             except GridFailed as error:
-                print(f"{name}: {error}", file=sys.stderr)
+                terminal.say(f"{name}: {error}", err=True)
         for name in set(self._tries) - set(specs):
             del self._tries[name]
 

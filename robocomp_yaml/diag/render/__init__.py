@@ -1,16 +1,22 @@
-"""How diagnostics are shown, one module a format: `render(diagnostics, documents, color) -> str`."""
+"""How diagnostics are shown, one module a format: `render(diagnostics, documents, ...)`."""
 
 from __future__ import annotations
 
 import importlib
 from collections.abc import Sequence
 
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
 FORMATS = ("text", "json", "sarif")
 
 
-def render(format_: str, diagnostics: Sequence[Diagnostic], documents: int, color: bool = False) -> str:
-    """What is printed for a run that looked at so many documents; ends in a newline unless empty."""
-    text: str = importlib.import_module(f"{__name__}.{format_}").render(diagnostics, documents, color)
-    return text
+def tell(
+    format_: str, diagnostics: Sequence[Diagnostic], documents: int, color: bool = False, *, err: bool = False
+) -> None:  # fmt: skip
+    """Prints the diagnostics of a run that looked at so many documents; as text, on standard error if `err`."""
+    module = importlib.import_module(f"{__name__}.{format_}")
+    if format_ == "text":
+        terminal.say(*module.render(diagnostics, documents, color), err=err)
+    else:
+        terminal.data(module.render(diagnostics, documents), json=True, err=err)

@@ -32,7 +32,7 @@ def _place(span: Span) -> dict[str, object]:
     }
 
 
-def render(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> str:
+def render(diagnostics: Sequence[Diagnostic], documents: int) -> str:
     return dumps(run_as_data(diagnostics, documents))
 
 

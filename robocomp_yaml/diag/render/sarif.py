@@ -15,7 +15,7 @@ from robocomp_yaml.diag.span import Span
 _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
 
-def render(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> str:
+def render(diagnostics: Sequence[Diagnostic], documents: int) -> str:
     ids = sorted({diagnostic.code for diagnostic in diagnostics})
     rules = [
         {"id": row.id, "fullDescription": {"text": row.why}, "defaultConfiguration": {"level": row.severity}}

@@ -9,63 +9,67 @@
 from __future__ import annotations
 
 import os
-import unicodedata
 from collections.abc import Sequence
 
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import Shown, columns, line, paint, shown
 
 WIDEST = 160  # a longer line is cut around its fault
 MOST_READ = 1 << 25  # bytes of a file in which lines to show are looked for
 _COLORS = {ERROR: "31", WARNING: "33", NOTE: "36"}
 
 
-def render(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> str:
-    """Each diagnostic with its line, and a last line that counts them."""
+def render(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> list[Shown]:
+    """The lines of each diagnostic, and a last one that counts them."""
+    told = [one for lines in each(diagnostics, color) for one in (*lines, Shown())]
+    return [*told, _summary(diagnostics, documents, color)]
+
+
+def each(diagnostics: Sequence[Diagnostic], color: bool) -> list[list[Shown]]:
+    """The lines of each diagnostic, with the line of the document that it is about."""
     lines = _Lines()
-    shown = [_one(diagnostic, lines, color) for diagnostic in diagnostics]
-    return "\n".join([*shown, _summary(diagnostics, documents, color)]) + "\n"
+    return [_one(diagnostic, lines, color) for diagnostic in diagnostics]
 
 
-def _summary(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> str:
+def _summary(diagnostics: Sequence[Diagnostic], documents: int, color: bool) -> Shown:
     counts = [
-        _paint(f"{n} {severity}{'' if n == 1 else 's'}", _COLORS[severity], color)
+        paint(f"{n} {severity}{'' if n == 1 else 's'}", _COLORS[severity], color)
         for severity in _COLORS
         if (n := sum(d.severity == severity for d in diagnostics))
     ]
-    looked_at = f"{documents} document{'' if documents == 1 else 's'}"
-    return f"{looked_at}: {', '.join(counts)}" if counts else f"{looked_at}: nothing wrong"
+    looked_at = f"{documents} document{'' if documents == 1 else 's'}: "
+    return line(looked_at, Shown(", ".join(counts)) if counts else "nothing wrong")
 
 
-def _one(diagnostic: Diagnostic, lines: _Lines, color: bool) -> str:
+def _one(diagnostic: Diagnostic, lines: _Lines, color: bool) -> list[Shown]:
     tint = _COLORS[diagnostic.severity]
-    head = _paint(f"{diagnostic.severity}[{diagnostic.code}]", f"1;{tint}", color)
-    out = [f"{head}: {_paint(diagnostic.message, '1', color)}"]
+    head = paint(f"{diagnostic.severity}[{diagnostic.code}]", f"1;{tint}", color)
+    out = [line(head, ": ", paint(diagnostic.message, "1", color))]
     width = len(str(diagnostic.span.line))
     out += _snippet(diagnostic.span, diagnostic.hint, width, tint, lines, color)
     for related in diagnostic.related:
         width = len(str(related.span.line))
         out += _snippet(related.span, related.message, width, _COLORS[NOTE], lines, color)
-    if diagnostic.more:
-        out += [f"    {line}" if line else "" for line in diagnostic.more.splitlines()]
-    return "\n".join(out) + "\n"
+    more = diagnostic.more.split("\n") if diagnostic.more else []
+    return out + [shown(f"    {one}" if one else "", tabs=True) for one in more]
 
 
-def _snippet(span: Span, label: str, width: int, tint: str, lines: _Lines, color: bool) -> list[str]:
+def _snippet(span: Span, label: str, width: int, tint: str, lines: _Lines, color: bool) -> list[Shown]:
     pad = " " * width
-    rail, corner = _paint("│", "34", color), _paint("┌─", "34", color)
+    rail, corner = paint("│", "34", color), paint("┌─", "34", color)
     text = lines.get(span.file, span.line)
     if text is None:  # a folder, or a file that cannot be read: there is no line to show
-        out = [f"{pad} {corner} {span.file}"]
-        return [*out, f"{pad} {_paint('=', '34', color)} {label}"] if label else out
+        out = [line(pad, " ", corner, " ", span.file)]
+        return [*out, line(pad, " ", paint("=", "34", color), " ", label)] if label else out
     start = span.column - 1
     end = span.end_column - 1 if span.end_line == span.line else len(text.rstrip())
     text, start, end = _cut(text, start, max(start + 1, min(end, len(text))))
-    marks = " " * _columns(text[:start]) + _paint("^" * max(1, _columns(text[start:end])), f"1;{tint}", color)
+    marks = paint("^" * max(1, columns(_visible(text[start:end]))), f"1;{tint}", color)
     return [
-        f"{pad} {corner} {span.file}:{span.line}:{span.column}",
-        f"{_paint(str(span.line).rjust(width), '34', color)} {rail} {_visible(text)}",
-        f"{pad} {rail} {marks} {label}".rstrip(),
+        line(pad, " ", corner, " ", span.file, f":{span.line}:{span.column}"),
+        line(paint(str(span.line).rjust(width), "34", color), " ", rail, " ", _visible(text)),
+        line(pad, " ", rail, " " * (columns(_visible(text[:start])) + 1), marks, f" {label}" if label else ""),
     ]
 
 
@@ -81,25 +85,9 @@ def _cut(text: str, start: int, end: int) -> tuple[str, int, int]:
     return head + piece + tail, start - shift, min(end - shift, len(head) + len(piece))
 
 
-def _visible(text: str) -> str:
-    """Tabs as blanks, and control characters as pictures, so that the marks below stand right and a document cannot
-    send commands to the terminal."""
-    return "".join("    " if c == "\t" else "␦" if unicodedata.category(c) in ("Cc", "Cf") else c for c in text)
-
-
-def _columns(text: str) -> int:
-    """How wide a terminal shows the text."""
-    width = 0
-    for c in text:
-        if c == "\t":
-            width += 4
-        elif not unicodedata.combining(c):
-            width += 2 if unicodedata.east_asian_width(c) in "WF" else 1
-    return width
-
-
-def _paint(text: str, tint: str, color: bool) -> str:
-    return f"\x1b[{tint}m{text}\x1b[0m" if color else text
+def _visible(text: str) -> Shown:
+    """A piece of a document's line: tabs as blanks, of which the marks below know how wide they are."""
+    return shown(text.replace("\t", "    "))
 
 
 class _Lines:
