@@ -17,6 +17,7 @@ from msgspec.structs import replace
 from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._attaching import attached
+from robocomp_yaml.commands._only_deployment import document
 from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy import folder, operations
 from robocomp_yaml.deploy.differences import shown_path
@@ -33,9 +34,6 @@ from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.network import Network
 
 T = TypeVar("T")
-
-INTERRUPTED = "interrupted: what runs goes on; `rcyaml deploy down` stops it"
-
 
 class Opened(msgspec.Struct):
     """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
@@ -63,7 +61,7 @@ def open_(
     documents."""
     from robocomp_yaml.pipeline import analyse
 
-    path = _document(ddsl)
+    path = document(ddsl, include)
     analysis = analyse([path], include)
     network = analysis.networks.get(os.path.realpath(path))
     if network is None and lenient:
@@ -80,16 +78,6 @@ def open_(
 
         told = analysis.with_more(outdated(analysis.program.deployments[os.path.realpath(path)]))
     return Opened(path, network, make_engine(engine, network), format_, told, analysis.program.documents)
-
-
-def _document(path: str) -> str:
-    if not os.path.isdir(path):
-        return path
-    found = sorted(name for name in os.listdir(path) if name.endswith(".ddsl.yaml"))
-    if len(found) != 1:
-        what = ", ".join(found) or "none: `rcyaml new deployment NAME` writes one"
-        raise click.UsageError(f"'{path}' is to have one deployment document; it has {what}")
-    return os.path.normpath(os.path.join(path, found[0]))
 
 
 def chosen(network: Network, names: Iterable[str]) -> set[str]:
@@ -165,7 +153,7 @@ def up(
             await opened.engine.close()
         return result
 
-    interrupted = "interrupted: all was taken down" if attach else INTERRUPTED
+    interrupted = "interrupted: all was taken down" if attach else None
     result = _run(ctx, opened, work(), change=True, on_interrupt=interrupted)
     if opened.format_ == "json":
         end(ctx, opened, views.result_data(result))
@@ -229,9 +217,10 @@ def down(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
 
 def _run(
     ctx: click.Context, opened: Opened, work: Coroutine[Any, Any, T], *, change: bool = False,
-    on_interrupt: str = INTERRUPTED,
+    on_interrupt: str | None = None,
 ) -> T:  # fmt: skip
-    """Carries out what a command does; `change` where only one may at a time. What fails it ends the command."""
+    """Carries out what a command does; `change` where only one may at a time. What fails it ends the command, and so
+    does Ctrl-C, with a line that says what that means for what runs."""
     try:
         if not change:
             return asyncio.run(work)
@@ -248,6 +237,9 @@ def _run(
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
     except KeyboardInterrupt as error:
+        if on_interrupt is None:
+            stop = terminal.typed("rcyaml", "deploy", "down", opened.path)
+            on_interrupt = f"interrupted: what runs goes on; `{stop}` stops it"
         if on_interrupt:
             terminal.say(on_interrupt, err=True)
         ctx.exit(_signals.code_of(error))

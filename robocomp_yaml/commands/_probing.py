@@ -17,7 +17,7 @@ from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.network import Host, Network
 
 
-def tell(ctx: click.Context, opened: Opened, name: str | None) -> None:
+def tell(ctx: click.Context, opened: Opened, name: str = "") -> None:
     """Asks the host of that name, or all of them. The exit code is 1 where one cannot run what the network has for
     it."""
     hosts = [_host(opened.network, name)] if name else list(opened.network.hosts.values())

@@ -8,24 +8,20 @@ from typing import Any
 import click
 
 from robocomp_yaml.commands import _options
+from robocomp_yaml.commands._only_deployment import DocumentAnd
 
 _FORMATS = click.Choice(["text", "json"])
 
 
 def _shared(function: Callable[..., Any]) -> Callable[..., Any]:
-    """What all of them take: the document, and how to read and tell."""
-    for option in (
-        click.option("--format", "format_", type=_FORMATS, default="text", help="How to print it."),
-        _options.include,
-        click.argument("ddsl", type=click.Path(exists=True)),
-    ):
-        function = option(function)
-    return function
+    """What all of them take: how to read and tell."""
+    format_ = click.option("--format", "format_", type=_FORMATS, default="text", help="How to print it.")
+    return format_(_options.include(function))
 
 
 engine = click.option("--engine", type=click.Choice(["local", "icegrid"]),
                       help="What runs it; local on one machine, icegrid on several.")  # fmt: skip
-names = click.argument("names", nargs=-1, metavar="[NAME]...")
+names = click.argument("names", cls=DocumentAnd, metavar="[NAME]...")
 
 
 class _Duration(click.ParamType):
@@ -50,7 +46,8 @@ timeout = click.option("--timeout", type=_Duration(), metavar="TIME",
 def command() -> None:
     """Deploy the network that a document (NAME.ddsl.yaml) describes.
 
-    DDSL is the document, or a folder with one. NAMEs are processes or groups of it.
+    DDSL is the document, or a folder with one; by default, the only one below this folder. NAMEs are processes or
+    groups of it.
     """
 
 
@@ -151,18 +148,19 @@ def down(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | No
 
 @command.command(short_help="Which known components a host has.")
 @_shared
-@click.argument("host", required=False)
+@click.argument("host", cls=DocumentAnd, most=1, metavar="[HOST]")
 @click.pass_context
-def probe(ctx: click.Context, ddsl: str, host: str | None, include: tuple[str, ...], format_: str) -> None:
+def probe(ctx: click.Context, ddsl: str, host: tuple[str, ...], include: tuple[str, ...], format_: str) -> None:
     """Say which of the network's programs HOST has (without: all its hosts), in which version, and which of the
     libraries that they need are missing there."""
     from robocomp_yaml.commands import _deploying, _probing
 
-    _probing.tell(ctx, _deploying.open_(ctx, ddsl, include, format_, None, lenient=True), host)
+    _probing.tell(ctx, _deploying.open_(ctx, ddsl, include, format_, None, lenient=True), *host)
 
 
 @command.command(short_help="The network in the words of other tools.")
 @_shared
+@click.argument("nothing", cls=DocumentAnd, most=0, expose_value=False)
 @click.option("--as", "form", required=True, type=click.Choice(["icegrid", "rcmanager", "systemd", "compose"]),
               help="Which tool.")
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR, not to "

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_yaml.commands import _options
+from robocomp_yaml.commands._only_deployment import deployments_of, one_of
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.emit.graphs.forms import forms
 
@@ -64,21 +65,13 @@ def _picture(path: str, analysis: Analysis) -> Picture | None:
         if network is None and not path.endswith("ddsl.yaml"):
             raise click.UsageError(f"'{path}' is no deployment document (NAME.ddsl.yaml), and no folder")
         return of_network.picture_of(network, analysis.diagnostics) if network is not None else None
-    own = [network for network in analysis.networks.values() if not _is_included(network.path, analysis)]
-    if len(own) > 1:
-        names = ", ".join(sorted(os.path.relpath(network.path) for network in own))
-        raise click.UsageError(f"there are several deployments here, of which one is to be named: {names}")
-    if own:
-        return of_network.picture_of(own[0], analysis.diagnostics)
+    readable = [one for one in deployments_of(path, analysis=analysis) if os.path.realpath(one) in analysis.networks]
+    if readable:
+        return of_network.picture_of(analysis.networks[os.path.realpath(one_of(readable))], analysis.diagnostics)
     if deployments or not analysis.program.components:
         return None
     name = os.path.basename(os.path.abspath(path))
     return of_components.picture_of(name, analysis.program.components.values())
-
-
-def _is_included(path: str, analysis: Analysis) -> bool:
-    return any(linked.is_included and os.path.realpath(path) == linked.real
-               for linked in analysis.program.deployments.values())  # fmt: skip
 
 
 def _save(path: str, text: str) -> None:

@@ -33,4 +33,5 @@ def command(ctx: click.Context, folder: Path, bare: bool) -> None:
     except OSError as error:
         raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
-        terminal.say("next: rcyaml check, rcyaml compile, or rcyaml new interface NAME")
+        there = "" if folder.resolve() == Path().resolve() else f"{terminal.typed('cd', str(folder))}, then "
+        terminal.say(f"next: {there}rcyaml check, rcyaml compile, or rcyaml new interface NAME")

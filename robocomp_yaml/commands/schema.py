@@ -51,12 +51,13 @@ def _tell(document: Path) -> None:
     installed = root / schema_path(kind)
     if named is not None:
         terminal.say(f"editors find it by the first lines of the document: {named}")
-        _tell_whether_right(kind, Path(os.path.normpath(document.parent / named)), named)
+        _tell_whether_right(kind, Path(os.path.normpath(document.parent / named)), named, root)
     elif installed.is_file():
         terminal.say(f"editors find it by the workspace's settings: {installed}")
-        _tell_whether_right(kind, installed, str(installed))
+        _tell_whether_right(kind, installed, str(installed), root)
     else:
-        terminal.say("editors do not find it: `rcyaml init` installs it, and the document's first line would name it:")
+        init = f"`{terminal.typed('rcyaml', 'init', str(root))}`"
+        terminal.say(f"editors do not find it: {init} installs it, and the document's first line would name it:")
         terminal.say(modeline(kind, document, root))
 
 
@@ -86,12 +87,14 @@ def _named(document: Path) -> str | None:
     return found[1] if found else None
 
 
-def _tell_whether_right(kind: str, path: Path, named: str) -> None:
+def _tell_whether_right(kind: str, path: Path, named: str, root: Path) -> None:
     from robocomp_yaml import resources
+
+    init = f"`{terminal.typed('rcyaml', 'init', str(root))}`"
 
     if "://" in named:
         return
     if not path.is_file():
-        terminal.say("that file is missing: `rcyaml init` writes it again")
+        terminal.say(f"that file is missing: {init} writes it again")
     elif path.read_bytes() != resources.text(f"schemas/{kind}.schema.json").encode("utf-8"):
-        terminal.say("that file is not this version's schema: `rcyaml init` writes it again")
+        terminal.say(f"that file is not this version's schema: {init} writes it again")

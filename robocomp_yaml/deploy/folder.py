@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import fcntl
 import os
+import re
 import tempfile
 import time
 from collections.abc import Iterator
 
+_NAME = re.compile(r"""^deployment:[ \t]*["']?([_A-Za-z][-A-Za-z0-9_]*)""", re.MULTILINE)
 _PARTS = ("config", "logs", "state")
 
 
@@ -64,3 +66,23 @@ def _acquire(lock: int) -> bool:
     except BlockingIOError:
         return False
     return True
+
+
+def deployment_in(path: str) -> str:
+    """The name of the deployment that a document is about, even where it has errors; '' where it does not show it."""
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            found = _NAME.search(file.read())
+    except OSError:
+        return ""
+    return found[1] if found else ""
+
+
+def document_in(folder: str, deployment: str) -> str:
+    """The document of a deployment that runs from this folder; where it is gone, the folder."""
+    with contextlib.suppress(OSError):
+        for name in sorted(os.listdir(folder)):
+            path = os.path.join(folder, name)
+            if name.endswith("ddsl.yaml") and deployment_in(path) == deployment:
+                return path
+    return folder

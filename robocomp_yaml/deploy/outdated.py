@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedModule
@@ -28,7 +29,7 @@ def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
         if changed:
             yield deploying.OUTDATED.at(
                 instance.entry.span, name=instance.name, document=changed[0].module.path,
-                hint=f"`rcyaml compile {component.component.path}`" + (
+                hint=f"`{typed('rcyaml', 'compile', component.component.path)}`" + (
                     ", and build it again" if component.component.language.name == "cpp" else ""
                 ),
                 related=[Related("changed since", module.module.span) for module in changed],

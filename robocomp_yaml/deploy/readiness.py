@@ -9,6 +9,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import aclosing, suppress
 
 from robocomp_yaml.deploy import ice_ping
+from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import (
     ENDED,
     GIVEN_UP,
@@ -24,6 +25,7 @@ from robocomp_yaml.deploy.engine import (
 )  # fmt: skip
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import ALWAYS
 
 SETTLED = 0.1
@@ -60,7 +62,10 @@ async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
     return await _look(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
 
 
-_NOT_FOUND = "127 says that a program was not found: `rcyaml deploy probe` tells which ones host '{host}' has"
+def _not_found(spec: Spec) -> str:
+    document = [shown_path(spec.process.span.file)] if spec.process.span.file else []
+    probe = typed("rcyaml", "deploy", "probe", *document, spec.process.host)
+    return f"127 says that a program was not found: `{probe}` tells which ones host '{spec.process.host}' has"
 
 
 async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: State) -> None:
@@ -76,7 +81,7 @@ async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], st
         running = await state(time.monotonic() - _NEW)
         if watch in done:
             how = watch.result()
-            hint = _NOT_FOUND.format(host=spec.process.host) if "exit code 127" in how else ""
+            hint = _not_found(spec) if "exit code 127" in how else ""
             raise DeployFailed(deploying.ENDED_EARLY.at(spec.process.span, name=spec.name, how=how, hint=hint))
         raise DeployFailed(
             deploying.NOT_READY.at(

@@ -4,28 +4,20 @@ from __future__ import annotations
 
 import asyncio
 import os
-import re
 
+from robocomp_yaml.deploy.folder import deployment_in
 from robocomp_yaml.deploy.local import record
 from robocomp_yaml.deploy.local.engine import LocalEngine
 from robocomp_yaml.network.network import FOLDER, Host, Network
 
-_NAME = re.compile(r"""^deployment:[ \t]*["']?([_A-Za-z][-A-Za-z0-9_]*)""", re.MULTILINE)
-
-
 def stand_in(path: str) -> Network | None:
     """The network of what runs, as it was started; None where nothing does, or the document does not even show its
     name."""
-    try:
-        with open(path, encoding="utf-8", errors="replace") as file:
-            found = _NAME.search(file.read())
-    except OSError:
+    place, name = os.path.abspath(path), deployment_in(path)
+    folder = os.path.join(os.path.dirname(place), FOLDER, name)
+    if not name or not record.is_there(folder) or record.was_killed(folder):
         return None
-    place = os.path.abspath(path)
-    folder = os.path.join(os.path.dirname(place), FOLDER, found[1]) if found else ""
-    if found is None or not record.is_there(folder) or record.was_killed(folder):
-        return None
-    network = Network(found[1], place, folder)
+    network = Network(name, place, folder)
     asyncio.run(_look(network))
     return network
 

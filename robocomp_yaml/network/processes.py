@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
@@ -79,11 +80,12 @@ def _build(draft: Draft) -> str:
     if executable is not None and os.path.normpath(executable.text) != f"bin/{component.component.name}":
         return f"build it, or correct `executable: {executable.text}`"
     path = component.component.path
-    compile_ = f"`rcyaml compile {path}`"
+    compile_ = f"`{typed('rcyaml', 'compile', path)}`"
     if component.component.language.name != "cpp":
         return f"{compile_} writes it"
     folder = os.path.dirname(path) or "."
-    return f"{compile_}, then `cmake -S {folder} -B {folder}/build && cmake --build {folder}/build`"
+    tree = f"{folder}/build"
+    return f"{compile_}, then `{typed('cmake', '-S', folder, '-B', tree)} && {typed('cmake', '--build', tree)}`"
 
 
 def _command(draft: Draft, program: str) -> Iterator[str]:

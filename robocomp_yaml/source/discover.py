@@ -11,6 +11,7 @@ import msgspec
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config")
 _MODELINE = re.compile(
@@ -74,12 +75,13 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
             ]
             if not below and not closed:
                 found.diagnostics.append(codes.NOTHING_FOUND.at(
-                    Span(path), hint="`rcyaml new interface NAME` writes a first one, `rcyaml migrate` carries over "
-                    "what you have",
+                    Span(path), hint="`rcyaml new interface NAME` writes a first one, "
+                    f"`{typed('rcyaml', 'migrate', path)}` carries over what you have",
                 ))
         elif kind_of(path) is None and os.path.lexists(path):
             expected = " or ".join(f".{kind}.yaml" for kind in KINDS)
-            hint = "`rcyaml migrate` carries legacy files over" if not path.endswith(".yaml") else ""
+            migrate = f"`{typed('rcyaml', 'migrate', path)}` carries legacy files over"
+            hint = migrate if not path.endswith(".yaml") else ""
             found.diagnostics.append(codes.UNKNOWN_KIND.at(
                 Span(path), name=os.path.basename(path), kinds=expected, hint=hint
             ))

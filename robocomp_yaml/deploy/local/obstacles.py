@@ -8,10 +8,12 @@ import time
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from robocomp_yaml.deploy.differences import shown_path
+from robocomp_yaml.deploy.folder import document_in
 from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import FOLDER, LOOPBACK, Network, Process
 
 _JUST = 2.0  # seconds
@@ -103,7 +105,8 @@ def _owner(pid: int) -> tuple[str, str]:
     if not folder:
         return f"{procfs.command_line(pid)} (pid {pid})", f"end it (`kill {pid}`)"
     who = f"'{name}' of the deployment {deployment} in {shown_path(folder)} (pid {pid})"
-    return who, "take that deployment down (`rcyaml deploy down`)"
+    down = typed("rcyaml", "deploy", "down", shown_path(document_in(folder, deployment)))
+    return who, f"take that deployment down (`{down}`)"
 
 
 def _of_program(spec: Spec) -> Iterator[Diagnostic]:
