@@ -41,6 +41,10 @@ class Options:
         self.color, self.verbosity = color, verbosity
 
 
+class _ReaderGone(Exception):
+    """Whoever reads what is printed has had enough, which click takes for a failure."""
+
+
 class LazyGroup(click.Group):
     """A group whose commands live in `robocomp_yaml.commands.NAME.command`."""
 
@@ -64,10 +68,9 @@ class LazyGroup(click.Group):
                 terminal.say("Error: there was a question, and no answer", err=True)
                 return 1
             return _signals.code_of(cause)
-        except SystemExit as error:
-            if isinstance(error.__context__, BrokenPipeError):
-                return _signals.READER_GONE
-            raise
+        except _ReaderGone:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # for what is not written yet
+            return _signals.READER_GONE
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -93,10 +96,17 @@ class LazyGroup(click.Group):
             error.message = f"there is no command '{args[0]}'" + (f"; did you mean '{meant}'?" if meant else "")
             raise
 
+    def make_context(self, *args: Any, **extra: Any) -> click.Context:
+        try:
+            return super().make_context(*args, **extra)
+        except BrokenPipeError as error:
+            raise _ReaderGone from error
 
     def invoke(self, ctx: click.Context) -> object:
         try:
             return super().invoke(ctx)
+        except BrokenPipeError as error:
+            raise _ReaderGone from error
         except click.NoSuchOption as error:
             name = error.option_name
             if any(name in option.opts for option in self.params):

@@ -55,8 +55,13 @@ async def _print(ctx: click.Context, opened: Opened) -> None:
 
 async def _stay(ctx: click.Context, opened: Opened) -> list[Diagnostic]:
     enough = asyncio.Event()
+
+    def end(number: int) -> None:
+        opened.ended_by = 128 + number
+        enough.set()
+
     for number in (signal.SIGINT, signal.SIGTERM):
-        asyncio.get_running_loop().add_signal_handler(number, enough.set)
+        asyncio.get_running_loop().add_signal_handler(number, end, number)
     if opened.format_ == "text" and ctx.obj.verbosity >= 0:
         terminal.say(f"{opened.network.name}: Ctrl-C takes it down")
     failed: dict[str, Diagnostic] = {}

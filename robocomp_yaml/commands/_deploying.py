@@ -37,7 +37,8 @@ T = TypeVar("T")
 
 class Opened(msgspec.Struct):
     """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
-    so far, of which some have been `shown`; `documents` were read. `lock` is held while it is changed."""
+    so far, of which some have been `shown`; `documents` were read. `lock` is held while it is changed. `ended_by` is the
+    exit code where the user had enough of what was brought up."""
 
     path: str
     network: Network
@@ -47,6 +48,7 @@ class Opened(msgspec.Struct):
     documents: int = 0
     shown: list[Diagnostic] = []
     lock: ExitStack = msgspec.field(default_factory=ExitStack)
+    ended_by: int = 0
 
     @property
     def enabled(self) -> set[str]:
@@ -129,11 +131,9 @@ def up(
             return operations.STOP_THEM if on_failure == "ask" else on_failure
         progress.pause()
         _show(ctx, opened, result.diagnostics)
-        answer: str = await asyncio.to_thread(
-            click.prompt, "stop what was started, roll back to what ran before, or keep it as it is?",
-            type=click.Choice(["stop", "rollback", "keep"]), default="stop",
-        )  # fmt: skip
-        return answer
+        return await _options.ask(
+            "stop what was started, roll back to what ran before, or keep it as it is?", ("stop", "rollback", "keep")
+        )
 
     async def work() -> operations.Result:
         await opened.engine.open(opened.network, create=True)
@@ -260,7 +260,7 @@ def end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = Non
         terminal.data(dumps({**head, "diagnostics": [as_data(_placed(opened, one)) for one in told]}), json=True)
     else:
         _show(ctx, opened, told)
-    ctx.exit(1 if has_errors(told) else code)
+    ctx.exit(opened.ended_by or (1 if has_errors(told) else code))
 
 
 def _show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> None:

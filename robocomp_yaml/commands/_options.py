@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import click
@@ -52,6 +52,27 @@ def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None]
         return
     with click.progressbar(length=total, label=label, file=sys.stderr, update_min_steps=50) as bar:
         yield lambda path: bar.update(1, path)
+
+
+async def ask(text: str, answers: tuple[str, ...]) -> str:
+    """The user's answer, of which the first is the default. A thread waits for it that nobody waits for: Ctrl-C ends
+    the question, too."""
+    import asyncio
+    import threading
+
+    loop = asyncio.get_running_loop()
+    answered: asyncio.Future[str] = loop.create_future()
+
+    def wait() -> None:
+        try:
+            answer: str = click.prompt(text, type=click.Choice(answers), default=answers[0])
+        except click.Abort:  # there is nobody to answer
+            answer = answers[0]
+        with suppress(RuntimeError):  # the question was withdrawn
+            loop.call_soon_threadsafe(lambda: answered.done() or answered.set_result(answer))
+
+    threading.Thread(target=wait, daemon=True).start()
+    return await answered
 
 
 def report(ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], documents: int) -> None:

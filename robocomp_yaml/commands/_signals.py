@@ -31,15 +31,16 @@ def heeded() -> Iterator[None]:
     numbers = [one for one in (signal.SIGINT, signal.SIGTERM) if signal.getsignal(one) is not signal.SIG_IGN]
     try:
         for number in numbers:
-            signal.signal(number, _raise)
+            # That of Python is known to asyncio, which cancels what it runs.
+            signal.signal(number, signal.default_int_handler if number == signal.SIGINT else _terminate)
         yield
     finally:
         for number in numbers:
             signal.signal(number, _end)
 
 
-def _raise(number: int, frame: FrameType | None) -> None:
-    raise Ended if number == signal.SIGTERM else KeyboardInterrupt
+def _terminate(number: int, frame: FrameType | None) -> None:
+    raise Ended
 
 
 def _end(number: int, frame: FrameType | None) -> None:

@@ -9,6 +9,7 @@ import click
 import msgspec
 
 from robocomp_yaml.diag import terminal
+from robocomp_yaml.emit import whole
 
 
 class WorkspaceView(msgspec.Struct, frozen=True):
@@ -22,8 +23,7 @@ def make(ctx: click.Context, folder: Path) -> None:
     for path, text in _files(folder):
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            with path.open("x", encoding="utf-8") as file:
-                file.write(text)
+            whole.create(str(path), text.encode())
             tell(ctx, "wrote", path)
         except FileExistsError:
             tell(ctx, "kept", path)

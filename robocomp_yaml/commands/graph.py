@@ -11,6 +11,7 @@ import click
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._only_deployment import deployments_of, one_of
 from robocomp_yaml.diag import terminal
+from robocomp_yaml.emit import whole
 from robocomp_yaml.emit.graphs.forms import forms
 
 if TYPE_CHECKING:
@@ -76,7 +77,6 @@ def _picture(path: str, analysis: Analysis) -> Picture | None:
 
 def _save(path: str, text: str) -> None:
     try:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
+        whole.replace(path, text.encode("utf-8", "surrogateescape"))
     except OSError as error:
         raise click.ClickException(f"{path} cannot be written: {(error.strerror or str(error)).lower()}") from error

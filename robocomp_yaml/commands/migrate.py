@@ -13,6 +13,7 @@ import click
 from robocomp_yaml.commands import _options
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.render import tell
+from robocomp_yaml.emit import whole
 
 if TYPE_CHECKING:
     from robocomp_yaml.legacy.result import Migration
@@ -101,8 +102,10 @@ def _refuse_to_overwrite(path: str) -> None:
 
 def _save(path: str, text: str) -> None:
     try:
-        with click.open_file(path, "w", encoding="utf-8", errors="backslashreplace") as file:
-            file.write(text)
+        if path == "-":
+            terminal.data(text, json=True)
+        else:
+            whole.replace(path, text.encode("utf-8", "backslashreplace"))
     except OSError as error:
         raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
 

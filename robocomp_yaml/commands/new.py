@@ -18,6 +18,7 @@ import msgspec
 
 from robocomp_yaml.commands import _options, _workspace
 from robocomp_yaml.diag import terminal
+from robocomp_yaml.emit import whole
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LONGEST_NAME = 200
@@ -161,8 +162,7 @@ def component_document(
 def write(ctx: click.Context, document: NewDocument) -> None:
     """Writes a document where nothing stands yet."""
     document.path.parent.mkdir(parents=True, exist_ok=True)
-    with document.path.open("x", encoding="utf-8") as file:
-        file.write(document.text)
+    whole.create(str(document.path), document.text.encode())
     _workspace.tell(ctx, "wrote", document.path)
 
 
