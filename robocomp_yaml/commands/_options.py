@@ -10,7 +10,8 @@ from typing import Any
 
 import click
 
-from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.commands._fail_on import ERRORS, FailOn
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.render import FORMATS, tell
 
 MANY = 300  # documents: fewer are read before a bar could be seen
@@ -75,9 +76,14 @@ async def ask(text: str, answers: tuple[str, ...]) -> str:
     return await answered
 
 
-def report(ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], documents: int) -> None:
-    """Prints the diagnostics and ends the command: with 1 where one is an error, else with 0."""
+def report(
+    ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], documents: int, fail_on: FailOn = ERRORS
+) -> None:  # fmt: skip
+    """Prints the diagnostics and ends the command: with 1 where one is an error, or what `fail_on` says, else with
+    0."""
     told = list(diagnostics)
     if ctx.obj.verbosity >= 0 or told:
         tell(format_, told, documents, colored(ctx))
-    ctx.exit(1 if has_errors(told) else 0)
+    if format_ == "text":
+        fail_on.explain(told)
+    ctx.exit(fail_on.code(told))

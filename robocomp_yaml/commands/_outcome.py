@@ -12,7 +12,8 @@ import msgspec
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.commands._fail_on import ERRORS, FailOn
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps, run_as_data
 
@@ -76,7 +77,10 @@ class Outcome(msgspec.Struct):
         return Outcome(lasting, files, self.documents, self.asked, self.compiled)
 
 
-def report(ctx: click.Context, outcome: Outcome, format_: str, *, diff: bool = False, check: bool = False) -> None:
+def report(
+    ctx: click.Context, outcome: Outcome, format_: str, *, diff: bool = False, check: bool = False,
+    fail_on: FailOn = ERRORS,
+) -> None:  # fmt: skip
     """Prints what happened to the files and what is wrong, and ends the command."""
     told, color = outcome.diagnostics, _options.colored(ctx)
     if format_ == "json":
@@ -96,7 +100,8 @@ def report(ctx: click.Context, outcome: Outcome, format_: str, *, diff: bool = F
             tell("text", told, outcome.documents, color)
         if ctx.obj.verbosity >= 0 and not diff:
             terminal.say(_summary(outcome))
-    ctx.exit(1 if has_errors(told) or (check and outcome.dirty) else 0)
+        fail_on.explain(told)
+    ctx.exit(1 if check and outcome.dirty else fail_on.code(told))
 
 
 def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:

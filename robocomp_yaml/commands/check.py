@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from robocomp_yaml.commands import _options
+from robocomp_yaml.commands import _fail_on, _options
 
 if TYPE_CHECKING:
+    from robocomp_yaml.commands._fail_on import FailOn
     from robocomp_yaml.diag.diagnostic import Diagnostic
     from robocomp_yaml.pipeline import Analysis
 
@@ -17,11 +18,13 @@ if TYPE_CHECKING:
 @click.command(short_help="Report everything that is wrong with the documents.")
 @_options.paths
 @click.option("--environment", is_flag=True, help="Also say which of the libraries they name are not installed.")
+@_fail_on.fail_on
 @_options.include
 @_options.format_
 @click.pass_context
 def command(
-    ctx: click.Context, paths: tuple[str, ...], environment: bool, include: tuple[str, ...], format_: str
+    ctx: click.Context, paths: tuple[str, ...], environment: bool, fail_on: FailOn, include: tuple[str, ...],
+    format_: str,
 ) -> None:  # fmt: skip
     """Report everything that is wrong with the documents at PATHS (by default, below this folder).
 
@@ -33,7 +36,7 @@ def command(
     with _options.progress("reading", paths) as on_read:
         analysis = analyse(paths, include, on_read)
     told = analysis.with_more([*_on_disk(analysis, environment), *(_missing(analysis) if environment else ())])
-    _options.report(ctx, format_, told, analysis.program.documents)
+    _options.report(ctx, format_, told, analysis.program.documents, fail_on)
 
 
 def _on_disk(analysis: Analysis, environment: bool) -> Iterator[Diagnostic]:

@@ -6,7 +6,7 @@ import os
 
 import click
 
-from robocomp_yaml.commands import _options
+from robocomp_yaml.commands import _fail_on, _options
 
 
 @click.command(short_help="Write Slice and components; only what changed.")
@@ -19,12 +19,13 @@ from robocomp_yaml.commands import _options
 @click.option("--check", is_flag=True, help="Write nothing; exit with 1 if anything would change (for CI).")
 @click.option("--adopt", is_flag=True, help="Take over files that rcyaml did not write; keep them as .orig.")
 @click.option("--merge", is_flag=True, help="Bring your files in src/ up to date, by a three-way merge.")
+@_fail_on.fail_on
 @_options.include
 @_options.format_
 @click.pass_context
 def command(
     ctx: click.Context, paths: tuple[str, ...], output: str | None, targets: tuple[str, ...], dry_run: bool,
-    diff: bool, check: bool, adopt: bool, merge: bool, include: tuple[str, ...], format_: str,
+    diff: bool, check: bool, adopt: bool, merge: bool, fail_on: _fail_on.FailOn, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Compile the documents at PATHS (by default, below this folder).
 
@@ -51,4 +52,4 @@ def command(
         outcome, made = run.carry_out(with_diff=diff)
         if made is not None:
             stamp.save(folder, name, made)
-    _outcome.report(ctx, outcome, format_, diff=diff, check=check)
+    _outcome.report(ctx, outcome, format_, diff=diff, check=check, fail_on=fail_on)
