@@ -12,7 +12,8 @@ import msgspec
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._outcome import File, Outcome
-from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
+from robocomp_yaml.diag.codes import machines, values
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
 from robocomp_yaml.emit import stamp, writer
 from robocomp_yaml.emit.build import Build, build
 from robocomp_yaml.emit.changes import Changes
@@ -25,6 +26,12 @@ from robocomp_yaml.source.discover import documents_below
 if TYPE_CHECKING:
     from robocomp_yaml.emit.ports import Ports
     from robocomp_yaml.link.program import LinkedComponent
+
+
+_OF_CONTENTS = (
+    "RC0002", "RC0003", "RC01", "RC02", "RC10", "RC11", "RC20", "RC21", "RC22", "RC31", "RC33"
+)  # fmt: skip
+_OF_THE_DISK = {machines.UNREADABLE.id, machines.XML_TOO_LARGE.id, machines.BAD_SOURCE.id, values.NO_LAYER.id}
 
 
 class Run(msgspec.Struct):
@@ -58,9 +65,10 @@ class Run(msgspec.Struct):
             self._refresh_schemas(analysis)
         outcome = _outcome_of(analysis, built, changes, in_order(told), with_diff=with_diff)
         outcome.planned = self.look_only
-        if self.look_only or has_errors(told) or own.diagnostics or self.merge:
+        passing = [one for one in told if one not in lasting]
+        if self.look_only or has_errors(passing) or own.diagnostics or self.merge:
             return outcome, None
-        return outcome, self._stamp(analysis, own, changes, outcome.settled(lasting))
+        return outcome, self._stamp(analysis, own, changes, outcome.settled(lasting, changes))
 
     def _other_roots(self, analysis: Analysis) -> list[str]:
         """The folders in which a document that is gone may have left something."""
@@ -83,11 +91,12 @@ class Run(msgspec.Struct):
                 self._schemas[path] = Path(path).read_bytes()
 
     def _stamp(self, analysis: Analysis, own: Review, changes: Changes, again: Outcome) -> stamp.Stamp | None:
-        """What the same run made again would come to; None where that depends on more than what was read (on names of
-        files that an import might have meant)."""
+        """What the same run made again would come to, errors too; None where that depends on more than what was
+        read."""
+        faulty = [one for one in again.diagnostics if one.severity == ERROR]
         unresolved = any(linked.unresolved for linked in analysis.program.modules.values())
         broken = any(linked.broken for linked in analysis.program.components.values())
-        if unresolved or broken:
+        if not all(_is_of_contents(one) for one in faulty) or ((unresolved or broken) and not faulty):
             return None
         settled = {os.path.join(root.root, path): data for root in changes.roots for path, data in root.settled.items()}
         once = [os.path.join(root.root, path) for root in changes.roots for path in root.once]
@@ -95,10 +104,17 @@ class Run(msgspec.Struct):
             inputs=analysis.contents | own.contents,
             absent=analysis.absent | own.absent | set(changes.journals),
             folders={folder: _options.find_below(folder) for folder in analysis.found.folders},
+            names=analysis.linker.search.listed() if faulty else {},
             outputs=settled | self._schemas,
             present=once,
             replay=again.as_data(),
         )
+
+
+def _is_of_contents(error: Diagnostic) -> bool:
+    """Whether an error is the same as long as the documents are, and the names beside them that an import might have
+    meant: not so for files that are missing, or cannot be read."""
+    return error.code.startswith(_OF_CONTENTS) and error.code not in _OF_THE_DISK
 
 
 def _outcome_of(
@@ -109,8 +125,11 @@ def _outcome_of(
         for root in changes.roots
         for change in root.changes
     ]
-    program = analysis.program
-    return Outcome(told, files, program.documents, len(program.asked), len(program.asked - built.left_out))
+    files = list({file.path: file for file in files}.values())  # of roots in each other, both may have one
+    program, read = analysis.program, analysis.linker.documents.read
+    faulty = {os.path.realpath(one.span.file) for one in told if one.severity == ERROR}
+    left_out = {read[real].path: real in faulty for real in built.left_out & program.asked}
+    return Outcome(told, files, program.documents, len(program.asked), dict(sorted(left_out.items())))
 
 
 def _ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:

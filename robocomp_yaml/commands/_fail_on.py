@@ -59,5 +59,5 @@ def _parse(ctx: click.Context, param: click.Parameter, given: tuple[str, ...]) -
 
 fail_on = click.option(
     "--fail-on", "fail_on", multiple=True, metavar="WHAT", callback=_parse,
-    help="Exit with 1 also for each warning, each note, or a code such as RC2007; may be repeated.",
+    help="Exit with 1 for these too: warning, note, or codes such as RC2007,RC3107; may be repeated.",
 )  # fmt: skip

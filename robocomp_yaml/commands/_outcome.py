@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 import msgspec
@@ -16,6 +16,9 @@ from robocomp_yaml.commands._fail_on import ERRORS, FailOn
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps, run_as_data
+
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.changes import Changes
 
 SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
 
@@ -44,14 +47,14 @@ class File(msgspec.Struct, frozen=True):
 
 
 class Outcome(msgspec.Struct):
-    """`documents` were looked at, `asked` of them named by the user, `compiled` of these compiled. `planned` when
-    nothing was written, since only a look was wanted."""
+    """`documents` were looked at, `asked` of them named by the user; of these, some were `left_out`, by path: whether
+    they have errors themselves. `planned` when nothing was written, since only a look was wanted."""
 
     diagnostics: list[Diagnostic]
     files: list[File]
     documents: int
     asked: int
-    compiled: int
+    left_out: dict[str, bool]
     planned: bool = False
 
     @property
@@ -67,14 +70,17 @@ class Outcome(msgspec.Struct):
         """The inverse of `as_data`. Raises ValueError."""
         return msgspec.convert(data, cls)
 
-    def settled(self, lasting: list[Diagnostic]) -> Outcome:
-        """The outcome of the same run made again: nothing left to write, and only the `lasting` diagnostics."""
+    def settled(self, lasting: list[Diagnostic], changes: Changes) -> Outcome:
+        """The outcome of the same run made again: nothing left to write, and only the `lasting` diagnostics. What is
+        gone, or is the user's alone from now on, it would not see."""
+        ours = {os.path.normpath(path) for path in changes.settled}
+        users = {os.path.normpath(path) for path in changes.once}
         files = [
-            File(file.root, file.path, "unchanged" if file.action in WRITTEN else file.action)
+            File(file.root, file.path, "unchanged" if file.path in ours else "kept")
             for file in self.files
-            if file.action != "remove"
+            if file.path in ours or file.path in users
         ]
-        return Outcome(lasting, files, self.documents, self.asked, self.compiled)
+        return Outcome(lasting, files, self.documents, self.asked, self.left_out)
 
 
 def report(
@@ -99,7 +105,7 @@ def report(
         if told:
             tell("text", told, outcome.documents, color)
         if ctx.obj.verbosity >= 0 and not diff:
-            terminal.say(_summary(outcome))
+            terminal.say(*_left_out(outcome), _summary(outcome))
         fail_on.explain(told)
     ctx.exit(1 if check and outcome.dirty else fail_on.code(told))
 
@@ -134,6 +140,16 @@ def _summary(outcome: Outcome) -> str:
     for action, words in (("remove", "removed"), ("unchanged", "unchanged"), ("kept", "yours")):
         if counts[action]:
             parts.append(f"{counts[action]} {words}")
-    asked, compiled = outcome.asked, outcome.compiled
-    head = f"{compiled} of {asked} documents" if compiled < asked else f"{asked} document{'' if asked == 1 else 's'}"
-    return f"{head} compiled: {', '.join(parts)}"
+    compiled = outcome.asked - len(outcome.left_out)
+    left_out = f", {len(outcome.left_out)} left out" if outcome.left_out else ""
+    return f"{compiled} document{'' if compiled == 1 else 's'} compiled{left_out}: {', '.join(parts)}"
+
+
+def _left_out(outcome: Outcome) -> Iterator[str]:
+    """Which documents were not compiled, and why: nobody has to look for them."""
+    for is_faulty, why in ((True, "has errors"), (False, "what it needs or belongs to has errors")):
+        paths = [path for path, itself in outcome.left_out.items() if itself == is_faulty]
+        for path in paths[:SHOWN]:
+            yield f"left out: {path} ({why})"
+        if len(paths) > SHOWN:
+            yield f"left out: {len(paths) - SHOWN} more"

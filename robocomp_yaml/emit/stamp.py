@@ -12,12 +12,14 @@ import json
 import os
 import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from types import MappingProxyType
 
 import msgspec
 from msgspec.structs import asdict
 
 import robocomp_yaml
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.discover import documents_in
 
 FOLDER = ".rcyaml/stamps"
 _KEPT = 32
@@ -28,8 +30,9 @@ class Stamp(msgspec.Struct, frozen=True):
     """All paths are as the run used them, relative to its working folder or absolute.
 
     `inputs`: of each file read, its real path and digest. `absent`: where it looked in vain. `folders`: of each folder
-    asked, what was found below. `outputs`: of each file written, its digest and whether it may be run. `present`:
-    files whose contents are the user's. `replay`: what the run had to say, in the caller's form.
+    asked, what was found below. `names`: of folders, the documents in them. `outputs`: of each file written, its
+    digest and whether it may be run. `present`: files whose contents are the user's. `replay`: what the run had to say,
+    in the caller's form.
     """
 
     tool: str
@@ -39,6 +42,7 @@ class Stamp(msgspec.Struct, frozen=True):
     outputs: dict[str, tuple[str, bool]]
     present: list[str]
     replay: dict[str, object]
+    names: dict[str, list[str]] = {}
 
 
 def key(arguments: Iterable[str]) -> str:
@@ -54,6 +58,7 @@ def take(
     outputs: Mapping[str, bytes],
     present: Iterable[str],
     replay: Mapping[str, object],
+    names: Mapping[str, list[str]] = MappingProxyType({}),
 ) -> Stamp | None:
     """The stamp of a run that is done; None where one of its files has gone already. `inputs` are the bytes that were
     read, `outputs` those that were meant to be written: the disk may have changed since."""
@@ -67,6 +72,7 @@ def take(
             {path: (digest(data), _may_run(os.lstat(path))) for path, data in outputs.items()},
             sorted(present),
             dict(replay),
+            dict(names),
         )
     except OSError:
         return None
@@ -81,6 +87,7 @@ def is_current(stamp: Stamp, find: Callable[[str], Iterable[str]]) -> bool:
             not any(os.path.lexists(path) for path in stamp.absent)
             and all(os.path.lexists(path) for path in stamp.present)
             and all(list(find(folder)) == found for folder, found in stamp.folders.items())
+            and all(documents_in(os.listdir(folder)) == found for folder, found in stamp.names.items())
             and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
             and all(_digest(path) == hash_ for path, (_, hash_) in stamp.inputs.items())
             and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())

@@ -72,7 +72,9 @@ class Attachments(msgspec.Struct):
 
     def _beside(self, document: Document, folder: str) -> Iterator[Document]:
         """The documents beside a component that name it as theirs."""
-        self.absent.add(os.path.normpath(document.path.removesuffix(".cdsl.yaml") + SUFFIX))
+        named_alike = os.path.normpath(document.path.removesuffix(".cdsl.yaml") + SUFFIX)
+        if not os.path.lexists(named_alike):
+            self.absent.add(named_alike)
         try:
             names = sorted(name for name in os.listdir(folder or ".") if name.endswith(SUFFIX))
         except OSError:

@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
 from robocomp_yaml.model.build_interface import entries, items, text
 from robocomp_yaml.source import schema
-from robocomp_yaml.source.discover import WORKSPACE_FILE
+from robocomp_yaml.source.discover import WORKSPACE_FILE, documents_in
 from robocomp_yaml.source.text import decode, read_bytes
 from robocomp_yaml.source.tree import Mapping, Scalar, parse
 
@@ -120,6 +120,10 @@ class Search(msgspec.Struct):
         folders = [os.path.dirname(document), *workspace.interfaces, *self.extra]
         names = {n for f in folders for n in self._listed(os.path.join(f, "x"))[0] if n.endswith(SUFFIX)}
         return sorted(name.removesuffix(SUFFIX) for name in names)
+
+    def listed(self) -> dict[str, list[str]]:
+        """The folders that were looked into, with the names that an import could have meant."""
+        return {folder or ".": documents_in(names) for folder, (names, _) in self._names.items()}
 
     def _listed(self, path: str) -> tuple[frozenset[str], dict[str, str]]:
         """The names in a path's folder, and the same by their lower case."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import msgspec
 
@@ -95,6 +95,11 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
     return found
 
 
+def documents_in(names: Iterable[str]) -> list[str]:
+    """Those names, sorted, that documents may have, in whatever case."""
+    return sorted(name for name in names if name.lower().endswith(".yaml"))
+
+
 def documents_below(
     folder: str, roots: list[str] | None = None, on_error: Callable[[OSError], None] | None = None
 ) -> Iterator[str]:
@@ -105,5 +110,5 @@ def documents_below(
             roots.append(os.path.normpath(where))
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(names):
-            if kind_of(name):
+            if kind_of(name if name != "config.yaml" else os.path.join(where, name)):
                 yield os.path.normpath(os.path.join(where, name))
