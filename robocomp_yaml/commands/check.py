@@ -40,11 +40,14 @@ def command(
 
 
 def _on_disk(analysis: Analysis, environment: bool) -> Iterator[Diagnostic]:
-    """What files say that are no documents: each component's `etc/config`, and the executables of deployments."""
+    """What files say that are no documents: each component's `etc/config` and code, and the executables of
+    deployments."""
     if analysis.program.components:
         from robocomp_yaml.emit import ports
+        from robocomp_yaml.emit.specific.written import of_written
 
         yield from ports.clashes(analysis.program.components.values())
+        yield from of_written(analysis.program, analysis.diagnostics, analysis.linker)
     if analysis.networks:
         from robocomp_yaml.check.networks import of_environment
 

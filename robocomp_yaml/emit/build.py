@@ -52,7 +52,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
 
     asked = {program.modules[real]: real for real in program.asked & program.modules.keys()}
     for linked in sorted(asked, key=lambda linked: linked.module.path):
-        if not options.wants("slice"):
+        if not options.wants("slice") or options.only:
             continue
         if _usable(linked.module, [linked], state, result):
             root = slice_root(linked)
@@ -63,6 +63,8 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             result.left_out.add(asked[linked])
     for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
+        if options.only and not options.only(component):
+            continue
         if _usable_component(component, state, result):
             # with the targets, which Slice alone needs not
             from robocomp_yaml.emit.component import component_plan, values_of

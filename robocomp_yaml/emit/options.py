@@ -17,13 +17,15 @@ if TYPE_CHECKING:
 class Options(msgspec.Struct):
     """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
     `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
-    component's workspace (asked for only when a first `etc/config` is to be written)."""
+    component's workspace (asked for only when a first `etc/config` is to be written). `only` limits it to some
+    components, and leaves interfaces out."""
 
     output: str | None
     below: Sequence[str]
     targets: frozenset[str]
     workspace_of: Callable[[str], Workspace]
     ports: Callable[[LinkedComponent], Ports]
+    only: Callable[[LinkedComponent], bool] | None = None
 
     def wants(self, target: str) -> bool:
         return not self.targets or target in self.targets

@@ -53,7 +53,6 @@ LACKING = Code(
     "text to paste is shown; `rcyaml compile --merge` puts it in.",
     {**_DOCUMENTS, _FILE: _CLASS + _SAY},
     _RIGHT,
-    "compile .",
 )
 OUTDATED = Code(
     "RC6202",
@@ -64,7 +63,6 @@ OUTDATED = Code(
     "--merge` changes the signature where you did not.",
     {**_DOCUMENTS, _FILE: _CLASS + _STOP + _SAY.replace("text)", "text, volume)", 1)},
     _RIGHT,
-    "compile .",
 )
 GONE = Code(
     "RC6203",
@@ -74,7 +72,6 @@ GONE = Code(
     "renamed there, or the component implements the interface no more. rcyaml deletes nothing of yours.",
     {**_RIGHT, _FILE: _RIGHT[_FILE] + _SHOUT, _BASE: _RIGHT[_FILE] + _SHOUT},
     {**_RIGHT, _BASE: _RIGHT[_FILE] + _SHOUT},
-    "compile .",
 )
 CONFLICT = Code(
     "RC6204",
@@ -100,7 +97,6 @@ NO_CLASS = Code(
     "for an error of syntax above it.",
     {**_DOCUMENTS, _FILE: _HEAD},
     _RIGHT,
-    "compile .",
 )
 CONFIG_LACKS = Code(
     "RC6206",
@@ -110,5 +106,4 @@ CONFIG_LACKS = Code(
     "not start without. The lines to paste are shown; `rcyaml compile --merge` puts them in.",
     {**_RIGHT, "etc/config": _CONFIG, ".rcyaml/base/etc/config": _CONFIG},
     {**_RIGHT, "etc/config": f"{_CONFIG}Speech.Endpoints=tcp -p 12001\n", ".rcyaml/base/etc/config": _CONFIG},
-    "compile .",
 )

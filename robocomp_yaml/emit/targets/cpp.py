@@ -79,6 +79,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
         FilePlan("src/specificworker.h", render("cpp/specificworker.h.j2", view), ONCE),
         FilePlan("src/specificworker.cpp", render("cpp/specificworker.cpp.j2", view), ONCE),
         FilePlan("CMakeLists.txt", render("cpp/CMakeLists.txt.j2", view), ONCE),
+        _ignored(view),
     ]
 
 
@@ -126,7 +127,13 @@ def _robocomp(component: LinkedComponent, view: View, copied: list[FilePlan]) ->
         *copied,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
         *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE) for path, name in own.items()),
+        _ignored(view),
     ]
+
+
+def _ignored(view: View) -> FilePlan:
+    """The program is made by a build, where components in Python have a launcher that belongs to the repository."""
+    return FilePlan("bin/.gitignore", f"# This file is yours: rcyaml wrote it once. Below is what the build makes.\n/{view.name}\n", ONCE)
 
 
 @cache

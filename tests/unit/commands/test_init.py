@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -32,6 +34,28 @@ def test_the_workspace_compiles(rcyaml: Run, tmp_path: Path) -> None:
     assert (tmp_path / "components/hellocomp/bin/HelloComp").is_file()
     again = rcyaml("compile", "--check")
     assert again.exit_code == 0
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="git is not installed")
+def test_what_is_built_is_ignored_and_what_is_started_is_not(rcyaml: Run, tmp_path: Path) -> None:
+    rcyaml("init")
+    rcyaml("new", "component", "Arm", "--language", "cpp", "--implements", "Hello")
+    rcyaml("compile")
+    built = {"bin/Arm", "build/CMakeCache.txt", "build/x.o", "CMakeFiles/a.o", "CMakeCache.txt", "arm_autogen/moc.cpp"}
+    write_tree(tmp_path / "components/arm", dict.fromkeys(built, "made\n"))
+    write_tree(tmp_path / "components/hellocomp", {"src/__pycache__/x.pyc": "made\n"})
+    subprocess.run(["git", "init", "-q"], cwd=tmp_path, check=True)
+    listed = subprocess.run(
+        ["git", "ls-files", "--others", "--ignored", "--exclude-standard"], cwd=tmp_path, capture_output=True, text=True,
+        check=True,
+    ).stdout.splitlines()  # fmt: skip
+    seen = {path for path in listed if not path.startswith(".rcyaml/stamps/")}
+    assert seen == {*(f"components/arm/{path}" for path in built), "components/hellocomp/src/__pycache__/x.pyc"}
+
+
+def test_the_next_step_can_be_typed(rcyaml: Run, tmp_path: Path) -> None:
+    assert rcyaml("init").stdout.splitlines()[-1].startswith("next: rcyaml check")
+    assert rcyaml("init", "my robot").stdout.splitlines()[-1].startswith("next: cd 'my robot', then rcyaml check")
 
 
 def test_another_folder_may_be_named(rcyaml: Run, tmp_path: Path) -> None:

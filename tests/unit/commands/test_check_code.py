@@ -1,0 +1,73 @@
+"""`check` says of the user's own code what `compile` says, and looks into it only where the skeleton is another."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import read_tree, write_tree
+
+Rcyaml = Callable[..., Result]
+SPEECH = "module: RoboCompSpeech\ninterfaces: {Speech: {methods: {say: {in: {text: string}}, stop: }}}\n"
+TREE = {
+    "Speech.idsl.yaml": SPEECH,
+    "py/py.cdsl.yaml": "component: PyComp\nlanguage: python\nimports: [../Speech.idsl.yaml]\nimplements: [Speech]\n",
+    "cpp/cpp.cdsl.yaml": "component: CppComp\nlanguage: cpp\nimports: [../Speech.idsl.yaml]\nimplements: [Speech]\n",
+}
+
+
+def told(result: Result) -> list[tuple[str, str, int]]:
+    found = json.loads(result.stdout)["diagnostics"]
+    return [(one["code"], one["file"], one["line"]) for one in found if one["code"].startswith("RC62")]
+
+
+@pytest.fixture
+def compiled(rcyaml: Rcyaml, tmp_path: Path) -> Path:
+    write_tree(tmp_path, TREE)
+    assert rcyaml("compile").exit_code == 0
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "codes"),
+    [
+        ("stop: ", "stop: , pause: ", {"RC6201"}),
+        ("text: string", "text: string, volume: int", {"RC6202"}),
+        (", stop: ", "", {"RC6203"}),
+        ("say: ", "speak: ", {"RC6201", "RC6203"}),
+    ],
+)
+def test_check_says_what_compile_says(compiled: Path, rcyaml: Rcyaml, old: str, new: str, codes: set[str]) -> None:
+    write_tree(compiled, {"Speech.idsl.yaml": SPEECH.replace(old, new)})
+    before = read_tree(compiled)
+    checked = told(rcyaml("check", "--format", "json"))
+    assert read_tree(compiled) == before
+    assert checked == told(rcyaml("compile", "--format", "json"))
+    assert {code for code, _, _ in checked} == codes
+    assert {file.partition("/")[0] for _, file, _ in checked} == {"py", "cpp"}
+    assert checked == told(rcyaml("check", "--format", "json"))
+
+
+def test_only_of_what_is_asked(compiled: Path, rcyaml: Rcyaml) -> None:
+    write_tree(compiled, {"Speech.idsl.yaml": SPEECH.replace("stop: ", "stop: , pause: ")})
+    assert {file for _, file, _ in told(rcyaml("check", "--format", "json", "py"))} == {"py/src/specificworker.py"}
+    assert told(rcyaml("check", "--format", "json", "Speech.idsl.yaml")) == []
+    write_tree(compiled, {"rcyaml.yaml": "lint: {RC6201: off}\n"})
+    assert told(rcyaml("check", "--format", "json")) == []
+
+
+def test_code_is_read_only_where_it_has_to_be(compiled: Path, rcyaml: Rcyaml) -> None:
+    for name in [name for name in sys.modules if name.startswith("robocomp_yaml.emit.specific.telling")]:
+        del sys.modules[name]
+    assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
+    assert "robocomp_yaml.emit.specific.telling" not in sys.modules
+
+
+def test_nothing_is_said_before_the_first_compile(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    write_tree(tmp_path, TREE)
+    assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
