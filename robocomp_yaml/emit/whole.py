@@ -40,8 +40,11 @@ def replace(path: str, data: bytes) -> None:
 @contextlib.contextmanager
 def _part(path: str, data: bytes, mode: int | None) -> Iterator[str]:
     """A file beside another one, with what that is to hold; it is gone in the end."""
-    folder = os.path.dirname(path)
-    descriptor, part = tempfile.mkstemp(prefix=".rcyaml-", dir=folder or ".")
+    try:
+        descriptor, part = tempfile.mkstemp(prefix=".rcyaml-", dir=os.path.dirname(path) or ".")
+    except OSError as error:
+        error.filename = path  # which is what the user knows
+        raise
     try:
         with open(descriptor, "wb") as file:
             file.write(data)

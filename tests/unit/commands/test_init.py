@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -108,10 +109,10 @@ def test_a_file_is_no_workspace(rcyaml: Run, tmp_path: Path) -> None:
 
 
 def test_what_cannot_be_written_is_said(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(path: Path, *_: object, **__: object) -> None:
-        raise PermissionError(13, "Permission denied", str(path))
+    def refuse(*_: object, **__: object) -> None:
+        raise PermissionError(13, "Permission denied", "a name of a moment")
 
-    monkeypatch.setattr(Path, "open", refuse)
+    monkeypatch.setattr(tempfile, "mkstemp", refuse)
     said = rcyaml("init")
     assert (said.exit_code, said.stderr) == (1, "Error: cannot write rcyaml.yaml: Permission denied\n")
 
