@@ -66,8 +66,8 @@ def one_of(found: list[str]) -> str:
 def deployments_of(folder: str, include: tuple[str, ...] = (), analysis: Analysis | None = None) -> list[str]:
     """The deployments of a folder, else those below it; those that others include are parts of these. `analysis` is of
     the folder, where there is one."""
-    below = _below(folder)
-    found = [path for path in below if os.path.dirname(path) == os.path.normpath(folder).removeprefix(".")] or below
+    below, here = _below(folder), os.path.normpath(folder)
+    found = [path for path in below if (os.path.dirname(path) or ".") == here] or below
     if len(found) < 2:
         return found
     if analysis is None:

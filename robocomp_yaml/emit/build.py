@@ -15,6 +15,7 @@ import msgspec
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import FilePlan, RootPlan
 from robocomp_yaml.emit.targets import slice as slice_target
@@ -182,7 +183,7 @@ def _unresolved(document: Module | Component, cause: str, state: _State) -> Diag
     related = [Related("this document has errors, or imports what is not there", Span(cause))]
     told = compiling.UNRESOLVED.at(
         document.span, name=document.name, related=related if cause != document.path else (),
-        hint="`rcyaml check` says what is missing; mend that first",
+        hint=f"`{typed('rcyaml', 'check', document.path)}` says what is missing; mend that first",
     )
     # Where the cause is an error already, this only says what follows from it.
     return told if cause in state.lowered else told.as_severity(NOTE)

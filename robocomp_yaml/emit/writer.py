@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit import atomic, changes, manifest
 from robocomp_yaml.emit.changes import Change, Changes, RootChanges
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, free_name
@@ -190,9 +191,10 @@ class _Root:
             self._write(plan, found, changes.ADOPT)
         else:
             self._note(plan.path, changes.REFUSED, found.data, text)
+            owner = self.root.shown(self.wanted.files[plan.path].owners[0])
             self.diagnostics.append(codes.NOT_OURS.at(
                 Span(self.root.shown(plan.path)), path=plan.path,
-                hint="`rcyaml compile --adopt` writes it, and keeps yours as .orig",
+                hint=f"`{typed('rcyaml', 'compile', '--adopt', owner)}` writes it, and keeps yours as .orig",
             ))
             return
         self.result.settled[plan.path] = text

@@ -117,7 +117,7 @@ def test_ports_that_another_deployment_has(place: Place, free_port: Ports, tmp_p
         (told,) = place.up(sleeper("a", endpoints=served)).diagnostics  # one for both ports
         other.stdin.close()
     assert told.code == "RC7001" and "'arm' of the deployment Other in " in told.message
-    assert told.hint.startswith("take that deployment down (`rcyaml deploy down`)")
+    assert told.hint.startswith("take that deployment down (`rcyaml deploy down ")
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from robocomp_yaml.diag.codes import specific as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.places import Root
 from robocomp_yaml.emit.specific import entries, sources
 from robocomp_yaml.emit.specific.code import CLASS, Code, Method
@@ -16,16 +17,18 @@ from robocomp_yaml.emit.specific.own import Own
 from robocomp_yaml.emit.specific.reading import is_code, read
 
 
-def tell(root: Root, files: Sequence[Own]) -> Iterator[Diagnostic]:
+def tell(root: Root, files: Sequence[Own], document: str) -> Iterator[Diagnostic]:
+    """All that is to be said of the files of the component that a document describes."""
+    merge = f"paste what follows, or let `{typed('rcyaml', 'compile', '--merge', document)}` put it in"
     code = [file for file in files if file.yours is not None and is_code(file.plan.path)]
     if any(not file.is_settled for file in code):
-        yield from _about_class(root, code)
+        yield from _about_class(root, code, merge)
     for file in files:
         if entries.is_entries(file.plan.path) and file.yours is not None and not file.is_settled:
-            yield from _about_entries(root, file)
+            yield from _about_entries(root, file, merge)
 
 
-def _about_class(root: Root, files: Sequence[Own]) -> Iterator[Diagnostic]:
+def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagnostic]:
     new = [code for file in files if (code := read(file.plan.path, file.plan.text))]
     base = {file.plan.path: code for file in files if file.base and (code := read(file.plan.path, file.base))}
     yours = [code for file in files if (code := read(file.plan.path, file.yours or ""))]
@@ -48,7 +51,7 @@ def _about_class(root: Root, files: Sequence[Own]) -> Iterator[Diagnostic]:
         )
         yield codes.LACKING.at(
             span, name=CLASS, methods=", ".join(names), more=_paste(root, found.lacking, yours),
-            hint="paste what follows, or let `rcyaml compile --merge` put it in",
+            hint=merge,
         )  # fmt: skip
     yield from _about_methods(root, found)
 
@@ -68,13 +71,13 @@ def _about_methods(root: Root, found: Comparison) -> Iterator[Diagnostic]:
         )  # fmt: skip
 
 
-def _about_entries(root: Root, file: Own) -> Iterator[Diagnostic]:
+def _about_entries(root: Root, file: Own, merge: str) -> Iterator[Diagnostic]:
     keys = entries.lacking(file.base, file.yours or "", file.plan.text)
     if keys:
         path = root.shown(file.plan.path)
         yield codes.CONFIG_LACKS.at(
             Span(path), path=path, keys=", ".join(keys), more=entries.paste(file.plan.text, keys),
-            hint="paste what follows, or let `rcyaml compile --merge` put it in",
+            hint=merge,
         )  # fmt: skip
 
 
