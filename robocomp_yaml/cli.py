@@ -49,7 +49,7 @@ class LazyGroup(click.Group):
     """A group whose commands live in `robocomp_yaml.commands.NAME.command`."""
 
     def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
-        """Runs a command line, and tells what is wrong with it. Returns the exit code; `standalone_mode` ends with it."""
+        """Runs a command line, and tells what is wrong with it; returns the exit code, or ends with it."""
         code = self._code(*args, **extra)
         if standalone_mode:
             sys.exit(code)

@@ -37,8 +37,8 @@ T = TypeVar("T")
 
 class Opened(msgspec.Struct):
     """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
-    so far, of which some have been `shown`; `documents` were read. `lock` is held while it is changed. `ended_by` is the
-    exit code where the user had enough of what was brought up."""
+    so far, of which some have been `shown`; `documents` were read. `lock` is held while it is changed. `ended_by` is
+    the exit code where the user had enough of what was brought up."""
 
     path: str
     network: Network

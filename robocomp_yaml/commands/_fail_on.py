@@ -1,4 +1,4 @@
-"""`--fail-on`: which diagnostics, besides errors, make a run fail: those of a severity and worse, or those of a code."""
+"""`--fail-on`: which diagnostics besides errors make a run fail: those of a severity and worse, or of a code."""
 
 from __future__ import annotations
 

@@ -61,14 +61,14 @@ async def ask(text: str, answers: tuple[str, ...]) -> str:
     import asyncio
     import threading
 
-    loop = asyncio.get_running_loop()
+    loop, first = asyncio.get_running_loop(), answers[0]
     answered: asyncio.Future[str] = loop.create_future()
 
     def wait() -> None:
         try:
-            answer: str = click.prompt(text, type=click.Choice(answers), default=answers[0])
+            answer: str = click.prompt(text, type=click.Choice(answers), default=first)
         except click.Abort:  # there is nobody to answer
-            answer = answers[0]
+            answer = first
         with suppress(RuntimeError):  # the question was withdrawn
             loop.call_soon_threadsafe(lambda: answered.done() or answered.set_result(answer))
 

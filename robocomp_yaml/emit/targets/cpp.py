@@ -133,7 +133,8 @@ def _robocomp(component: LinkedComponent, view: View, copied: list[FilePlan]) ->
 
 def _ignored(view: View) -> FilePlan:
     """The program is made by a build, where components in Python have a launcher that belongs to the repository."""
-    return FilePlan("bin/.gitignore", f"# This file is yours: rcyaml wrote it once. Below is what the build makes.\n/{view.name}\n", ONCE)
+    head = "# This file is yours: rcyaml wrote it once. Below is what the build makes."
+    return FilePlan("bin/.gitignore", f"{head}\n/{view.name}\n", ONCE)
 
 
 @cache
