@@ -278,7 +278,7 @@ def write_new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
 
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        whole.create(str(target), first_values(linked, component, str(target)).encode())
+        whole.create(str(target), first_values(linked, component, str(target)))
     except OSError as error:
         raise click.UsageError(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
     if ctx.obj.verbosity >= 0:

@@ -23,7 +23,7 @@ def make(ctx: click.Context, folder: Path) -> None:
     for path, text in _files(folder):
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            whole.create(str(path), text.encode())
+            whole.create(str(path), text)
             tell(ctx, "wrote", path)
         except FileExistsError:
             tell(ctx, "kept", path)

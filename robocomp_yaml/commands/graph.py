@@ -77,6 +77,6 @@ def _picture(path: str, analysis: Analysis) -> Picture | None:
 
 def _save(path: str, text: str) -> None:
     try:
-        whole.replace(path, text.encode("utf-8", "surrogateescape"))
+        whole.replace(path, terminal.as_bytes(text))
     except OSError as error:
         raise click.ClickException(f"{path} cannot be written: {(error.strerror or str(error)).lower()}") from error

@@ -162,7 +162,7 @@ def component_document(
 def write(ctx: click.Context, document: NewDocument) -> None:
     """Writes a document where nothing stands yet."""
     document.path.parent.mkdir(parents=True, exist_ok=True)
-    whole.create(str(document.path), document.text.encode())
+    whole.create(str(document.path), document.text)
     _workspace.tell(ctx, "wrote", document.path)
 
 

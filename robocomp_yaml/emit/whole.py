@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import stat
 import tempfile
 from collections.abc import Iterator
 
 
-def create(path: str, data: bytes) -> None:
-    """Writes a file where nothing stands yet. Raises OSError, FileExistsError where something does."""
+def create(path: str, text: str) -> None:
+    """Writes a text where nothing stands yet. Raises OSError, FileExistsError where something does."""
+    try:
+        data = text.encode()
+    except UnicodeEncodeError:
+        raise OSError(errno.EILSEQ, "it would hold a name that is no UTF-8 text", path) from None
     with _part(path, data, None) as part:
         try:
             os.link(part, path)
