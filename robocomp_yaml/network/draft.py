@@ -7,9 +7,9 @@ import msgspec
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedInstance, LinkedStorm
 from robocomp_yaml.link.program import Port
-from robocomp_yaml.network.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
 from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
+from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
 
 MANAGER, PUBLISH = "TopicManager", "Publish"
 STORM_INSTANCE = "IceStorm"

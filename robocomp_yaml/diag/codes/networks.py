@@ -150,10 +150,38 @@ TOPIC_MISMATCH = Code(
 BAD_ENDPOINT = Code(
     "RC4301",
     "error",
-    "{name} cannot be served at '{text}'",
-    "Endpoints are spelled as Ice does: a protocol (tcp, udp, ssl, ws or wss) and a fixed port.",
+    "{name} cannot be served at '{text}': {problem}",
+    "Endpoints are spelled as Ice spells them: a protocol (tcp, udp, ssl, ws or wss) with its options, which are "
+    "checked as Ice would check them, and here a fixed port, which the others are told. A program that is none of Ice "
+    "gets texts of any kind by `args:` and `env:`.",
     deployed(_BOTH + "  laser: {program: sh, endpoints: {Laser: tcp}}\n"),
     deployed(_BOTH + "  laser: {program: sh, endpoints: {Laser: tcp -p 10003}}\n"),
+    _CHECK,
+)
+BAD_PROXY = Code(
+    "RC4015",
+    "error",
+    "'{text}' is no proxy: {problem}",
+    "What is outside of the deployment is named by its proxy, as Ice spells it: an identity, options such as `-o`, and "
+    "endpoints (`mouth:tcp -h 10.0.0.9 -p 10002`) or an adapter (`mouth @ Head`). What Ice would refuse when the "
+    "component starts is refused here; protocols of its plug-ins (ssl, wss, bt) count as known. A program that is none "
+    "of Ice gets texts of any kind by `args:` and `env:`.",
+    deployed("components:\n" + _SPEAKS.replace("h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -q 10002"}}')),
+    deployed("components:\n" + _SPEAKS.replace("h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -p 10002"}}')),
+    _CHECK,
+)
+PASSED_OVER = Code(
+    "RC4016",
+    "warning",
+    "Ice passes over this endpoint: {problem}",
+    "Of a proxy's endpoints Ice uses those whose protocol it knows; the others it mentions in a log when the component "
+    "starts.",
+    deployed("components:\n" + _SPEAKS.replace(
+        "h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -p 10002:tpc -h 10.0.0.8 -p 10002"}}'
+    )),
+    deployed("components:\n" + _SPEAKS.replace(
+        "h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -p 10002:tcp -h 10.0.0.8 -p 10002"}}'
+    )),
     _CHECK,
 )
 PORT_TOO_HIGH = Code(

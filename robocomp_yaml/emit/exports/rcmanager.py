@@ -13,6 +13,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from robocomp_yaml.emit.exports._commands import file_name, words
 from robocomp_yaml.emit.exports._xml import HEAD, element
 from robocomp_yaml.network.network import CONFIG, ICESTORM, LOOPBACK, Network, Process
+from robocomp_yaml.source.ice_endpoint import spelled_host
+from robocomp_yaml.source.ice_proxy import proxy_at
 
 _ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
@@ -30,7 +32,6 @@ _GENERAL = {
     "simulation": {"hookes": "0.07", "springlength": "0.5", "friction": "0.4", "step": "0.5", "fieldforce": "20000.0"},
 }
 _SPACE = 100
-_PORT = re.compile(r"-p\s+([0-9]+)")
 _SPECIAL = re.compile(r"[][\\.*+?^${}()|]")
 _LOCAL = (LOOPBACK, "127.0.0.1", "::1")
 
@@ -93,13 +94,13 @@ class _Exporter:
 
     def endpoint(self, process: Process, kept: Kept, number: int) -> str:
         given = _text(kept.get("endpoint"))
-        said = _PORT.search(given)
-        ports = [endpoint.port for endpoint in process.endpoints]
-        if "endpoint" in kept and (said is None or int(said[1]) in ports):
+        said = proxy_at(given)
+        ports = {endpoint.port for endpoint in process.endpoints}
+        if "endpoint" in kept and (said is None or not {one.port for one in said.endpoints} - ports):
             return given
         found = [endpoint for endpoint in process.endpoints if endpoint.identity][number : number + 1]
         address = self.network.address(process)
-        return "".join(f"{one.identity}:{one.protocol} -h {address} -p {one.port}" for one in found)
+        return "".join(f"{one.identity}:{one.protocol} -h {spelled_host(address)} -p {one.port}" for one in found)
 
     def dependences(self, process: Process, name: str, kept: Kept) -> list[str]:
         """Those that the file had, names and all, where they are kept; and whatever else the process waits for."""
