@@ -21,7 +21,7 @@ from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
 from robocomp_yaml.network.providers import Providers
 from robocomp_yaml.network.targets import Targets
-from robocomp_yaml.source.ice_endpoint import Refused
+from robocomp_yaml.source.ice_options import Refused
 from robocomp_yaml.source.ice_proxy import parse_proxy
 
 _MANY = 6

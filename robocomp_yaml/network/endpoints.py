@@ -9,7 +9,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network import ice_texts
 from robocomp_yaml.network.draft import Draft, Offer
 from robocomp_yaml.network.drafts import Drafts
-from robocomp_yaml.source.ice_endpoint import LAST_PORT, Refused, fixed_endpoint
+from robocomp_yaml.source.ice_endpoint import fixed_endpoint
+from robocomp_yaml.source.ice_options import LAST_PORT, Refused
 
 
 def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:

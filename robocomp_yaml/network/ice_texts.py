@@ -5,7 +5,7 @@ from __future__ import annotations
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.draft import Draft
-from robocomp_yaml.source.ice_endpoint import Refused
+from robocomp_yaml.source.ice_options import Refused
 
 _ANY_TEXT = "what is for a program that is none of Ice, and may be any text, stands under `args:` or `env:`"
 

@@ -7,16 +7,8 @@ from functools import lru_cache
 
 import msgspec
 
-from robocomp_yaml.source.ice_endpoint import (
-    BLANKS,
-    IceEndpoint,
-    Refused,
-    UnknownProtocol,
-    Word,
-    check_version,
-    read_endpoint,
-    segments,
-)
+from robocomp_yaml.source.ice_endpoint import IceEndpoint, UnknownProtocol, read_endpoint, segments
+from robocomp_yaml.source.ice_options import BLANKS, Refused, Word, check_version
 
 _END = re.compile(f"[{BLANKS}:@]")
 _BLANK = re.compile(f"[{BLANKS}]")
@@ -164,10 +156,7 @@ def _word(text: str, start: int, end: re.Pattern[str]) -> Word:
 
 def _identity(word: Word) -> tuple[str, str]:
     """Category and name, between which stands a slash without a backslash."""
-    slashes = [
-        found.start() for found in re.finditer("/", word.text)
-        if (len(before := word.text[: found.start()]) - len(before.rstrip("\\"))) % 2 == 0
-    ]
+    slashes = [found.start() for found in re.finditer(r"\\.|/", word.text, re.DOTALL) if found[0] == "/"]
     if len(slashes) > 1:
         raise Refused("an identity is CATEGORY/NAME, with one slash", word.start, word.end)
     if not slashes:

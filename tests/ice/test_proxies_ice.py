@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
 from robocomp_yaml.source import ice_endpoint, ice_proxy
-from robocomp_yaml.source.ice_endpoint import Refused
+from robocomp_yaml.source.ice_options import Refused
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")
 
