@@ -9,6 +9,7 @@ import click
 from robocomp_yaml.commands._deploying import Opened, end
 from robocomp_yaml.deploy import exported
 from robocomp_yaml.diag.codes import emitting
+from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.diag.span import Span
@@ -19,7 +20,12 @@ def export(ctx: click.Context, opened: Opened, form: str, output: str | None) ->
     read those that are written."""
     from robocomp_yaml.emit import exports
 
-    files = exports.export(opened.network, form)
+    try:
+        files = exports.export(opened.network, form)
+    except exports.Unwritable as refused:
+        opened.told.append(codes.NOT_IN_THIS_FORM.at(refused.span, name=refused.name, form=form, reason=refused))
+        end(ctx, opened)
+        return
     if output is None:
         _show(files, opened.format_)
         return

@@ -184,6 +184,39 @@ PASSED_OVER = Code(
     )),
     _CHECK,
 )
+NOT_IN_THIS_FORM = Code(
+    "RC4018",
+    "error",
+    "'{name}' cannot be exported to {form}: {reason}",
+    "Not every tool can be told everything: a control character in an argument has no spelling in XML, and a key under "
+    "`x-rcmanager:` becomes the name of an element. Nothing is exported rather than something else than what the "
+    "deployment says. `rcyaml deploy up` runs it all the same.",
+    deployed('components:\n' + _MOVES + '  laser: {program: sleep, args: ["1", "\\e[0m"]}\n'),
+    deployed("components:\n" + _MOVES + "  laser: {program: sleep, args: ['1']}\n"),
+    "deploy export head.ddsl.yaml --as icegrid -o out",
+)
+NAME_TOO_LONG = Code(
+    "RC4109",
+    "error",
+    "the {what} '{name}' has too long a name: its file '{file}' would have a name of {size} bytes, and {limit} are the "
+    "most",
+    "Logs, configurations and units are called after what they belong to, and systems take names of files up to 255 "
+    "bytes. The longest is that of a unit for systemd, DEPLOYMENT-ENTRY.service; an entry of an include has the names "
+    "of all includes before its own.",
+    deployed(_BOTH + f"  {'l' * 250}: {{program: sleep, args: [1]}}\n"),
+    deployed(_BOTH + f"  {'l' * 200}: {{program: sleep, args: [1]}}\n"),
+    _CHECK,
+)
+PATH_TOO_LONG = Code(
+    "RC4110",
+    "error",
+    "no file can have the path '{path}': {problem}",
+    "Systems take names of files up to 255 bytes, and paths up to 4095; letters other than those of English have two "
+    "bytes or more.",
+    deployed(_BOTH + f"  laser: {{program: sleep, args: [1], cwd: {'c' * 300}}}\n"),
+    deployed(_BOTH + "  laser: {program: sleep, args: [1], cwd: mouth}\n"),
+    _CHECK,
+)
 PORT_TOO_HIGH = Code(
     "RC4302",
     "error",

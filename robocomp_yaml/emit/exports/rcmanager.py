@@ -10,7 +10,8 @@ import re
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
-from robocomp_yaml.emit.exports._commands import file_name, words
+from robocomp_yaml.emit.exports import _unwritable
+from robocomp_yaml.emit.exports._commands import file_name
 from robocomp_yaml.emit.exports._xml import HEAD, element
 from robocomp_yaml.network.network import CONFIG, ICESTORM, LOOPBACK, Network, Process
 from robocomp_yaml.source.ice_endpoint import spelled_host
@@ -70,9 +71,9 @@ class _Exporter:
         for key, value in (given or {"generalInformation": _GENERAL}).items():
             yield from _generic(key, value)
         for process in self.network.processes.values():
-            yield from self.node(process, process.name, 0)
-            for number, alias in enumerate(process.aliases, 1):
-                yield from self.node(process, alias, number)
+            with _unwritable.of(process):
+                for number, name in enumerate((process.name, *process.aliases)):
+                    yield from self.node(process, name, number)
         for name in self.nodes:
             if name not in self.owners:
                 kept = self.of(name)
@@ -112,7 +113,7 @@ class _Exporter:
         return [*given, *(self.aliases[other] for other in process.after if other not in meant)]
 
     def command(self, process: Process, name: str) -> str:
-        told = shlex.join(words(process, self.network.config_path(process)))
+        told = shlex.join(process.words(self.network.config_path(process)))
         return f"rcremote {self.network.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {told}"
 
     def pattern(self, process: Process, config: str) -> str:
