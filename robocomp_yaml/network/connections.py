@@ -21,7 +21,7 @@ from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
 from robocomp_yaml.network.providers import Providers
 from robocomp_yaml.network.targets import Targets
-from robocomp_yaml.source.ice_options import Refused
+from robocomp_yaml.source.ice_options import BLANKS, Refused
 from robocomp_yaml.source.ice_proxy import parse_proxy
 
 _MANY = 6
@@ -59,8 +59,9 @@ class Connections(msgspec.Struct):
         interface = port.interface.name if port else pair.name
         if is_proxy(pair.text):
             self.diagnostics += _faults(draft, pair)
-            draft.proxies[pair.name] = Given(pair.text, pair.span)
-            self.found.append(Connection(draft.name, pair.name, interface, "", proxy=pair.text, span=pair.span))
+            proxy = pair.text.strip(BLANKS)  # which mean nothing there, and which no line of a property file can end with
+            draft.proxies[pair.name] = Given(proxy, pair.span)
+            self.found.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
             return
         target = self.targets.named(draft, pair)
         if target is None:
@@ -176,7 +177,7 @@ class Connections(msgspec.Struct):
 
 def is_proxy(text: str) -> bool:
     """Whether `connect:` names something outside, by its proxy."""
-    return any(char in text for char in ":@\"' \t\r\n")
+    return text[:1] in "\"'" or any(char in text for char in f":@{BLANKS}")
 
 
 def _faults(draft: Draft, pair: Pair) -> Iterator[Diagnostic]:
