@@ -59,7 +59,7 @@ class Connections(msgspec.Struct):
         interface = port.interface.name if port else pair.name
         if is_proxy(pair.text):
             self.diagnostics += _faults(draft, pair)
-            proxy = pair.text.strip(BLANKS)  # which mean nothing there, and which no line of a property file can end with
+            proxy = pair.text.strip(BLANKS)  # they mean nothing there, and no property's value can end with a tab
             draft.proxies[pair.name] = Given(proxy, pair.span)
             self.found.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
             return

@@ -208,9 +208,9 @@ IMPOSSIBLE = Code(
     "error",
     "'{key}' cannot hold {what} ({character})",
     "Paths, programs, names, endpoints and the like are one line of text: they end up in units, scripts, property "
-    "files and command lines, where a line break would begin another line. They hold no control characters either (U+0000 "
-    "to U+001F, U+007F to U+009F, the line separators U+2028 and U+2029). Arguments and variables of the environment may "
-    "hold anything but a NUL, which no program can be given.",
+    "files and command lines, where a line break would begin another line. They hold no control characters either "
+    "(U+0000 to U+001F, U+007F to U+009F, the line separators U+2028 and U+2029). Arguments and variables of the "
+    "environment may hold anything but a NUL, which no program can be given.",
     _wrong('imports: ["Common\\nTypes"]\nmodule: RoboCompSpeech\n'),
     {"Speech.idsl.yaml": "imports: [CommonTypes]\nmodule: RoboCompSpeech\n",
      "CommonTypes.idsl.yaml": "module: CommonTypes\n"},

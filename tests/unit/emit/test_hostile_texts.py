@@ -56,7 +56,8 @@ DEPLOYMENT: dict[str, Any] = {
         "speech": {
             "component": "speech", "executable": "bin/x", "args": ["one"], "cwd": "speech", "config": "conf",
             "config-as": "--Ice.Config", "env": {"A": "v", "B": {"env": "HOME"}}, "topics": {"News": "robot/News"},
-            "ready": {"log": "up"}, "after": ["storm"], "doc": "About it.", "x-rcmanager": {"xpos": "1", "a": {"b": "c"}},
+            "ready": {"log": "up"}, "after": ["storm"], "doc": "About it.",
+            "x-rcmanager": {"xpos": "1", "a": {"b": "c"}},
         },
         "ear": {"component": "ear", "connect": {"Speech": "speech:tcp -h 10.0.0.9 -p 10002"}},
         "ear2": {"component": "ear", "connect": {"Speech": "face"}, "endpoints": {"CommonBehavior": "tcp -p 10005"}},
@@ -152,7 +153,7 @@ def keys(data: Any) -> Any:
 
 
 def of_unit(text: str) -> Any:
-    """Sections and directives as systemd reads them: a line ends at \\n, \\r and NUL, and goes on behind a backslash."""
+    """Sections and directives as systemd reads them: \\n, \\r and NUL end a line, which goes on behind a backslash."""
     lines = re.split(r"[\n\r\0]", text)
     assert not any(line.endswith("\\") for line in lines)
     return [line.partition("=")[0] for line in lines if not line.startswith(("#", ";"))]

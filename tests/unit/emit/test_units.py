@@ -62,7 +62,8 @@ def test_no_name_breaks_an_element(name: str) -> None:
 
 
 def test_what_a_form_cannot_say_is_told_and_nothing_is_written(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
-    write_tree(tmp_path, {"robot.ddsl.yaml": 'deployment: Robot\ncomponents:\n  arm: {program: sleep, args: ["\\a"]}\n'})
+    rings = 'deployment: Robot\ncomponents:\n  arm: {program: sleep, args: ["\\a"]}\n'
+    write_tree(tmp_path, {"robot.ddsl.yaml": rings})
     result = rcyaml("deploy", "export", "robot.ddsl.yaml", "--as", "icegrid", "-o", "out")
     assert result.exit_code == 1 and "robot.ddsl.yaml:3:3" in result.output and "U+0007" in result.output
     assert not (tmp_path / "out").exists()

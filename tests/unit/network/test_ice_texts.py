@@ -18,10 +18,12 @@ def deployed(diagnostics: Check, entry: str) -> list[tuple[str, str, str]]:
     text = f"deployment: Hall\ncomponents:\n  {entry}\n"
     found = diagnostics({**TREE, "hall.ddsl.yaml": text}, "hall.ddsl.yaml")
     lines = text.splitlines()
-    return [
-        (str(one["code"]), lines[one["line"] - 1][one["column"] - 1 : one["end_column"] - 1], str(one["hint"]))  # type: ignore[operator]
-        for one in found if one["code"] != "RC4403"
-    ]
+    told: list[tuple[str, str, str]] = []
+    for one in found:
+        line, column, end = (int(str(one[key])) for key in ("line", "column", "end_column"))
+        if one["code"] != "RC4403":
+            told.append((str(one["code"]), lines[line - 1][column - 1 : end - 1], str(one["hint"])))
+    return told
 
 
 @pytest.mark.parametrize(

@@ -38,7 +38,8 @@ def test_other_names(diagnostics: Check) -> None:
 
 
 @pytest.mark.parametrize(
-    ("key", "path"), [("program", "./" + "é" * 128), ("cwd", "a" * 256), ("cwd", "ab/" * 1400), ("program", "/" + "x" * 256)]
+    ("key", "path"),
+    [("program", "./" + "é" * 128), ("cwd", "a" * 256), ("cwd", "ab/" * 1400), ("program", "/" + "x" * 256)],
 )
 def test_paths(diagnostics: Check, key: str, path: str) -> None:
     program = "" if key == "program" else "program: sleep, "
@@ -47,8 +48,9 @@ def test_paths(diagnostics: Check, key: str, path: str) -> None:
 
 
 def test_a_path_of_few_letters_with_many_bytes_is_long(diagnostics: Check) -> None:
-    assert ("RC4110", 2, 27) in codes_of(diagnostics, f"deployment: R\ncomponents: {{a: {{program: ./{'é' * 128}}}}}\n")
-    assert ("RC4110", 2, 27) not in codes_of(diagnostics, f"deployment: R\ncomponents: {{a: {{program: ./{'é' * 127}}}}}\n")
+    for size, is_wrong in ((127, False), (128, True)):
+        text = f"deployment: R\ncomponents: {{a: {{program: ./{'é' * size}}}}}\n"
+        assert (("RC4110", 2, 27) in codes_of(diagnostics, text)) is is_wrong
 
 
 @pytest.mark.parametrize("program", ["{config}", "bin/{config}", "{config}/../x"])
