@@ -8,8 +8,8 @@ from __future__ import annotations
 import re
 
 from robocomp_yaml.emit.exports._unwritable import Unwritable
+from robocomp_yaml.source.text import OF_NO_LINE
 
-_CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029]")
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
 
@@ -34,7 +34,7 @@ class Unit:
 
     def _add(self, line: str) -> None:
         """Raises Unwritable: a line ends at a control character, and goes on behind a backslash."""
-        found = _CONTROL.search(line)
+        found = OF_NO_LINE.search(line)
         if found:
             raise Unwritable(f"a line of a unit cannot hold U+{ord(found[0]):04X}")
         if line.endswith("\\"):
@@ -45,7 +45,7 @@ class Unit:
 def quoted(word: str, *, doubled: str = "") -> str:
     """A word in quotes, in which no specifier is found; `doubled` are signs that stand for themselves when they stand
     twice."""
-    escaped = _CONTROL.sub(_escape, "".join(_ESCAPES.get(char, char) for char in word)).replace("%", "%%")
+    escaped = OF_NO_LINE.sub(_escape, "".join(_ESCAPES.get(char, char) for char in word)).replace("%", "%%")
     for char in doubled:
         escaped = escaped.replace(char, char * 2)
     return f'"{escaped}"'

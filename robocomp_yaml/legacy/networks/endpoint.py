@@ -8,6 +8,7 @@ import msgspec
 
 from robocomp_yaml.source.ice_endpoint import spelled_host
 from robocomp_yaml.source.ice_proxy import proxy_at
+from robocomp_yaml.source.text import OF_NO_LINE
 
 TOPIC_MANAGER = "IceStorm/TopicManager"
 _INTERFACE = re.compile(r"[_A-Za-z][A-Za-z0-9_]*(\.[A-Za-z0-9_]+)?")  # a key of `endpoints:`
@@ -48,6 +49,6 @@ def parse(text: str) -> Endpoint | None:
     is_name = found.identity == TOPIC_MANAGER or _INTERFACE.fullmatch(found.identity)
     if not is_name or where.protocol not in _PROTOCOLS or not where.port:
         return None
-    if "--sourceAddress" in where.options:  # nothing that an adapter can have
+    if "--sourceAddress" in where.options or OF_NO_LINE.search(where.options):  # nothing that an adapter can have
         return None
     return Endpoint(found.identity, where.protocol, where.port, where.host, where.options)
