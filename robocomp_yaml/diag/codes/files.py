@@ -231,9 +231,9 @@ BAD_ICE_TEXT = Code(
     "Under `endpoints:`, `proxies:` and `topics: manager:` of a values document stand texts that Ice reads when the "
     "component starts; what it would refuse then is refused here. Protocols of its plug-ins (ssl, wss, bt) count as "
     "known. In a document that `rcyaml migrate` wrote this is a warning, since the file that it was made of said so.",
-    {"etc/config.yaml": "component: ../a.cdsl.yaml\nproxies: {x-old: 1}\nendpoints: {CommonBehavior: tcp -q 10001}\n",
+    {"etc/config.yaml": "component: ../a.cdsl.yaml\nendpoints: {CommonBehavior: tcp -q 10001}\n",
      "a.cdsl.yaml": "component: A\nlanguage: python\n"},
-    {"etc/config.yaml": "component: ../a.cdsl.yaml\nproxies: {x-old: 1}\nendpoints: {CommonBehavior: tcp -p 10001}\n",
+    {"etc/config.yaml": "component: ../a.cdsl.yaml\nendpoints: {CommonBehavior: tcp -p 10001}\n",
      "a.cdsl.yaml": "component: A\nlanguage: python\n"},
 )
 WORKSPACE_SETTING = Code(
