@@ -36,6 +36,7 @@ _CALLED = {
     "\0": "a NUL", "\n": "a line break", "\r": "a carriage return", "\t": "a tab", "\x1b": "an escape character",
     "\u0085": "a line break", "\u2028": "a line break", "\u2029": "a line break",
 }  # fmt: skip
+_ENDS_A_LINE = "\n\v\f\r\x85\u2028\u2029"
 _AT_END = "; behind `|-` and `>-` the last line break does not count"
 _APPLICATORS = frozenset(("allOf", "anyOf", "oneOf", "then", "else", "if"))
 
@@ -126,7 +127,7 @@ def _impossible(pattern: str, node: Scalar, place: Path[str | int], *, span: Spa
     assert found is not None
     names = [step for step in place if isinstance(step, str)]
     is_at_end = found[0] == "\n" and found.end() == len(node.lexeme)
-    hint = "leave it out" if pattern == _NO_NUL else "it is one line of text" + (_AT_END if is_at_end else "")
+    hint = "it is one line of text" + (_AT_END if is_at_end else "") if found[0] in _ENDS_A_LINE else "leave it out"
     return codes.IMPOSSIBLE.at(
         span, key=names[-1] if names else "the document", what=_CALLED.get(found[0], "a control character"),
         character=f"U+{ord(found[0]):04X}", hint=hint,
