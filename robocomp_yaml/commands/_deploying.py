@@ -139,7 +139,7 @@ def up(
         if not is_asked:
             return operations.STOP_THEM if on_failure == "ask" else on_failure
         progress.pause()
-        _show(ctx, opened, result.diagnostics)
+        show(ctx, opened, result.diagnostics)
         answer: str = await asyncio.to_thread(
             click.prompt, "stop what was started, roll back to what ran before, or keep it as it is?",
             type=click.Choice(["stop", "rollback", "keep"]), default="stop",
@@ -264,11 +264,11 @@ def end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = Non
         head: dict[str, object] = {"deployment": opened.network.name, "engine": opened.engine.name, **(data or {})}
         click.echo(dumps({**head, "diagnostics": [as_data(_placed(opened, one)) for one in told]}), nl=False)
     else:
-        _show(ctx, opened, told)
+        show(ctx, opened, told)
     ctx.exit(1 if has_errors(told) else code)
 
 
-def _show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> None:
+def show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> None:
     """Prints what was not printed before."""
     new = [_placed(opened, one) for one in told if one not in opened.shown]
     opened.shown += told

@@ -186,11 +186,12 @@ PASSED_OVER = Code(
 )
 NOT_IN_THIS_FORM = Code(
     "RC4018",
-    "error",
-    "'{name}' cannot be exported to {form}: {reason}",
+    "warning",
+    "'{name}' cannot be exported to {form} as it is: {reason}",
     "Not every tool can be told everything: a control character in an argument has no spelling in XML, and a key under "
-    "`x-rcmanager:` becomes the name of an element. Nothing is exported rather than something else than what the "
-    "deployment says. `rcyaml deploy up` runs it all the same.",
+    "`x-rcmanager:` becomes the name of an element. Another sign stands there instead. What could become more than a "
+    "text, such as a line of its own in a unit, is an error, and nothing is exported. `rcyaml deploy up` runs it as it "
+    "is.",
     deployed('components:\n' + _MOVES + '  laser: {program: sleep, args: ["1", "\\e[0m"]}\n'),
     deployed("components:\n" + _MOVES + "  laser: {program: sleep, args: ['1']}\n"),
     "deploy export head.ddsl.yaml --as icegrid -o out",

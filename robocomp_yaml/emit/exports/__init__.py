@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._unwritable import Unwritable as Unwritable
+from robocomp_yaml.emit.exports._unwritable import noted as noted
 
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
@@ -23,7 +24,7 @@ def forms() -> list[str]:
 
 def export(network: Network, form: str) -> dict[str, str]:
     """The files that another tool runs the network from, by their relative paths; `form` is one of `forms()`. Raises
-    Unwritable where the form cannot say what the network has."""
+    Unwritable where the form cannot say what the network has; what is only written otherwise is `noted`."""
     if form not in forms():
         raise ValueError(f"there is no form '{form}'")
     with _unwritable.of(network):

@@ -1,9 +1,14 @@
-"""What an export's form cannot say: refused where it is written, and told at the entry that it belongs to."""
+"""What an export's form cannot say: told at the entry that it belongs to.
+
+What could become something else than a text of its own is refused (Unwritable is raised). A sign that a form merely
+has no spelling for is replaced, which is noted.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Network, Process
@@ -17,13 +22,39 @@ class Unwritable(ValueError):
         self.name, self.span = "", Span("")
 
 
+_NOTES: ContextVar[list[Unwritable]] = ContextVar("notes")
+
+
+def note(why: str) -> None:
+    """Something is written otherwise than it is."""
+    _NOTES.get([]).append(Unwritable(why))
+
+
+@contextmanager
+def noted() -> Iterator[list[Unwritable]]:
+    """What is noted inside."""
+    notes: list[Unwritable] = []
+    token = _NOTES.set(notes)
+    try:
+        yield notes
+    finally:
+        _NOTES.reset(token)
+
+
 @contextmanager
 def of(owner: Process | Network) -> Iterator[None]:
-    """Whatever is refused inside belongs to this process or, if to none, to the network."""
+    """Whatever is refused or noted inside belongs to this process or, if to none, to the network."""
     try:
         yield
     except Unwritable as refused:
-        if not refused.name:
-            refused.name = owner.name
-            refused.span = owner.span if isinstance(owner, Process) else Span(owner.path)
+        _belongs(refused, owner)
         raise
+    finally:
+        for found in _NOTES.get([]):
+            _belongs(found, owner)
+
+
+def _belongs(found: Unwritable, owner: Process | Network) -> None:
+    if not found.name:
+        found.name = owner.name
+        found.span = owner.span if isinstance(owner, Process) else Span(owner.path)

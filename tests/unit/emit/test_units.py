@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from click.testing import Result
@@ -13,7 +14,7 @@ from msgspec.structs import replace
 from test_exports import one, systemd_words
 
 from conftest import write_tree
-from robocomp_yaml.emit.exports import Unwritable, export
+from robocomp_yaml.emit.exports import Unwritable, export, noted
 from robocomp_yaml.emit.exports._units import Unit, folder, quoted
 from robocomp_yaml.emit.exports._xml import element
 
@@ -53,24 +54,26 @@ def test_no_program_says_something_of_the_command(program: str) -> None:
         assert words[0] == '"/bin/sh"' and words[-2:] == [f'"{program}"', '"$$HOME"']
 
 
-@pytest.mark.parametrize("name", ["a b", 'a="1" b', "1a", "", "a>", "a/", "é\n"])
+@pytest.mark.parametrize("name", ["a b", 'a="1" b', "1a", "", "a>", "a/", "é\n", "-a"])
 def test_no_name_breaks_an_element(name: str) -> None:
-    with pytest.raises(Unwritable, match="cannot be the name"):
-        element("node", {name: "x"})
-    with pytest.raises(Unwritable):
-        element(name, {})
+    with noted() as notes:
+        (line,) = element(name, {name: "x\x1b"})
+    made = ElementTree.fromstring(line)
+    assert list(made.attrib.values()) == ["x\ufffd"] and len(notes) == 3
+    assert any("U+001B" in str(note) for note in notes) and any(f"called '{name}'" in str(note) for note in notes)
 
 
-def test_what_a_form_cannot_say_is_told_and_nothing_is_written(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
+def test_what_a_form_cannot_say_is_told(rcyaml: Callable[..., Result], tmp_path: Path) -> None:
     rings = 'deployment: Robot\ncomponents:\n  arm: {program: sleep, args: ["\\a"]}\n'
     write_tree(tmp_path, {"robot.ddsl.yaml": rings})
     result = rcyaml("deploy", "export", "robot.ddsl.yaml", "--as", "icegrid", "-o", "out")
-    assert result.exit_code == 1 and "robot.ddsl.yaml:3:3" in result.output and "U+0007" in result.output
-    assert not (tmp_path / "out").exists()
+    assert result.exit_code == 0 and "robot.ddsl.yaml:3:3" in result.stderr and "U+0007" in result.stderr
+    shown = rcyaml("deploy", "export", "robot.ddsl.yaml", "--as", "icegrid")
+    assert shown.stdout == (tmp_path / "out" / "Robot.xml").read_text(encoding="utf-8") and "RC4018" in shown.stderr
     assert rcyaml("deploy", "export", "robot.ddsl.yaml", "--as", "systemd").exit_code == 0
     write_tree(tmp_path, {"robot.ddsl.yaml": 'deployment: Robot\nx-rcmanager: {"a b": c}\n'})
     result = rcyaml("deploy", "export", "robot.ddsl.yaml", "--as", "rcmanager")
-    assert result.exit_code == 1 and "RC4018" in result.output
+    assert result.exit_code == 0 and "RC4018" in result.stderr and "a_b" in result.stdout
 
 
 @pytest.mark.skipif(shutil.which("systemd-analyze") is None, reason="systemd-analyze is not installed")
