@@ -77,7 +77,7 @@ class _Builder(msgspec.Struct, eq=False):
         if node.command is None:
             reason = "it has no command that names a program"
         elif any(map(OF_NO_LINE.search, (node.command.folder, node.command.words[0], node.command.config))):
-            reason = "a line break, or another control character, is in the path of its program, folder or configuration"
+            reason = "a line break or another control character stands in its program, folder or configuration"
         else:
             return True
         self.said.append(codes.NOT_STARTED.at(node.span, name=node.alias, reason=reason))
