@@ -130,7 +130,7 @@ def up(
         if not is_asked:
             return operations.STOP_THEM if on_failure == "ask" else on_failure
         progress.pause()
-        _show(ctx, opened, result.diagnostics)
+        show(ctx, opened, result.diagnostics)
         return await _options.ask(
             "stop what was started, roll back to what ran before, or keep it as it is?", ("stop", "rollback", "keep")
         )
@@ -259,11 +259,11 @@ def end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = Non
         head: dict[str, object] = {"deployment": opened.network.name, "engine": opened.engine.name, **(data or {})}
         terminal.data(dumps({**head, "diagnostics": [as_data(_placed(opened, one)) for one in told]}), json=True)
     else:
-        _show(ctx, opened, told)
+        show(ctx, opened, told)
     ctx.exit(opened.ended_by or (1 if has_errors(told) else code))
 
 
-def _show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> None:
+def show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> None:
     """Prints what was not printed before."""
     new = [_placed(opened, one) for one in told if one not in opened.shown]
     opened.shown += told

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
 import click
 
-from robocomp_yaml.commands._deploying import Opened, end
+from robocomp_yaml.commands._deploying import Opened, end, show
 from robocomp_yaml.deploy import exported
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.codes import emitting
-from robocomp_yaml.diag.diagnostic import has_errors
+from robocomp_yaml.diag.codes import networks as codes
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.diag.span import Span
+
+if TYPE_CHECKING:
+    from robocomp_yaml.emit.exports import Unwritable
 
 
 def export(ctx: click.Context, opened: Opened, form: str, output: str | None) -> None:
@@ -20,9 +25,18 @@ def export(ctx: click.Context, opened: Opened, form: str, output: str | None) ->
     read those that are written."""
     from robocomp_yaml.emit import exports
 
-    files = exports.export(opened.network, form)
+    try:
+        with exports.noted() as notes:
+            files = exports.export(opened.network, form)
+    except exports.Unwritable as refused:
+        opened.told.append(_told(refused, form).as_severity(ERROR))
+        end(ctx, opened)
+        return
+    found = list(dict.fromkeys(_told(note, form) for note in notes))
+    opened.told += found
     if output is None:
         _show(files, opened.format_)
+        show(ctx, opened, found)
         return
     try:
         for path in exported.in_the_way(output, files):
@@ -41,6 +55,10 @@ def export(ctx: click.Context, opened: Opened, form: str, output: str | None) ->
     for path in written if ctx.obj.verbosity >= 0 else ():
         terminal.say(f"wrote {path}")
     end(ctx, opened)
+
+
+def _told(found: Unwritable, form: str) -> Diagnostic:
+    return codes.NOT_IN_THIS_FORM.at(found.span, name=found.name, form=form, reason=found)
 
 
 def _show(files: dict[str, str], format_: str) -> None:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import asyncio
 import functools
-import re
 import struct
+
+from robocomp_yaml.source.ice_proxy import proxy_at
 
 _MAGIC = b"IceP\x01\x00\x01\x00"  # protocol 1.0, its encoding 1.0
 _REQUEST, _REPLY, _VALIDATE, _CLOSE = 0, 2, 3, 4
@@ -18,22 +19,17 @@ _IDEMPOTENT = 2
 _NO_ARGUMENTS = struct.pack("<iBB", 6, 1, 1)
 _LONGEST = 1 << 16
 
-_PROXY = re.compile(r"(?P<identity>\"[^\"]+\"|'[^']+'|[^\s:\"'@\\]+)(?P<options>[^:@]*):(?P<endpoints>.+)", re.DOTALL)
-_OPTION = re.compile(r"-([hp])\s+(\"[^\"]*\"|\S+)")
-
 
 @functools.cache
 def address_of(proxy: str) -> tuple[str, str, int] | None:
     """The identity, host and port of a proxy's first endpoint; None where the endpoint is not plain TCP."""
-    parts = _PROXY.fullmatch(proxy.strip())
-    if not parts or "-f" in parts["options"]:
+    found = proxy_at(proxy)
+    first = found.endpoints[0] if found and found.endpoints else None
+    if not found or not found.is_plain or not first or first.protocol not in ("tcp", "default") or not first.port:
         return None
-    # A colon separates endpoints unless it is one of an IPv6 address, which stands in quotes.
-    endpoint = re.split(r":(?=\s*(?:tcp|default|udp|ssl|ws|wss)\b)", parts["endpoints"])[0].strip()
-    options = {letter: value.strip('"') for letter, value in _OPTION.findall(endpoint)}
-    if endpoint.split()[0] not in ("tcp", "default") or not options.get("p", "").isdigit():
+    if "/" in found.category + found.name:  # one with a backslash before it
         return None
-    return parts["identity"].strip("\"'"), options.get("h") or "127.0.0.1", int(options["p"])
+    return f"{found.category}/{found.name}" if found.category else found.name, first.host or "127.0.0.1", first.port
 
 
 async def answers(proxy: str, within: float) -> bool:
@@ -76,7 +72,7 @@ async def _message(reader: asyncio.StreamReader) -> tuple[int, bytes]:
 
 
 def _text(text: str) -> bytes:
-    data = text.encode()
+    data = text.encode(errors="surrogateescape")
     return (struct.pack("<Bi", 255, len(data)) if len(data) > 254 else bytes([len(data)])) + data
 
 

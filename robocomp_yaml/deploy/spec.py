@@ -11,7 +11,7 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.network.network import CONFIG, Network, Process
+from robocomp_yaml.network.network import Network, Process
 from robocomp_yaml.source.digest import digest
 
 _NOT_KEPT = ("span", "extra", "build")
@@ -54,7 +54,7 @@ def spec_of(network: Network, process: Process, digests: dict[str, str]) -> Spec
     return Spec(
         process,
         network.address(process),
-        tuple(part.replace(CONFIG, config) for part in process.command),
+        process.words(config),
         config,
         tuple((path, digests[path]) for path in process.watched),
     )

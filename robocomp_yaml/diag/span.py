@@ -17,3 +17,12 @@ class Span(msgspec.Struct, frozen=True, order=True):
     column: int = 1
     end_line: int = 1
     end_column: int = 1
+
+    def inside(self, text: str, start: int, end: int) -> Span:
+        """The place of some characters of the text that stands here, bare or in quotes; the whole place where it is
+        spelled otherwise than it reads: with escapes, or on several lines."""
+        spare = self.end_column - self.column - len(text)
+        if self.line != self.end_line or spare not in (0, 2):
+            return self
+        begin = self.column + spare // 2 + start
+        return Span(self.file, self.line, begin, self.line, begin + max(end - start, 1))

@@ -17,9 +17,9 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.plan import CONFIG
 from robocomp_yaml.link.program import LinkedComponent, Port
-from robocomp_yaml.network.ice_endpoint import IceEndpoint, parse_endpoint
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, default_port, next_free
 from robocomp_yaml.source import properties
+from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
 from robocomp_yaml.source.properties import Entry
 
 

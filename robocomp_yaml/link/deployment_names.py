@@ -13,7 +13,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.expand_deployments import Placed
-from robocomp_yaml.model.deployment import INDEX, PROCESS, Entry, Number, Pair, Text
+from robocomp_yaml.model.deployment import CONFIG, INDEX, PROCESS, Entry, Number, Pair, Text
 
 
 class Names(msgspec.Struct):
@@ -40,7 +40,7 @@ class Names(msgspec.Struct):
                         instance.after += target.members if isinstance(target, LinkedGroup) else [target]
                 if here.is_own and not instance.number:  # what one instance says, all of them do
                     self.diagnostics += _ports(instance)
-                    self.diagnostics += _patterns(instance.entry)
+                    self.diagnostics += [*_patterns(instance.entry), *_programs(instance.entry)]
 
     def _direct(self, here: Placed, group: LinkedGroup) -> Iterator[Target]:
         for named in group.group.members:
@@ -146,6 +146,14 @@ def _patterns(entry: Entry) -> Iterator[Diagnostic]:
             re.compile(entry.ready.log)
         except (re.error, OverflowError, RecursionError) as error:
             yield codes.BAD_PATTERN.at(entry.ready.span, pattern=entry.ready.log, problem=error)
+
+
+def _programs(entry: Entry) -> Iterator[Diagnostic]:
+    for text in (entry.target, entry.executable):
+        if text is not None and CONFIG in text.text:
+            yield codes.CONFIG_AS_PROGRAM.at(
+                text.span, text=text.text, hint=f'name what reads it, such as `program: python3, args: ["{CONFIG}"]`'
+            )
 
 
 def _meant(name: str, names: list[str]) -> str:

@@ -13,6 +13,8 @@ COMPONENT, PROGRAM, PROCESS = "component", "program", "process"
 NEVER, ON_FAILURE, ALWAYS = "no", "on-failure", "always"
 ARGUMENT = "argument"
 INDEX = "{i}"
+CONFIG = "{config}"
+"""In an argument: the path of the process's configuration."""
 
 
 class Text(Located, frozen=True):

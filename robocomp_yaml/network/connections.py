@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import msgspec
 
 from robocomp_yaml.diag.codes import networks as codes
@@ -10,6 +12,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model.component import IGNORE
 from robocomp_yaml.model.deployment import Pair
+from robocomp_yaml.network import ice_texts
 from robocomp_yaml.network.contents import Contents, name_of
 from robocomp_yaml.network.draft import Draft, Given, Offer
 from robocomp_yaml.network.drafts import Drafts
@@ -18,6 +21,8 @@ from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
 from robocomp_yaml.network.providers import Providers
 from robocomp_yaml.network.targets import Targets
+from robocomp_yaml.source.ice_options import BLANKS, Refused
+from robocomp_yaml.source.ice_proxy import parse_proxy
 
 _MANY = 6
 
@@ -53,8 +58,10 @@ class Connections(msgspec.Struct):
         """`port` is None for a program, of which nothing but the proxy's name is known."""
         interface = port.interface.name if port else pair.name
         if is_proxy(pair.text):
-            draft.proxies[pair.name] = Given(pair.text, pair.span)
-            self.found.append(Connection(draft.name, pair.name, interface, "", proxy=pair.text, span=pair.span))
+            self.diagnostics += _faults(draft, pair)
+            proxy = pair.text.strip(BLANKS)  # they mean nothing there, and no property's value can end with a tab
+            draft.proxies[pair.name] = Given(proxy, pair.span)
+            self.found.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
             return
         target = self.targets.named(draft, pair)
         if target is None:
@@ -170,7 +177,25 @@ class Connections(msgspec.Struct):
 
 def is_proxy(text: str) -> bool:
     """Whether `connect:` names something outside, by its proxy."""
-    return any(char in text for char in ":@ ")
+    return text[:1] in "\"'" or any(char in text for char in f":@{BLANKS}")
+
+
+def _faults(draft: Draft, pair: Pair) -> Iterator[Diagnostic]:
+    """What Ice would refuse, and what it would pass over."""
+    try:
+        found = parse_proxy(pair.text)
+    except Refused as refused:
+        usual = f'a proxy is spelled as Ice has it: `"{pair.name.lower()}:tcp -h HOST -p PORT"`'
+        yield codes.BAD_PROXY.at(
+            ice_texts.place(draft, pair.span, pair.text, refused), text=pair.text, problem=refused.problem,
+            hint=ice_texts.hint(draft, pair.text, refused, usual),
+        )
+        return
+    for unknown in found.unknown:
+        yield codes.PASSED_OVER.at(
+            ice_texts.place(draft, pair.span, pair.text, unknown), problem=unknown.problem,
+            hint=ice_texts.hint(draft, pair.text, unknown, ""),
+        )
 
 
 def _may_be_absent(port: Port | None) -> bool:

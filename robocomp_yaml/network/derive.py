@@ -18,6 +18,7 @@ from robocomp_yaml.network.draft import Draft
 from robocomp_yaml.network.drafts import Drafts, drafts_of
 from robocomp_yaml.network.endpoints import endpoint_faults
 from robocomp_yaml.network.gates import Gates
+from robocomp_yaml.network.lengths import length_faults
 from robocomp_yaml.network.network import FOLDER, Network
 from robocomp_yaml.network.order import AFTER, Need, optional, ordered
 from robocomp_yaml.network.targets import Targets
@@ -64,6 +65,7 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
             diagnostics += configuration.diagnostics
             text = configuration.text
         network.processes[draft.name] = processes.of_draft(draft, text, known)
+    diagnostics += length_faults(linked, drafts, network)
     diagnostics += _put_in_order(network, needs)
     return network, diagnostics
 

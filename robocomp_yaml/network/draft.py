@@ -7,9 +7,10 @@ import msgspec
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedInstance, LinkedStorm
 from robocomp_yaml.link.program import Port
-from robocomp_yaml.network.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
 from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
+from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
+from robocomp_yaml.source.ice_options import BLANKS
 
 MANAGER, PUBLISH = "TopicManager", "Publish"
 STORM_INSTANCE = "IceStorm"
@@ -54,7 +55,7 @@ class Offer(msgspec.Struct, eq=False):
     @property
     def text(self) -> str:
         """The value of the adapter's property."""
-        return self.given or listening(self.owner.host, self.number)
+        return self.given.strip(BLANKS) or listening(self.owner.host, self.number)
 
     @property
     def proxy(self) -> str:

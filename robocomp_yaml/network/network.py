@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import msgspec
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.model.located import Located
 
 COMPONENT, PROGRAM, ICESTORM = "component", "program", "icestorm"
@@ -119,9 +120,10 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     """What only an exporter needs: the entries of `x-rcmanager`; below `aliases`, those of its other names."""
     span: Span = Span("")
 
-
-CONFIG = "{config}"
-"""In an argument of a command: the path of the process's configuration."""
+    def words(self, config: str) -> tuple[str, ...]:
+        """The program and its arguments; `config` is where its configuration will be."""
+        program, *arguments = self.command
+        return program, *(word.replace(CONFIG, config) for word in arguments)
 
 
 class Connection(Located, frozen=True):

@@ -36,7 +36,7 @@ def of_draft(draft: Draft, text: str | None, known: dict[str, tuple[str, ...]]) 
     if component is not None and entry.cwd is not None:
         folder = os.path.abspath(os.path.join(os.path.dirname(instance.document.path), entry.cwd.text))
     command = tuple(_command(draft, program))
-    is_told = any(CONFIG in part for part in command)
+    is_told = any(CONFIG in part for part in command[1:])
     return Process(
         draft.name, draft.host.name, command, folder, PROGRAM if component is None else COMPONENT,
         env=tuple(Variable(one.name, one.value, one.source) for one in entry.env),

@@ -7,6 +7,7 @@ the user's words is made. A subschema's `errorMessage` (yaml-language-server sho
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from collections.abc import Sequence as Path
 from functools import cache
@@ -25,6 +26,18 @@ _IN_WORDS = {
     "array": "a list", "object": "a mapping", "null": "nothing",
 }
 NAME = "^[A-Za-z_][A-Za-z0-9_]*$"
+_NO_NUL = "^[^\\u0000]*$"
+_LINE = "^[^\\u0000-\\u001f\\u007f-\\u009f\\u2028\\u2029]*$"
+_LINE_OF_ICE = "^[^\\u0000-\\u0008\\u000a-\\u001f\\u007f-\\u009f\\u2028\\u2029]*$"
+_NEVER = {pattern: re.compile(pattern[1:-2].replace("[^", "[")) for pattern in (_NO_NUL, _LINE, _LINE_OF_ICE)}
+"""The schemas' patterns of texts that cannot hold some characters, and these."""
+
+_CALLED = {
+    "\0": "a NUL", "\n": "a line break", "\r": "a carriage return", "\t": "a tab", "\x1b": "an escape character",
+    "\u0085": "a line break", "\u2028": "a line break", "\u2029": "a line break",
+}  # fmt: skip
+_ENDS_A_LINE = "\n\v\f\r\x85\u2028\u2029"
+_AT_END = "; behind `|-` and `>-` the last line break does not count"
 _APPLICATORS = frozenset(("allOf", "anyOf", "oneOf", "then", "else", "if"))
 
 
@@ -100,9 +113,25 @@ def _explain(
             if kind.name == "pattern" and facts["pattern"] == NAME and isinstance(node, Scalar):
                 yield codes.WRONG_NAME.at(node.span, name=node.lexeme, hint=_name_hint(node.lexeme))
                 return
+            if kind.name == "pattern" and facts["pattern"] in _NEVER and isinstance(node, Scalar):
+                yield _impossible(facts["pattern"], node, place, span=_span(node, key))
+                return
             problem = message or _in_words(kind.name, facts, node, place)
             span = key.span if forbidden and key else _span(node, key)
             yield codes.WRONG_SHAPE.at(span, problem=problem, hint=_nearest(facts.get("options"), node))
+
+
+def _impossible(pattern: str, node: Scalar, place: Path[str | int], *, span: Span) -> Diagnostic:
+    """A text with a character that it cannot hold."""
+    found = _NEVER[pattern].search(node.lexeme)
+    assert found is not None
+    names = [step for step in place if isinstance(step, str)]
+    is_at_end = found[0] == "\n" and found.end() == len(node.lexeme)
+    hint = "it is one line of text" + (_AT_END if is_at_end else "") if found[0] in _ENDS_A_LINE else "leave it out"
+    return codes.IMPOSSIBLE.at(
+        span, key=names[-1] if names else "the document", what=_CALLED.get(found[0], "a control character"),
+        character=f"U+{ord(found[0]):04X}", hint=hint,
+    )
 
 
 def _unknown_key(

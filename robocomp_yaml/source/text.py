@@ -18,6 +18,10 @@ MAX_SCALAR = 1 << 20
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
 
 
+OF_NO_LINE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029]")
+"""What a text of one line cannot hold, as the schemas have it: control characters, and what ends a line somewhere."""
+
+
 def size_in_words(size: int) -> str:
     return f"{size / (1 << 20):.1f} MiB" if size >= 1 << 20 else f"{size / 1024:.1f} KiB"
 

@@ -6,15 +6,22 @@ import os
 from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import cdsl as codes
+from robocomp_yaml.diag.codes.files import NAME_TOO_LONG
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
+from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, shortened
 
+_LONGEST_SUFFIX = "_autogen"  # the folder of what CMake makes for Qt
 LISTS = ("implements", "requires", "publishes", "subscribes")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     folders: dict[str, LinkedComponent] = {}
     for linked in sorted(program.components.values(), key=lambda c: c.component.path):
+        component = linked.component
+        if is_too_long(component.name + _LONGEST_SUFFIX):
+            limit = LONGEST_NAME - len(_LONGEST_SUFFIX)
+            yield NAME_TOO_LONG.at(component.span, name=shortened(component.name), limit=limit, hint="shorten it")
         yield from _names(linked)
         yield from _topics(linked)
         folder = os.path.dirname(linked.component.path)

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.network.draft import is_loopback
-from robocomp_yaml.network.ice_endpoint import parse_endpoint
 from robocomp_yaml.network.network import LOOPBACK, Endpoint, Network, Process
+from robocomp_yaml.source.ice_endpoint import parse_endpoint
 
 
 def check(network: Network) -> Iterator[Diagnostic]:

@@ -6,14 +6,22 @@ import os
 from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import values as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.codes.files import BAD_ICE_TEXT
+from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, has_errors
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.attachments import leads_to
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
+from robocomp_yaml.source.ice_endpoint import parse_endpoints
+from robocomp_yaml.source.ice_options import Refused
+from robocomp_yaml.source.ice_proxy import parse_proxy
+from robocomp_yaml.source.properties import unquoted
+from robocomp_yaml.source.tree import Mapping, Node, Scalar
 from robocomp_yaml.values.effective import Effective, document_faults, effective
 from robocomp_yaml.values.harmless import is_harmless
 from robocomp_yaml.values.properties import properties
+
+_SUCH_AS = {"endpoint": "tcp -p 10001", "proxy": '"mouth:tcp -h localhost -p 10002"'}
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -23,6 +31,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def of_document(linked: LinkedValues, *, complete: bool = False) -> Iterator[Diagnostic]:
     """`complete`: to be judged as the values of a component even where another document builds on it."""
+    yield from _texts_of_ice(linked)
     if linked.parameters is None:
         if not linked.is_extended and not linked.document.component and not linked.broken:
             yield codes.NO_COMPONENT.at(linked.document.root.span)
@@ -38,6 +47,36 @@ def of_document(linked: LinkedValues, *, complete: bool = False) -> Iterator[Dia
     yield from found
     if values is not None and not has_errors(found) and not is_plain(linked, values):
         yield from properties(linked, values)[1]
+
+
+def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
+    """Endpoints and proxies that Ice would refuse."""
+    root = linked.document.root
+    manager = root.get("topics")
+    texts = [("endpoint", node, parse_endpoints) for node in _own(root.get("endpoints"))]
+    texts += [("proxy", node, parse_proxy) for node in _own(root.get("proxies"))]
+    texts += [("proxy", manager.get("manager"), parse_proxy)] if isinstance(manager, Mapping) else []
+    for what, node, parse in texts:
+        node = node.get("proxy") if isinstance(node, Mapping) else node
+        if not isinstance(node, Scalar) or node.data is None:
+            continue
+        text = unquoted(node.lexeme)
+        try:
+            parse(text)
+        except Refused as refused:
+            meant = suggest(text[refused.start : refused.end], refused.meant)
+            told = BAD_ICE_TEXT.at(
+                node.span.inside(text, refused.start, refused.end), what=what, text=text, problem=refused.problem,
+                hint=f"did you mean '{meant}'?" if meant else f"such as {_SUCH_AS[what]}",
+            )
+            yield told.as_severity(WARNING) if "legacy" in root.entries else told
+
+
+def _own(section: Node | None) -> Iterator[Node]:
+    """The values of a section, but for those under `x-…`."""
+    for name, node in section.items() if isinstance(section, Mapping) else ():
+        if not name.lexeme.startswith("x-"):
+            yield node
 
 
 def is_only_layer(linked: LinkedValues) -> bool:

@@ -180,6 +180,18 @@ BAD_PATTERN = Code(
     deployed("components:\n" + _MOVES + "  laser: {program: sleep, args: [1], ready: {log: 'ready \\('}}\n"),
     _CHECK,
 )
+CONFIG_AS_PROGRAM = Code(
+    "RC4017",
+    "error",
+    "'{text}' cannot be what is started: {{config}} is a configuration's path, which only arguments can have",
+    "In an argument, `{{config}}` stands for the path of the configuration that is derived for the process. What is "
+    "started is a program; one that reads its configuration as a script gets it as an argument.",
+    deployed("components:\n" + _MOVES + "  laser: {program: '{config}', config: mouth/etc/config}\n")
+    | {"mouth/etc/config": "Mouth.Speed=1\n"},
+    deployed("components:\n" + _MOVES + "  laser: {program: sh, args: ['{config}'], config: etc/config}\n")
+    | {"etc/config": "Mouth.Speed=1\n"},
+    _CHECK,
+)
 NO_COMPONENT = Code(
     "RC4101",
     "error",

@@ -203,6 +203,39 @@ TWO_KINDS = Code(
     _wrong("module: RoboCompSpeech\ntypes:\n  Words: {sequence: string, enum: [one, two]}\n"),
     {"Speech.idsl.yaml": "module: RoboCompSpeech\ntypes:\n  Words: {sequence: string}\n"},
 )
+IMPOSSIBLE = Code(
+    "RC0209",
+    "error",
+    "'{key}' cannot hold {what} ({character})",
+    "Paths, programs, names, endpoints and the like are one line of text: they end up in units, scripts, property "
+    "files and command lines, where a line break would begin another line. They hold no control characters either "
+    "(U+0000 to U+001F, U+007F to U+009F, the line separators U+2028 and U+2029). Arguments and variables of the "
+    "environment may hold anything but a NUL, which no program can be given.",
+    _wrong('imports: ["Common\\nTypes"]\nmodule: RoboCompSpeech\n'),
+    {"Speech.idsl.yaml": "imports: [CommonTypes]\nmodule: RoboCompSpeech\n",
+     "CommonTypes.idsl.yaml": "module: CommonTypes\n"},
+)
+NAME_TOO_LONG = Code(
+    "RC0210",
+    "error",
+    "'{name}' is too long a name: a file is called after it, and its name may have {limit} bytes at most",
+    "A component's executable, and what builds it, are called after the component. Names of files have up to 255 "
+    "bytes; some are taken by what is put behind the component's name, such as `_autogen`.",
+    {"a.cdsl.yaml": f"component: {'A' * 250}\nlanguage: python\n"},
+    {"a.cdsl.yaml": f"component: {'A' * 200}\nlanguage: python\n"},
+)
+BAD_ICE_TEXT = Code(
+    "RC0208",
+    "error",
+    "'{text}' is no {what} of Ice: {problem}",
+    "Under `endpoints:`, `proxies:` and `topics: manager:` of a values document stand texts that Ice reads when the "
+    "component starts; what it would refuse then is refused here. Protocols of its plug-ins (ssl, wss, bt) count as "
+    "known. In a document that `rcyaml migrate` wrote this is a warning, since the file that it was made of said so.",
+    {"etc/config.yaml": "component: ../a.cdsl.yaml\nendpoints: {CommonBehavior: tcp -q 10001}\n",
+     "a.cdsl.yaml": "component: A\nlanguage: python\n"},
+    {"etc/config.yaml": "component: ../a.cdsl.yaml\nendpoints: {CommonBehavior: tcp -p 10001}\n",
+     "a.cdsl.yaml": "component: A\nlanguage: python\n"},
+)
 WORKSPACE_SETTING = Code(
     "RC0301",
     "warning",

@@ -150,10 +150,72 @@ TOPIC_MISMATCH = Code(
 BAD_ENDPOINT = Code(
     "RC4301",
     "error",
-    "{name} cannot be served at '{text}'",
-    "Endpoints are spelled as Ice does: a protocol (tcp, udp, ssl, ws or wss) and a fixed port.",
+    "{name} cannot be served at '{text}': {problem}",
+    "Endpoints are spelled as Ice spells them: a protocol (tcp, udp, ssl, ws or wss) with its options, which are "
+    "checked as Ice would check them, and here a fixed port, which the others are told. A program that is none of Ice "
+    "gets texts of any kind by `args:` and `env:`.",
     deployed(_BOTH + "  laser: {program: sh, endpoints: {Laser: tcp}}\n"),
     deployed(_BOTH + "  laser: {program: sh, endpoints: {Laser: tcp -p 10003}}\n"),
+    _CHECK,
+)
+BAD_PROXY = Code(
+    "RC4015",
+    "error",
+    "'{text}' is no proxy: {problem}",
+    "What is outside of the deployment is named by its proxy, as Ice spells it: an identity, options such as `-o`, and "
+    "endpoints (`mouth:tcp -h 10.0.0.9 -p 10002`) or an adapter (`mouth @ Head`). What Ice would refuse when the "
+    "component starts is refused here; protocols of its plug-ins (ssl, wss, bt) count as known. A program that is none "
+    "of Ice gets texts of any kind by `args:` and `env:`.",
+    deployed("components:\n" + _SPEAKS.replace("h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -q 10002"}}')),
+    deployed("components:\n" + _SPEAKS.replace("h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -p 10002"}}')),
+    _CHECK,
+)
+PASSED_OVER = Code(
+    "RC4016",
+    "warning",
+    "Ice passes over this endpoint: {problem}",
+    "Of a proxy's endpoints Ice uses those whose protocol it knows; the others it mentions in a log when the component "
+    "starts.",
+    deployed("components:\n" + _SPEAKS.replace(
+        "h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -p 10002:tpc -h 10.0.0.8 -p 10002"}}'
+    )),
+    deployed("components:\n" + _SPEAKS.replace(
+        "h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -p 10002:tcp -h 10.0.0.8 -p 10002"}}'
+    )),
+    _CHECK,
+)
+NOT_IN_THIS_FORM = Code(
+    "RC4018",
+    "warning",
+    "'{name}' cannot be exported to {form} as it is: {reason}",
+    "Not every tool can be told everything: a control character in an argument has no spelling in XML, and a key under "
+    "`x-rcmanager:` becomes the name of an element. Another sign stands there instead. What could become more than a "
+    "text, such as a line of its own in a unit, is an error, and nothing is exported. `rcyaml deploy up` runs it as it "
+    "is.",
+    deployed('components:\n' + _MOVES + '  laser: {program: sleep, args: ["1", "\\e[0m"]}\n'),
+    deployed("components:\n" + _MOVES + "  laser: {program: sleep, args: ['1']}\n"),
+    "deploy export head.ddsl.yaml --as icegrid -o out",
+)
+NAME_TOO_LONG = Code(
+    "RC4109",
+    "error",
+    "the {what} '{name}' has too long a name: its file '{file}' would have a name of {size} bytes, and {limit} are the "
+    "most",
+    "Logs, configurations and units are called after what they belong to, and systems take names of files up to 255 "
+    "bytes. The longest is that of a unit for systemd, DEPLOYMENT-ENTRY.service; an entry of an include has the names "
+    "of all includes before its own.",
+    deployed(_BOTH + f"  {'l' * 250}: {{program: sleep, args: [1]}}\n"),
+    deployed(_BOTH + f"  {'l' * 200}: {{program: sleep, args: [1]}}\n"),
+    _CHECK,
+)
+PATH_TOO_LONG = Code(
+    "RC4110",
+    "error",
+    "no file can have the path '{path}': {problem}",
+    "Systems take names of files up to 255 bytes, and paths up to 4095; letters other than those of English have two "
+    "bytes or more.",
+    deployed(_BOTH + f"  laser: {{program: sleep, args: [1], cwd: {'c' * 300}}}\n"),
+    deployed(_BOTH + "  laser: {program: sleep, args: [1], cwd: mouth}\n"),
     _CHECK,
 )
 PORT_TOO_HIGH = Code(

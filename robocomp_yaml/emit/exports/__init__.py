@@ -9,6 +9,10 @@ import importlib
 import pkgutil
 from typing import TYPE_CHECKING
 
+from robocomp_yaml.emit.exports import _unwritable
+from robocomp_yaml.emit.exports._unwritable import Unwritable as Unwritable
+from robocomp_yaml.emit.exports._unwritable import noted as noted
+
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
@@ -19,8 +23,10 @@ def forms() -> list[str]:
 
 
 def export(network: Network, form: str) -> dict[str, str]:
-    """The files that another tool runs the network from, by their relative paths; `form` is one of `forms()`."""
+    """The files that another tool runs the network from, by their relative paths; `form` is one of `forms()`. Raises
+    Unwritable where the form cannot say what the network has; what is only written otherwise is `noted`."""
     if form not in forms():
         raise ValueError(f"there is no form '{form}'")
-    files: dict[str, str] = importlib.import_module(f"{__name__}.{form}").export(network)
+    with _unwritable.of(network):
+        files: dict[str, str] = importlib.import_module(f"{__name__}.{form}").export(network)
     return files

@@ -1,4 +1,4 @@
-"""What every form needs of a process: its words with the path of its configuration, and its name as a file's."""
+"""What every form needs of a process: its words, and its name as a file's."""
 
 from __future__ import annotations
 
@@ -8,14 +8,10 @@ from collections.abc import Iterator
 from robocomp_yaml.network.network import CONFIG, Network, Process
 
 
-def words(process: Process, config: str) -> tuple[str, ...]:
-    """The program and its arguments; `config` is where its configuration will be."""
-    return tuple(word.replace(CONFIG, config) for word in process.command)
-
-
 def without_config(process: Process) -> tuple[str, ...]:
     """The program and its arguments but for that which names its configuration."""
-    return tuple(word for word in process.command if CONFIG not in word)
+    program, *arguments = process.command
+    return program, *(word for word in arguments if CONFIG not in word)
 
 
 def file_name(name: str) -> str:

@@ -10,7 +10,7 @@ import os
 import re
 from collections.abc import Iterable
 
-from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, words
+from robocomp_yaml.emit.exports._commands import by_host, configs, file_name
 from robocomp_yaml.network.network import ALWAYS, COMPONENT, ICESTORM, NEVER, Network, Process
 from robocomp_yaml.values.spell_yaml import quoted
 
@@ -34,7 +34,7 @@ def export(network: Network) -> dict[str, str]:
 
 def _service(process: Process, here: dict[str, Process]) -> list[str]:
     inside = f"{_INSIDE}/{os.path.basename(process.config.path)}" if process.config else ""
-    program, *arguments = words(process, inside)
+    program, *arguments = process.words(inside)
     lines = [
         f"{quoted(file_name(process.name))}:", f"  image: {quoted(_IMAGE)}", '  network_mode: "host"', "  init: true",
         *_list("entrypoint", [program]), *_list("command", arguments), f"  restart: {quoted(_restart(process))}",
@@ -113,5 +113,5 @@ def _text(text: str) -> str:
 
 
 def _project(name: str) -> str:
-    """Compose's names of projects have small letters."""
-    return file_name(name).lower().replace(".", "_")
+    """Compose's names of projects have small letters, and begin with one or a digit."""
+    return file_name(name).lower().replace(".", "_").lstrip("_-") or "deployment"

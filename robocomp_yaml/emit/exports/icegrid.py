@@ -6,6 +6,7 @@ anywhere. IceGrid knows no order of starting and no readiness: all servers start
 
 from __future__ import annotations
 
+from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import file_name, without_config
 from robocomp_yaml.emit.exports._xml import HEAD, element
 from robocomp_yaml.network.network import CONFIG, ICESTORM, NEVER, PROGRAM, Network, Process
@@ -32,7 +33,11 @@ _MAKE_FOLDERS = 'while [ "$1" != -- ]; do mkdir -p "$1" || exit 1; shift; done; 
 def export(network: Network) -> dict[str, str]:
     nodes: list[str] = []
     for host in network.hosts:
-        servers = [line for process in network.processes.values() if process.host == host for line in _server(process)]
+        servers: list[str] = []
+        for process in network.processes.values():
+            if process.host == host:
+                with _unwritable.of(process):
+                    servers += _server(process)
         if servers:
             nodes += element("node", {"name": host}, servers)
     application = element("application", {"name": network.name}, nodes)

@@ -10,9 +10,12 @@ import re
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
-from robocomp_yaml.emit.exports._commands import file_name, words
+from robocomp_yaml.emit.exports import _unwritable
+from robocomp_yaml.emit.exports._commands import file_name
 from robocomp_yaml.emit.exports._xml import HEAD, element
 from robocomp_yaml.network.network import CONFIG, ICESTORM, LOOPBACK, Network, Process
+from robocomp_yaml.source.ice_endpoint import spelled_host
+from robocomp_yaml.source.ice_proxy import proxy_at
 
 _ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
@@ -30,7 +33,6 @@ _GENERAL = {
     "simulation": {"hookes": "0.07", "springlength": "0.5", "friction": "0.4", "step": "0.5", "fieldforce": "20000.0"},
 }
 _SPACE = 100
-_PORT = re.compile(r"-p\s+([0-9]+)")
 _SPECIAL = re.compile(r"[][\\.*+?^${}()|]")
 _LOCAL = (LOOPBACK, "127.0.0.1", "::1")
 
@@ -69,9 +71,9 @@ class _Exporter:
         for key, value in (given or {"generalInformation": _GENERAL}).items():
             yield from _generic(key, value)
         for process in self.network.processes.values():
-            yield from self.node(process, process.name, 0)
-            for number, alias in enumerate(process.aliases, 1):
-                yield from self.node(process, alias, number)
+            with _unwritable.of(process):
+                for number, name in enumerate((process.name, *process.aliases)):
+                    yield from self.node(process, name, number)
         for name in self.nodes:
             if name not in self.owners:
                 kept = self.of(name)
@@ -93,13 +95,13 @@ class _Exporter:
 
     def endpoint(self, process: Process, kept: Kept, number: int) -> str:
         given = _text(kept.get("endpoint"))
-        said = _PORT.search(given)
-        ports = [endpoint.port for endpoint in process.endpoints]
-        if "endpoint" in kept and (said is None or int(said[1]) in ports):
+        said = proxy_at(given)
+        ports = {endpoint.port for endpoint in process.endpoints}
+        if "endpoint" in kept and (said is None or not {one.port for one in said.endpoints} - ports):
             return given
         found = [endpoint for endpoint in process.endpoints if endpoint.identity][number : number + 1]
         address = self.network.address(process)
-        return "".join(f"{one.identity}:{one.protocol} -h {address} -p {one.port}" for one in found)
+        return "".join(f"{one.identity}:{one.protocol} -h {spelled_host(address)} -p {one.port}" for one in found)
 
     def dependences(self, process: Process, name: str, kept: Kept) -> list[str]:
         """Those that the file had, names and all, where they are kept; and whatever else the process waits for."""
@@ -111,7 +113,7 @@ class _Exporter:
         return [*given, *(self.aliases[other] for other in process.after if other not in meant)]
 
     def command(self, process: Process, name: str) -> str:
-        told = shlex.join(words(process, self.network.config_path(process)))
+        told = shlex.join(process.words(self.network.config_path(process)))
         return f"rcremote {self.network.address(process)} {file_name(name)} {shlex.quote(process.cwd)} {told}"
 
     def pattern(self, process: Process, config: str) -> str:

@@ -14,6 +14,7 @@ from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
 from robocomp_yaml.legacy.networks.components import Known, match
 from robocomp_yaml.legacy.networks.entries import COMMON, Site, component_entry, program_entry
 from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+from robocomp_yaml.source.text import OF_NO_LINE
 
 _IP = re.compile(r"[\d.:]+")
 
@@ -75,9 +76,12 @@ class _Builder(msgspec.Struct, eq=False):
     def is_started(self, node: Node) -> bool:
         if node.command is None:
             reason = "it has no command that names a program"
-            self.said.append(codes.NOT_STARTED.at(node.span, name=node.alias, reason=reason))
-            return False
-        return True
+        elif any(map(OF_NO_LINE.search, (node.command.folder, node.command.words[0], node.command.config))):
+            reason = "a line break or another control character stands in its program, folder or configuration"
+        else:
+            return True
+        self.said.append(codes.NOT_STARTED.at(node.span, name=node.alias, reason=reason))
+        return False
 
     def find_owners(self, running: Sequence[Node]) -> None:
         first: dict[tuple[object, ...], Node] = {}
@@ -127,7 +131,10 @@ class _Builder(msgspec.Struct, eq=False):
             self.said.append(codes.NO_PROGRAM.at(node.span, name=node.alias, word=command.words[0]))
         if endpoint is None:
             if node.endpoint_span.file:
-                problem = f"the endpoint of '{node.alias}' is no address with a port, so nothing says where it answers"
+                problem = (
+                    f"the endpoint of '{node.alias}' is no address with a port, or no interface can have its name, so "
+                    "nothing says where it answers"
+                )
                 self.said.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
             return
         host = LOCAL if endpoint.host in LOOPBACK else endpoint.host

@@ -6,9 +6,13 @@ import re
 
 import msgspec
 
+from robocomp_yaml.source.ice_endpoint import spelled_host
+from robocomp_yaml.source.ice_proxy import proxy_at
+from robocomp_yaml.source.text import OF_NO_LINE
+
 TOPIC_MANAGER = "IceStorm/TopicManager"
-_PROXY = re.compile(r"\s*(?P<identity>[^\s:@]+)\s*:\s*(?P<protocol>tcp|udp|ssl|default|ws|wss)\b(?P<options>[^:]*)")
-_OPTION = re.compile(r"-(?P<name>\w+)(?:\s+(?P<value>[^\s-]\S*))?")
+_INTERFACE = re.compile(r"[_A-Za-z][A-Za-z0-9_]*(\.[A-Za-z0-9_]+)?")  # a key of `endpoints:`
+_PROTOCOLS = frozenset(("tcp", "udp", "ssl", "default", "ws", "wss"))
 
 
 class Endpoint(msgspec.Struct, frozen=True):
@@ -33,24 +37,18 @@ class Endpoint(msgspec.Struct, frozen=True):
     def proxy(self, host: str) -> str:
         """How others on any host find it: the spelling that needs not be kept."""
         more = f" {self.options}" if self.options else ""
-        return f"{self.identity}:{self.protocol} -h {host} -p {self.port}{more}"
+        return f"{self.identity}:{self.protocol} -h {spelled_host(host)} -p {self.port}{more}"
 
 
 def parse(text: str) -> Endpoint | None:
-    """None for what is no proxy with one address, or names no port."""
-    found = _PROXY.fullmatch(text)
-    if found is None:
+    """None for what is no proxy with one address, names no port, or has an identity that no interface can have."""
+    found = proxy_at(text)
+    if found is None or found.options or found.unknown or len(found.endpoints) != 1:
         return None
-    host, port, more = "", "", list[str]()
-    for option in _OPTION.finditer(found["options"]):
-        value = option["value"] or ""
-        match option["name"]:
-            case "h":
-                host = value
-            case "p":
-                port = value
-            case _:
-                more.append(option[0])
-    if not re.fullmatch(r"[0-9]{1,5}", port) or not 0 < int(port) < 65536:
+    where = found.endpoints[0]
+    is_name = found.identity == TOPIC_MANAGER or _INTERFACE.fullmatch(found.identity)
+    if not is_name or where.protocol not in _PROTOCOLS or not where.port:
         return None
-    return Endpoint(found["identity"], found["protocol"], int(port), host, " ".join(more))
+    if "--sourceAddress" in where.options or OF_NO_LINE.search(where.options):  # nothing that an adapter can have
+        return None
+    return Endpoint(found.identity, where.protocol, where.port, where.host, where.options)

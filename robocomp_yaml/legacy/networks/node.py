@@ -13,6 +13,7 @@ from robocomp_yaml.legacy.networks.command import Command
 from robocomp_yaml.legacy.networks.endpoint import Endpoint
 
 _NO_NAME = re.compile(r"[^A-Za-z0-9_-]+[^A-Za-z0-9_]*")
+_LONGEST = 100
 
 
 class Node(msgspec.Struct, eq=False):
@@ -49,6 +50,7 @@ def safe_name(text: str, taken: Collection[str] = ()) -> str:
     """A name that documents, files and other programs take: letters, digits, '_' and '-', and none of `taken`."""
     bare = _NO_NAME.sub("_", text).strip("_-") or "node"
     bare = bare if bare[0].isalpha() else f"n{bare}"
+    bare = bare[:_LONGEST]  # files are called after it
     name, number = bare, 2
     while name in taken:
         name, number = f"{bare}_{number}", number + 1

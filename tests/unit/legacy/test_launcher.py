@@ -86,3 +86,22 @@ def test_what_is_refused(rcyaml: Run, tmp_path: Path, text: str, code: str) -> N
     assert result.exit_code == 1 and f"error[{code}]" in result.output, result.output
     assert not (tmp_path / "sub.ddsl.yaml").exists()
     assert "[other]" not in text or result.output.count("error[") == 1
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        'cwd = "/opt/a\\nb"\ncmd = "bin/a"', 'cwd = "/opt/a"\ncmd = "\'bin/a\\u001bb\' x"',
+        'cwd = "/opt"\ncmd = "bin/a"\nice_name = "room/lamp:tcp -p 10003"',
+        'cwd = "/opt"\ncmd = "bin/a"\nice_name = "lamp:tcp -p 10003 -q"',
+        'cwd = "/opt"\ncmd = "bin/a"\nice_name = "lamp:tcp -p 10003 --sourceAddress 127.0.0.1"',
+        'cwd = "/opt"\ncmd = "bin/a"\nice_name = "lamp:tcp -p 10003 -r \'/a\\nb\'"',
+        'cwd = "/opt"\ncmd = "bin/a \'x\\ny\'"\nice_name = "lamp:ws -p 10003 -t 5 -z -r \\"/a b\\""',
+    ],
+)
+@pytest.mark.parametrize("name", ["lamp", "l" * 300])
+def test_what_is_written_of_odd_texts_is_right(rcyaml: Run, tmp_path: Path, name: str, lines: str) -> None:
+    (tmp_path / "robot.toml").write_text(f'[[component]]\nname = "{name}"\n{lines}\n', encoding="utf-8")
+    assert rcyaml("migrate", "robot.toml").exit_code == 0
+    result = rcyaml("check", "--format", "json", ".")
+    assert result.exit_code == 0, result.output

@@ -14,6 +14,7 @@ import pytest
 
 from robocomp_yaml import resources
 from robocomp_yaml.source import tree
+from robocomp_yaml.source.schema import validate
 
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")
 EDITOR = Path(__file__).resolve().parents[2] / "editor"
@@ -194,3 +195,42 @@ def mutants(value: Any) -> Iterator[Any]:
         for index, old in enumerate(value):
             for new in (*ODD, *mutants(old)):
                 yield [*value[:index], new, *value[index + 1 :]]
+
+
+@pytest.mark.parametrize(
+    ("kind", "text"),
+    [
+        ("ddsl", "deployment: R\ncomponents: {a: {program: TEXT}}\n"),
+        ("ddsl", "deployment: R\ncomponents: {a: {program: x, cwd: TEXT, endpoints: {A: tcp -p 1}}}\n"),
+        ("ddsl", "deployment: R\ncomponents: {a: {program: x, endpoints: {A: TEXT}}}\n"),
+        ("ddsl", "deployment: R\ncomponents: {a: {program: x, connect: {A: TEXT}}}\n"),
+        ("ddsl", "deployment: R\ncomponents: {a: {component: TEXT}}\n"),
+        ("ddsl", "deployment: R\ncomponents: {a: {component: x, executable: TEXT}}\n"),
+        ("ddsl", "deployment: R\ncomponents: {a: {program: x, ready: {log: TEXT}}}\n"),
+        ("ddsl", "deployment: R\ninclude: [TEXT]\n"),
+        ("cdsl", "component: C\nlanguage: python\nparameters: TEXT\n"),
+        ("cdsl", "component: C\nlanguage: python\nimports: [TEXT]\n"),
+        ("config", "extends: [TEXT]\n"),
+        ("pdsl", "component: TEXT\n"),
+        ("pdsl", "parameters: {a: {type: int, unit: TEXT}}\n"),
+        ("idsl", "module: M\nimports: [TEXT]\n"),
+        ("workspace", "interfaces: [TEXT]\n"),
+    ],
+)
+def test_texts_of_one_line(kind: str, text: str) -> None:
+    for sign in "\n\r\0\v\f\x1b\x7f\x85\u2028\u2029":
+        root, _ = tree.parse("x", text.replace("TEXT", json.dumps(f"a{sign}b").replace("\x7f", "\\x7f")))
+        assert root is not None
+        (fault,) = (found for found in validate(kind, root) if found.code == "RC0209")
+        assert f"U+{ord(sign):04X}" in fault.message and fault.span.line == text.count("\n", 0, text.index("TEXT")) + 1
+    root, _ = tree.parse("x", text.replace("TEXT", '"a é😀 b"'))
+    assert root is not None and "RC0209" not in [found.code for found in validate(kind, root)]
+
+
+def test_arguments_and_variables_hold_all_but_nul() -> None:
+    texts = "args: [TEXT], env: {A: TEXT}, ready: {command: [TEXT]}"
+    for sign, count in (("\n", 0), ("\x1b", 0), ("\u2028", 0), ("\0", 3)):
+        text = f"deployment: R\ncomponents: {{a: {{program: x, {texts}}}}}\n".replace("TEXT", json.dumps(f"a{sign}"))
+        root, _ = tree.parse("x", text)
+        assert root is not None
+        assert [found.code for found in validate("ddsl", root)] == ["RC0209"] * count

@@ -1,0 +1,21 @@
+"""What is wrong with proxies and endpoints that a deployment's document spells, and what it says instead."""
+
+from __future__ import annotations
+
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.network.draft import Draft
+from robocomp_yaml.source.ice_options import Refused
+
+_ANY_TEXT = "what is for a program that is none of Ice, and may be any text, stands under `args:` or `env:`"
+
+
+def place(draft: Draft, span: Span, text: str, refused: Refused) -> Span:
+    """Where the fault is. The text of an instance is not as the document has it: `{i}` is filled in."""
+    return span if draft.instance.number is not None else span.inside(text, refused.start, refused.end)
+
+
+def hint(draft: Draft, text: str, refused: Refused, otherwise: str) -> str:
+    meant = suggest(text[refused.start : refused.end], refused.meant)
+    said = f"did you mean '{meant}'?" if meant else otherwise
+    return said if draft.instance.component is not None else f"{said}; {_ANY_TEXT}"

@@ -1,0 +1,299 @@
+"""The words of an endpoint of Ice, and the options that each protocol takes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import msgspec
+
+BLANKS = " \t\r\n"
+LAST_PORT = 65535
+
+_INT = re.compile(r"[ \t\n\v\f\r]*[-+]?[0-9]+\Z")
+_BASE64 = re.compile(r"[A-Za-z0-9+/=]+\Z")
+_DEVICE = re.compile(r"[0-9A-Fa-f]{2}(:[0-9A-Fa-f]{2}){5}\Z")
+
+
+class Refused(ValueError):
+    """Why a text is refused, and from which of its characters to which."""
+
+    def __init__(self, problem: str, start: int, end: int, meant: tuple[str, ...] = ()) -> None:
+        super().__init__(problem)
+        self.problem, self.start, self.end = problem, start, end
+        self.meant = meant
+        """What could stand there."""
+
+
+class Word(msgspec.Struct, frozen=True):
+    """A word without its quotes, and where it stands with them."""
+
+    text: str
+    start: int
+    end: int
+
+
+def words_of(text: str, start: int, end: int) -> list[Word]:
+    """As a shell has them: quotes of both kinds, anywhere in a word, and backslashes before quotes."""
+    found: list[Word] = []
+    quote, begun, opened, at = "", start, start, start
+    current: list[str] = []
+
+    def close(here: int) -> None:
+        if current:
+            found.append(Word("".join(current), begun, here))
+        current.clear()
+
+    while at < end:
+        char, following = text[at], text[at + 1 : at + 2] if at + 1 < end else ""
+        if not current and not quote:
+            begun = at
+        if not quote and char in "\"'":
+            quote, opened = char, at
+            at += 1
+            continue
+        if char == "\\" and following and following in (quote or "\"'"):
+            at += 1
+            char = following
+        elif quote and char == quote:
+            quote = ""
+            at += 1
+            continue
+        elif not quote and char in BLANKS:
+            close(at)
+            at += 1
+            continue
+        current.append(char)
+        at += 1
+    close(end)
+    if quote:
+        raise Refused("a quote is not closed", opened, end)
+    return found
+
+
+class _Ip:
+    """The options of TCP, which all but UDP have."""
+
+    takes: tuple[str, ...] = ("-h", "-p", "-t", "-z", "--sourceAddress")
+
+    def __init__(self, protocol: str, for_adapter: bool) -> None:
+        self.protocol, self.for_adapter = protocol, for_adapter
+        self.port = 0
+        self.host = ""
+        self.others: list[tuple[Word, Word]] = []
+        """The first and last word of each option but host and port."""
+        self._host_at: Word | None = None
+        self._source_at: Word | None = None
+        if protocol in ("ws", "wss"):
+            self.takes = (*self.takes, "-r")
+
+    def take(self, words: list[Word], is_known: Callable[[Word, Word | None], bool]) -> list[Word]:
+        """Reads options, each with the word behind it that is none; gives what is unknown."""
+        left: list[Word] = []
+        at = 0
+        while at < len(words):
+            option, argument = words[at], None
+            at += 1
+            if len(option.text) < 2 or option.text[0] != "-":
+                left.append(option)
+                continue
+            if at < len(words) and words[at].text[0] != "-":
+                argument = words[at]
+                at += 1
+            if not is_known(option, argument):
+                left += [option] if argument is None else [option, argument]
+            elif option.text not in ("-h", "-p"):
+                self.others.append((option, argument or option))
+        return left
+
+    def is_known(self, option: Word, argument: Word | None) -> bool:
+        if self._is_of_ip(option, argument):
+            return True
+        match option.text[1]:
+            case "t":
+                _timeout(option, argument)
+            case "z":
+                _alone(option, argument)
+            case _:
+                return False
+        return True
+
+    def _is_of_ip(self, option: Word, argument: Word | None) -> bool:
+        match option.text:
+            case "-h":
+                self._host_at = _given(option, argument)
+                self.host = self._host_at.text
+            case "-p":
+                self.port = _number(option, argument, "a port", 0, LAST_PORT)
+            case "--sourceAddress":
+                self._source_at = _given(option, argument)
+                if not _is_address(self._source_at.text):
+                    raise _wrong(self._source_at, "is no IP address")
+            case _:
+                return False
+        return True
+
+    def is_resource(self, option: Word, argument: Word | None) -> bool:
+        """Of a web socket."""
+        if option.text[1] != "r":
+            return False
+        _given(option, argument)
+        return True
+
+    def finish(self, protocol: Word) -> None:
+        if self._host_at is not None and self.host == "*" and not self.for_adapter:
+            raise _wrong(self._host_at, "stands for all interfaces, and a proxy needs one host")
+        if self._source_at is not None and self.for_adapter:
+            raise _wrong(self._source_at, "is where calls come from, which only a proxy can say")
+
+
+class _Udp(_Ip):
+    takes = ("-h", "-p", "-c", "-z", "--interface", "--ttl", "--sourceAddress")
+    _interface_at: Word | None = None
+
+    def is_known(self, option: Word, argument: Word | None) -> bool:
+        match option.text:
+            case "-c" | "-z":
+                _alone(option, argument)
+            case "-v" | "-e":
+                check_version(option, argument)
+            case "--interface":
+                self._interface_at = _given(option, argument)
+            case "--ttl":
+                _number(option, argument, "a TTL", -(1 << 31), (1 << 31) - 1)
+            case _:
+                return self._is_of_ip(option, argument)
+        return True
+
+    def finish(self, protocol: Word) -> None:
+        super().finish(protocol)
+        at = self._interface_at
+        if at is not None and at.text == "*" and not self.for_adapter:
+            raise _wrong(at, "stands for all interfaces, and a proxy needs one")
+
+
+class _Bluetooth(_Ip):
+    takes = ("-a", "-u", "-c", "-t", "-z", "--name")
+    _has_id = False
+    _channel_at: Word | None = None
+
+    def is_known(self, option: Word, argument: Word | None) -> bool:
+        if argument is not None and not argument.text.strip(BLANKS):
+            argument = None
+        match option.text:
+            case "-a":
+                word = _given(option, argument)
+                address = word.text.strip(BLANKS)
+                if not _DEVICE.match(address) and not (address == "*" and self.for_adapter):
+                    raise _wrong(word, "is no Bluetooth address")
+            case "-u":
+                _given(option, argument)
+                self._has_id = True
+            case "-c":
+                self._channel_at = argument if _number(option, argument, "a channel", 0, 30) else None
+            case "-t":
+                if argument is None or argument.text.strip(BLANKS) != "infinite":
+                    _timeout(option, argument)
+            case "-z":
+                _alone(option, argument)
+            case "--name":
+                _given(option, argument)
+            case _:
+                return False
+        return True
+
+    def finish(self, protocol: Word) -> None:
+        if not self.for_adapter and not self._has_id:
+            raise _wrong(protocol, "needs the UUID of a service, `-u UUID`")
+        if not self.for_adapter and self._channel_at is not None:
+            raise _wrong(self._channel_at, "is a channel, which only an adapter can say")
+
+
+class _Opaque(_Ip):
+    """What is inside of the bytes is not looked at."""
+
+    takes = ("-t", "-v", "-e")
+    _has_type = _has_bytes = False
+
+    def is_known(self, option: Word, argument: Word | None) -> bool:
+        match option.text[1]:
+            case "t":
+                if self._has_type:
+                    raise _wrong(option, "stands there twice")
+                self._has_type = _number(option, argument, "a type", 0, LAST_PORT) <= 32767
+            case "v":
+                word = _given(option, argument)
+                if self._has_bytes:
+                    raise _wrong(option, "stands there twice")
+                if not _BASE64.match(word.text):
+                    raise _wrong(word, "is no Base64")
+                self._has_bytes = True
+            case "e":
+                check_version(option, argument)
+            case _:
+                return False
+        return True
+
+    def finish(self, protocol: Word) -> None:
+        if not self._has_type:
+            raise _wrong(protocol, "needs a type, `-t NUMBER` up to 32767")
+        if not self._has_bytes:
+            raise _wrong(protocol, "needs its bytes in Base64, `-v BYTES`")
+
+
+PROTOCOLS: dict[str, type[_Ip]] = {
+    "tcp": _Ip, "default": _Ip, "udp": _Udp, "ssl": _Ip, "ws": _Ip, "wss": _Ip, "bt": _Bluetooth, "bts": _Bluetooth,
+    "opaque": _Opaque,
+}  # fmt: skip
+
+
+def _wrong(word: Word, problem: str) -> Refused:
+    return Refused(f"'{word.text}' {problem}", word.start, word.end)
+
+
+def _given(option: Word, argument: Word | None) -> Word:
+    if argument is None:
+        raise _wrong(option, "needs a value")
+    return argument
+
+
+def _alone(option: Word, argument: Word | None) -> None:
+    if argument is not None:
+        raise Refused(f"'{option.text}' takes no value, and has '{argument.text}'", argument.start, argument.end)
+
+
+def _number(option: Word, argument: Word | None, what: str, least: int, most: int) -> int:
+    word = _given(option, argument)
+    if not _is_in(word.text, least, most):
+        raise _wrong(word, f"is no number from {least} to {most}, as {what} is")
+    return int(word.text)
+
+
+def _is_in(text: str, least: int, most: int) -> bool:
+    found = _INT.match(text)
+    return bool(found) and len(text) < 300 and least <= int(text) <= most  # Python has a limit of its own for digits
+
+
+def _timeout(option: Word, argument: Word | None) -> None:
+    if _given(option, argument).text != "infinite":
+        _number(option, argument, "a timeout in milliseconds", 1, (1 << 31) - 1)
+
+
+def check_version(option: Word, argument: Word | None) -> None:
+    """A version such as 1.0."""
+    word = _given(option, argument)
+    major, dot, minor = word.text.partition(".")
+    if not dot or not _is_in(major, 1, 255) or not _is_in(minor, 0, 255):
+        raise _wrong(word, "is no version, such as 1.0")
+
+
+def _is_address(text: str) -> bool:
+    """As the C library has it: `127.1` is one."""
+    import socket
+
+    address, percent, scope = text.partition("%")
+    try:
+        socket.getaddrinfo(address, None, flags=socket.AI_NUMERICHOST)
+    except (OSError, UnicodeError, ValueError):
+        return False
+    return not percent or (bool(scope) and ":" in address)

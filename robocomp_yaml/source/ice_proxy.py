@@ -1,0 +1,189 @@
+"""Proxies as text, read as Ice 3.7 reads them: `lamps/left -t:tcp -h 10.0.0.9 -p 10002`, or `left @ Adapter`."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+import msgspec
+
+from robocomp_yaml.source.ice_endpoint import IceEndpoint, UnknownProtocol, read_endpoint, segments
+from robocomp_yaml.source.ice_options import BLANKS, Refused, Word, check_version
+
+_END = re.compile(f"[{BLANKS}:@]")
+_BLANK = re.compile(f"[{BLANKS}]")
+_SIGNS = {"a": "\a", "b": "\b", "f": "\f", "n": "\n", "r": "\r", "t": "\t", "v": "\v"} | {c: c for c in "\\'\"?"}
+_ESCAPE = re.compile(
+    r"\\(?:(?P<sign>[abfnrtv\\'\"?])|(?P<octal>[0-7]{1,3})|x(?P<hex>[0-9A-Fa-f]{1,2})|u(?P<short>[0-9A-Fa-f]{4})"
+    r"|U(?P<long>[0-9A-Fa-f]{8})|(?P<slash>/)|(?P<wrong>[xuU]))|(?P<control>[\0-\x1f\x7f])"
+)
+_OPTIONS = ("-f", "-t", "-o", "-O", "-d", "-D", "-s", "-e", "-p")
+_ALONE = ("-t", "-o", "-O", "-d", "-D", "-s")
+
+
+class Proxy(msgspec.Struct, frozen=True):
+    """`identity` is as spelled, without quotes around it; `category` and `name` are what it means. `options` are the
+    letters that were given. Without `endpoints` it is looked up: by `adapter`, or, where that is '', by its identity.
+    `unknown` are endpoints of a protocol that Ice does not know, which it passes over as long as there are others."""
+
+    identity: str
+    category: str
+    name: str
+    options: str = ""
+    endpoints: tuple[IceEndpoint, ...] = ()
+    adapter: str = ""
+    unknown: tuple[UnknownProtocol, ...] = ()
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether a two-way call to the object itself, no facet of it, is meant."""
+        return not set(self.options) - set("tep")
+
+
+@lru_cache(4096)
+def parse_proxy(text: str) -> Proxy:
+    """Raises Refused. The proxy that Ice takes for none at all, `""`, is refused too: nothing can be called there."""
+    start = _after_blanks(text, 0)
+    if start == len(text):
+        raise Refused("it is empty", 0, len(text))
+    word = _word(text, start, _END)
+    if word.start == word.end:
+        raise Refused("the identity is missing", start, start + 1)
+    category, name = _identity(word)
+    if not name:
+        raise Refused("its identity has no name", word.start, word.end)
+    letters, at = _options(text, word.end)
+    if at == len(text):
+        return Proxy(word.text, category, name, letters)
+    if text[at] == "@":
+        return Proxy(word.text, category, name, letters, adapter=_adapter(text, at))
+    endpoints: list[IceEndpoint] = []
+    unknown: list[UnknownProtocol] = []
+    for begin, end in segments(text, at):
+        try:
+            endpoints.append(read_endpoint(text, begin, end, for_adapter=False))
+        except UnknownProtocol as passed_over:
+            unknown.append(passed_over)
+    if not endpoints:
+        raise unknown[0]
+    return Proxy(word.text, category, name, letters, tuple(endpoints), unknown=tuple(unknown))
+
+
+def proxy_at(text: str) -> Proxy | None:
+    """None for what is no proxy."""
+    try:
+        return parse_proxy(text)
+    except Refused:
+        return None
+
+
+def _options(text: str, at: int) -> tuple[str, int]:
+    """The letters of a proxy's options, and where these end."""
+    letters = ""
+    while True:
+        at = _after_blanks(text, at)
+        if at == len(text) or text[at] in ":@":
+            return letters, at
+        end = _until(text, at, _END)
+        option, argument = Word(text[at:end], at, end), None
+        at = end
+        if len(option.text) != 2 or option.text[0] != "-":
+            raise Refused(f"'{option.text}' stands where an option, a colon or @ is expected", option.start, option.end)
+        following = _after_blanks(text, at)
+        if following < len(text) and text[following] not in "@:-":
+            argument = _word(text, following, _END)
+            at = argument.end
+            argument = argument if argument.text else None
+        if option.text not in _OPTIONS:
+            raise Refused(
+                f"a proxy has no option '{option.text}'; it takes {', '.join(_OPTIONS[:-1])} and {_OPTIONS[-1]}",
+                option.start, option.end,
+            )
+        _check(option, argument)
+        letters += option.text[1]
+
+
+def _check(option: Word, argument: Word | None) -> None:
+    if option.text in _ALONE:
+        if argument is not None:
+            raise Refused(f"'{option.text}' takes no value, and has '{argument.text}'", argument.start, argument.end)
+    elif option.text == "-f":
+        if argument is None:
+            raise Refused("'-f' needs the name of a facet", option.start, option.end)
+        unescaped(argument)
+    else:
+        check_version(option, argument)
+
+
+def _adapter(text: str, at: int) -> str:
+    start = _after_blanks(text, at + 1)
+    if start == len(text):
+        raise Refused("the adapter is missing behind the @", at, at + 1)
+    word = _word(text, start, _BLANK)
+    more = _after_blanks(text, word.end)
+    if more < len(text):
+        raise Refused("nothing can follow the adapter", more, len(text))
+    found = unescaped(word)
+    if not found:
+        raise Refused("the adapter has no name", word.start, word.end)
+    return found
+
+
+def _after_blanks(text: str, at: int) -> int:
+    while at < len(text) and text[at] in BLANKS:
+        at += 1
+    return at
+
+
+def _until(text: str, at: int, end: re.Pattern[str]) -> int:
+    found = end.search(text, at)
+    return found.start() if found else len(text)
+
+
+def _word(text: str, start: int, end: re.Pattern[str]) -> Word:
+    """What stands in quotes, or until a sign that ends it. Its place is with the quotes."""
+    quote = text[start]
+    if quote not in "\"'":
+        stop = _until(text, start, end)
+        return Word(text[start:stop], start, stop)
+    at = text.find(quote, start + 1)
+    while at > 0 and text[at - 1] == "\\":  # Ice does not ask whether the backslash has one before it
+        at = text.find(quote, at + 1)
+    if at < 0:
+        raise Refused("a quote is not closed", start, len(text))
+    return Word(text[start + 1 : at], start, at + 1)
+
+
+def _identity(word: Word) -> tuple[str, str]:
+    """Category and name, between which stands a slash without a backslash."""
+    slashes = [found.start() for found in re.finditer(r"\\.|/", word.text, re.DOTALL) if found[0] == "/"]
+    if len(slashes) > 1:
+        raise Refused("an identity is CATEGORY/NAME, with one slash", word.start, word.end)
+    if not slashes:
+        return "", unescaped(word, is_identity=True)
+    parts = word.text[: slashes[0]], word.text[slashes[0] + 1 :]
+    category, name = (unescaped(Word(part, word.start, word.end), is_identity=True) for part in parts)
+    return category, name
+
+
+def unescaped(word: Word, *, is_identity: bool = False) -> str:
+    """A text with Ice's escape sequences replaced. In an identity a backslash also takes its meaning from a slash;
+    before other signs it stands for itself. Raises Refused."""
+
+    def replaced(found: re.Match[str]) -> str:
+        if found["control"]:
+            raise Refused(f"{found[0]!r} is no printable character", word.start, word.end)
+        if found["sign"]:
+            return _SIGNS[found["sign"]]
+        if found["slash"]:
+            return "/" if is_identity else found[0]
+        digits = found["hex"] or found["short"] or found["long"]
+        number = int(digits, 16) if digits else int(found["octal"] or "400", 8)
+        is_character = number < 256 if found["octal"] else number < 0xD800 or 0xDFFF < number < 0x110000
+        if found["wrong"] or not is_character:
+            raise Refused(f"'{found[0]}' is no character", word.start, word.end)
+        is_byte = (found["octal"] or found["hex"]) and number > 127  # of UTF-8, maybe with others
+        return chr(0xDC00 + number) if is_byte else chr(number)
+
+    text = _ESCAPE.sub(replaced, word.text)
+    return text.encode(errors="surrogateescape").decode(errors="surrogateescape")

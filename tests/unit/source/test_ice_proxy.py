@@ -1,0 +1,73 @@
+"""Proxies and endpoints as text: what they mean, and where they are wrong. Ice's own verdicts are in tests/ice."""
+
+from __future__ import annotations
+
+import pytest
+
+from robocomp_yaml.source.ice_endpoint import IceEndpoint, fixed_endpoint, parse_endpoint
+from robocomp_yaml.source.ice_options import Refused
+from robocomp_yaml.source.ice_proxy import parse_proxy, proxy_at
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "problem"),
+    [
+        ("lamp left", "left", "'left' stands where an option"),
+        ("lamp -x:tcp", "-x", "no option '-x'"),
+        ("lamp -o yes:tcp -p 1", "yes", "'-o' takes no value"),
+        ("lamp:tcp -p 65536", "65536", "from 0 to 65535"),
+        ("lamp:tcp -h * -p 1", "*", "stands for all interfaces"),
+        ("lamp:udp -t 5", "-t", "no option of udp; udp takes -h, -p, -c"),
+        ("lamp:ws -r", "-r", "needs a value"),
+        ("lamp:tcp -t 0", "0", "timeout"),
+        ("lamp:tcp -h 'a b", "'a b", "a quote is not closed"),
+        ("lamp:tpc -p 1", "tpc", "no protocol 'tpc'"),
+        ("lamp:", ":", "an endpoint is missing"),
+        ("lamp @", "@", "adapter is missing"),
+        ("lamp @ A b", "b", "nothing can follow"),
+        ("a/b/c:tcp", "a/b/c", "one slash"),
+        ("room/:tcp", "room/", "no name"),
+        (":tcp -p 1", ":", "identity is missing"),
+        ("lamp -e 1:tcp", "1", "no version"),
+        ("l\\x:tcp", "l\\x", "is no character"),
+        ("lamp:tcp --sourceAddress lamp", "lamp", "no IP address"),
+        ('lamp:bt -a "00:11:22:33:44:55"', "bt", "UUID"),
+        ("lamp:bt -a 00:00", "00", "Bluetooth"),
+        ("lamp:opaque -t 99", "opaque", "-v BYTES"),
+    ],
+)
+def test_what_is_wrong_and_where(text: str, where: str, problem: str) -> None:
+    with pytest.raises(Refused) as refused:
+        parse_proxy(text)
+    assert problem in refused.value.problem
+    assert text[refused.value.start : refused.value.end] == where
+
+
+def test_what_it_means() -> None:
+    found = parse_proxy('"room 1/left" -o -f face:tcp -h "::1" -t 500 -p 10002 -z:tpc -p 1 : ssl -p 7')
+    assert (found.category, found.name, found.options) == ("room 1", "left", "of")
+    assert found.endpoints == (IceEndpoint(10002, "tcp", "::1", "-t 500 -z"), IceEndpoint(7, "ssl"))
+    assert [unknown.meant[0] for unknown in found.unknown] == ["tcp"]
+    assert not found.is_plain and parse_proxy("a -t -e 1.0:tcp").is_plain
+    assert parse_proxy("a\\/b\\u00e9\\303\\251 @ 'A 1'").name == "a/béé"
+    assert parse_proxy("a @ 'A 1'").adapter == "A 1"
+    assert proxy_at("two words") is None
+
+
+@pytest.mark.parametrize("text", ["", "tcp", "tcp -p 0", "udp:tcp -p 1", "tcp -p 1:tpc -p 2", "tcp -p 1 -q", ":tcp -p 1"])
+def test_no_fixed_endpoint(text: str) -> None:
+    with pytest.raises(Refused):
+        fixed_endpoint(text)
+    assert parse_endpoint(text) is None
+
+
+def test_the_first_of_several_endpoints() -> None:
+    assert fixed_endpoint('ws -h "a:b" -p 1 -r "/x:y":tcp') == IceEndpoint(1, "ws", "a:b", '-r "/x:y"')
+    assert fixed_endpoint("tcp -h 0.0.0.0 -p 1 -p 2").reached_at("::1") == 'tcp -h "::1" -p 2'
+
+
+def test_long_texts_are_read_in_a_moment() -> None:
+    """A document may hold a megabyte; what is quadratic in it would take an hour."""
+    size = 100_000
+    for text in ('s:tcp -h "' + ":" * size, "\\/" * size, "\\" * size, "s:" + '"a"' * size + ":", '"' + '\\"' * size):
+        proxy_at(text)
