@@ -147,7 +147,7 @@ def test_data_is_unchanged_in_a_pipe(right: Path) -> None:
     "args",
     [
         ("config", "export", CONFIG), ("config", "show", CONFIG), ("graph", FOLDER), ("compile", "--diff"),
-        ("deploy", "export", FOLDER, "--as", "systemd"), ("config", "show", CONFIG, "--format", "json"),
+        ("deploy", "export", FOLDER, "--as", "compose"), ("config", "show", CONFIG, "--format", "json"),
     ],
     ids=lambda args: " ".join(args).replace(FOLDER, "F"),
 )  # fmt: skip
