@@ -286,12 +286,13 @@ def write_new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
     linked = program.components[real].parameters if real in program.components else program.parameters.get(real)
     if linked is None or linked.broken or has_errors(analysis.diagnostics):
         _fail(ctx, analysis.diagnostics, program.documents)
+    from robocomp_yaml.commands._neighbours import ports
     from robocomp_yaml.emit.first_values import first_values
 
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         with target.open("x", encoding="utf-8") as opened:
-            opened.write(first_values(linked, component, str(target)))
+            opened.write(first_values(linked, component, str(target), ports(analysis)))
     except OSError as error:
         raise click.UsageError(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
     if ctx.obj.verbosity >= 0:
