@@ -32,6 +32,7 @@ from robocomp_yaml.values.edit import NotEditable
 from robocomp_yaml.values.edit import set_value as edit
 from robocomp_yaml.values.effective import Effective, effective
 from robocomp_yaml.values.judge import judge
+from robocomp_yaml.values.new import lines_above
 from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import flow
 
@@ -189,7 +190,10 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     root = values.document.root
     _refuse_bad(ctx, file, type_, steps, value, _place_of(root, ["parameters", *steps]), is_text)
     try:
-        change = edit(file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null")
+        change = edit(
+            file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null",
+            lines_above=lambda way: lines_above(of, way[1:]),
+        )
     except NotEditable as refused:
         raise click.UsageError(
             f"{path} cannot be set in {file}:{refused.node.span.line}: {refused}"

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from robocomp_yaml.model.parameters import EnumType, Member, Parameters, RecordType
 from robocomp_yaml.values.fitting import Fitted, fitted
 from robocomp_yaml.values.json_schema import in_words
+from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import comment, flow, scalar
 
 
 Sections = list[tuple[str, list[tuple[str, str]]]]
 
 _NO_EXAMPLE = "# no example was found that fits the constraints: {}"
+_ADVICE = {True: "give it a value", False: "it may be left out"}  # by whether it is required
 
 
 def new_document(
@@ -50,15 +52,10 @@ def _record(record: RecordType, indent: str, above: tuple[str, ...], found: Fitt
         elif path in found.given:
             yield f"{indent}{name}: {flow(found.given[path])}"
         elif path in found.possible:
-            yield indent + placeholder(member.name, found.possible[path])
+            yield f"{indent}# {name}: {flow(found.possible[path])}"
         else:
-            yield indent + _NO_EXAMPLE.format("give it a value" if member.required else "it may be left out")
+            yield indent + _NO_EXAMPLE.format(_ADVICE[member.required])
             yield f"{indent}# {name}:"
-
-
-def placeholder(name: str, value: object) -> str:
-    """The line of a value that is not given: with the # taken away, it is."""
-    return f"# {scalar(name)}: {flow(value)}"
 
 
 def _about(member: Member, indent: str) -> Iterator[str]:
@@ -66,7 +63,27 @@ def _about(member: Member, indent: str) -> Iterator[str]:
     for line in doc.strip().splitlines():
         yield indent + comment(line)
     if not member.is_group:
-        facts = [in_words(member.type)]
-        facts += ["may be left out"] if member.optional else []
-        facts += ["may change while running"] if member.editable else []
-        yield indent + comment("; ".join(facts))
+        yield indent + _facts(member)
+
+
+def _facts(member: Member) -> str:
+    facts = [in_words(member.type)]
+    facts += ["may be left out"] if member.optional else []
+    facts += ["may change while running"] if member.editable else []
+    return comment("; ".join(facts))
+
+
+def lines_above(root: RecordType, steps: Sequence[Step]) -> tuple[str, ...]:
+    """The comments of which one stands above the line of a parameter that a first document does not give; none where
+    the steps lead to no parameter of the top or of a group."""
+    record, member = root, None
+    for step in steps:
+        if member is not None and not member.is_group:
+            return ()
+        record = member.type if member is not None and isinstance(member.type, RecordType) else record
+        member = record.member(step) if isinstance(step, str) else None
+        if member is None:
+            return ()
+    if member is None or member.is_group:
+        return ()
+    return _facts(member), *(_NO_EXAMPLE.format(what) for what in _ADVICE.values())
