@@ -70,6 +70,18 @@ def test_a_deployment_with_both_is_refused(rcyaml: Run, tmp_path: Path) -> None:
     assert ("RC2011", "b2/s.cdsl.yaml") in [each[:2] for each in _told(rcyaml("check", "d.ddsl.yaml", "--format", "json"))]
 
 
+def test_migrated_components_of_one_name_are_a_warning(rcyaml: Run, tmp_path: Path) -> None:
+    legacy = "Component Speech\n{\n\tCommunications\n\t{\n\t};\n\tlanguage Python;\n};\n"
+    write_tree(tmp_path, {"a/speech.cdsl": legacy, "b/speech.cdsl": legacy, "c/speech.cdsl": legacy.replace("Python", "Cpp")})
+    assert rcyaml("migrate", ".").exit_code == 0
+    told = rcyaml("check")
+    assert told.exit_code == 0, told.output
+    assert told.stdout.count("warning[RC2011]") == 1
+    (tmp_path / "b/speech.cdsl").unlink()
+    (tmp_path / "b/speech.cdsl.yaml").unlink()
+    assert "RC2011" not in rcyaml("check").stdout
+
+
 def test_the_examples_are_all_right(rcyaml: Run, tmp_path: Path) -> None:
     shutil.copytree(ROOT / "examples/jointmotor", tmp_path / "jointmotor")
     assert rcyaml("check", "jointmotor").exit_code == 0
