@@ -60,11 +60,13 @@ def _below(folder: str, kind: str) -> list[str]:
 
 
 def _named(name: str) -> str:
-    """The component that is called so in this workspace; its document's name will do, and another case."""
+    """The component that is called so in this workspace; its document or its folder may be, and in another case."""
     from robocomp_yaml.link.workspace import root_above
 
     root = root_above("") or "."
-    names = {path: (component_in(path), stem(path)) for path in _below(root, "cdsl")}
+    names = {
+        path: (component_in(path), stem(path), os.path.basename(os.path.dirname(path))) for path in _below(root, "cdsl")
+    }
     same: list[Callable[[str], bool]] = [lambda other: other == name, lambda other: other.lower() == name.lower()]
     for is_same in same:
         found = [path for path, known in names.items() if any(map(is_same, known))]
@@ -72,7 +74,7 @@ def _named(name: str) -> str:
             return found[0]
         if found:
             raise click.UsageError(f"several components are called '{name}': {_listed(found)}; name one of them")
-    meant = suggest(name, [called for called, _ in names.values() if called])
+    meant = suggest(name, [called for called, *_ in names.values() if called])
     raise click.UsageError(f"there is no component '{name}'" + (f"; did you mean '{meant}'?" if meant else ""))
 
 

@@ -35,8 +35,8 @@ format_ = click.option("--format", "format_", type=click.Choice(["text", "json"]
 def command() -> None:
     """The values of a component's parameters: without a build, and without a robot.
 
-    FILE is a values document: etc/config.yaml, or NAME.config.yaml. A component's folder, its document or its name stand
-    for its etc/config.yaml; where there is only one component, FILE may be left out.
+    FILE is a values document: etc/config.yaml, or NAME.config.yaml. A component's folder, its document or its name
+    stand for its etc/config.yaml; where there is only one component, FILE may be left out.
     """
 
 
@@ -45,9 +45,9 @@ def command() -> None:
 @_options.include
 @click.pass_context
 def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
-    """Write a first values document to etc/config.yaml in a component's folder. COMPONENT is that folder, the component's
-    document (or that of its parameters), or its name; where there is only one, it may be left out. It may also be the
-    values document to be written, NAME.config.yaml, for the component that stands beside it or one folder up.
+    """Write a first values document to etc/config.yaml in a component's folder. COMPONENT is that folder, the
+    component's document (or that of its parameters), or its name; where there is only one, it may be left out. It may
+    also be the values document to be written, NAME.config.yaml, for the component beside it or one folder up.
 
     Values and connections that the component's etc/config has are taken over."""
     from robocomp_yaml.commands import _values

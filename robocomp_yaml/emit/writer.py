@@ -222,8 +222,8 @@ class _Root:
             return codes.NOT_OURS.at(span, path=path, hint=hint)
         keys = ", ".join(ownership.lost(self._base(path), data, text) or ["them"])
         return codes.CHANGED.at(
-            span, path=path, hint=f"bring {keys} into {path}.yaml; `rcyaml compile --adopt` then rewrites the file, and "
-            "keeps yours as .orig",
+            span, path=path, hint=f"bring {keys} into {path}.yaml; `rcyaml compile --adopt` then rewrites the file, "
+            "and keeps yours as .orig",
         )
 
     def _unwanted(self, path: str, entry: Entry) -> None:

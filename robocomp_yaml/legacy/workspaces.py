@@ -66,7 +66,8 @@ def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
     for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT, machines.UNREADABLE):
         lint.put(row.id, "warning")
     if components and max(components.values()) > 1:
-        lint.put(cdsl.SAME_NAME.id, "warning", Notes(head=["Components that have the same name are kept as they were."]))
+        notes = Notes(head=["Components that have the same name are kept as they were."])
+        lint.put(cdsl.SAME_NAME.id, "warning", notes)
     document.put("lint", lint, Notes(head=["Files that were not there to be migrated are named still."]))
     return modeline(os.path.join(root, WORKSPACE_FILE), root, "workspace") + text(document, Notes())
 

@@ -1,9 +1,9 @@
 """One value of a document changed in its text; every other byte stays.
 
 The tree says where: an existing value is replaced between its marks, a new one is put behind the last entry of the
-mapping or list that it belongs to, and behind the comments that are indented as that entry's own. Where a first document
-(`values.new`) has a line for it with a # before it, that line becomes the value. What would touch more than that (a list
-over many lines, an alias) is refused.
+mapping or list that it belongs to, and behind the comments that are indented as that entry's own. Where a first
+document (`values.new`) has a line for it with a # before it, that line becomes the value. What would touch more than
+that (a list over many lines, an alias) is refused.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ def set_value(
     lines_above: Callable[[list[Step]], Collection[str]] = lambda steps: (),
 ) -> Change:  # fmt: skip
     """The document with another value at `steps` (from its top; numbers are places in lists, and the one behind the
-    last is a new entry); `new` is YAML on one line, or the text itself where `is_text`. `lines_above` gives the comments
-    of which one stands above the line of a value that is left out. Raises NotEditable."""
+    last is a new entry); `new` is YAML on one line, or the text itself where `is_text`. `lines_above` gives the
+    comments of which one stands above the line of a value that is left out. Raises NotEditable."""
     node: Node = root
     key: Scalar | None = None
     for depth, step in enumerate(steps):

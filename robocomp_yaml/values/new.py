@@ -21,8 +21,8 @@ _ADVICE = {True: "give it a value", False: "it may be left out"}  # by whether i
 def new_document(
     parameters: Parameters, component: str, modeline: str, sections: Sections, values: Mapping[str, Any] | None = None
 ) -> str:
-    """The text; `component` is a path from the document. `sections` (`endpoints`, `proxies` …) come with their entries,
-    `values` are those of parameters that are known already."""
+    """The text; `component` is a path from the document. `sections` (`endpoints`, `proxies` …) come with their
+    entries, `values` are those of parameters that are known already."""
     return "".join(f"{line}\n" for line in _lines(parameters, component, modeline, sections, values))
 
 

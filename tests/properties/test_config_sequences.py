@@ -107,7 +107,7 @@ class Model:
         assert not run("compile", "--check", *options, what).exit_code
 
     def lost(self) -> set[str]:
-        texts = "".join(path.read_text() for path in Path("speech/etc").glob("*")) if Path("speech/etc").exists() else ""
+        texts = "".join(path.read_text() for path in Path("speech").glob("etc/*"))
         return {line for line in self.mine if line not in texts and line.replace("=1", ': "1"') not in texts}
 
 

@@ -33,21 +33,24 @@ DOCUMENTS = {
     "records": "types: {M: {struct: {name: string, min: float, max: float, at: {type: float, default: 1}}}}\n"
                "parameters: {motors: {list: M, size: [3, 8]}}\nconstraints: [unique(m.name for m in motors), "
                "all(m.min < m.at < m.max for m in motors), sum(m.max for m in motors) < 10]\n",
-    "an optional one that is needed": "parameters: {on: {type: bool}, off: {type: bool}, port: {type: int, optional: true}}\n"
+    "an optional one that is needed": "parameters: {on: bool, off: bool, port: {type: int, optional: true}}\n"
                                       "constraints: [on and off or has(port), on != off, port > 1024]\n",
     "either of two": "parameters: {a: {type: int, optional: true}, b: {type: int, optional: true}}\n"
                      "constraints: [not (has(a) and has(b))]\n",
     "different ones": "parameters: {ids: {list: {type: int, range: [3, 7]}, size: 5, unique: true}, names: {list: "
                       "{type: string, pattern: 'cam[0-9]'}, size: 4, unique: true}}\n",
     "many": "parameters: {gains: {list: float, size: 40}, table: {map: int, size: 20}}\n",
-    "as long as another": "parameters: {a: {list: int, size: [2, 5]}, b: {list: string}}\nconstraints: [len(a) == len(b)]\n",
+    "as long as another": "parameters: {a: {list: int, size: [2, 5]}, b: {list: string}}\n"
+                          "constraints: [len(a) == len(b)]\n",
     "groups": "parameters:\n  Net: {group: {low: int, high: int, Deep: {group: {high: {type: int, optional: true}}}}}\n"
               "  high: {type: int, default: 3}\n  Last: {group: {name: {type: string, default: x}}}\n"
               "constraints: [Net.low < Net.high, Net.Deep.high > Net.high + 100, high < Net.low]\n",
     "texts": "parameters: {mode: {type: string}, speed: {type: float, default: 0}}\n"
              "constraints: [\"mode in ['slow', 'fast']\"]\n",
-    "other names": "parameters: {2d: {type: int, as: view}, on: {type: int, default: 0, as: is_on}}\nconstraints: [view > is_on]\n",
-    "docs": "parameters:\n  device: {type: string, default: x, doc: \"Where.\\n\\ndevice: x\\n\"}\n  d: {type: int, default: 1}\n",
+    "other names": "parameters: {2d: {type: int, as: view}, on: {type: int, default: 0, as: is_on}}\n"
+                   "constraints: [view > is_on]\n",
+    "docs": "parameters:\n  device: {type: string, default: x, doc: \"Where.\\n\\ndevice: x\\n\"}\n"
+            "  d: {type: int, default: 1}\n",
     "all constraints of the accessors' tests": subject(*CONSTRAINTS[:3], CONSTRAINTS[5], CONSTRAINTS[8]),
 }  # fmt: skip
 DOCUMENTS |= {that: subject(that) for that in CONSTRAINTS if that != "has(limit) and limit > low"}  # breaks by itself
@@ -113,7 +116,8 @@ def test_every_example_fits(folder: Path, document: str) -> None:
 
 
 @pytest.mark.parametrize("document", [
-    "parameters: {a: {type: int, range: [0, 3]}, b: string, c: {type: int, optional: true}}\nconstraints: [a > 5, c > a + 9]\n",
+    "parameters: {a: {type: int, range: [0, 3]}, b: string, c: {type: int, optional: true}}\n"
+    "constraints: [a > 5, c > a + 9]\n",
     "parameters: {a: {type: string, optional: true}}\nconstraints: [a == a and a != a]\n",
 ])  # fmt: skip
 def test_where_no_example_is_found_the_document_says_so(folder: Path, document: str) -> None:

@@ -111,16 +111,17 @@ CHANGED = Code(
     "RC6010",
     "error",
     "'{path}' holds changes of yours, and its values document would have it rewritten",
-    "rcyaml writes a component's first `etc/config` once; with `etc/config.yaml` it comes from there, and every compile "
-    "rewrites it. As long as nobody changed the file, it is simply renewed. Entries of your own that the document does "
-    "not give would be lost, so nothing is written: bring them into `etc/config.yaml` (`rcyaml config new` does so when "
-    "it writes that document), or let `--adopt` rewrite the file, which keeps yours as `.orig`.",
+    "rcyaml writes a component's first `etc/config` once; with `etc/config.yaml` it comes from there, and every "
+    "compile rewrites it. As long as nobody changed the file, it is simply renewed. Entries of your own that the "
+    "document does not give would be lost, so nothing is written: bring them into `etc/config.yaml` (`rcyaml config "
+    "new` does so when it writes that document), or let `--adopt` rewrite the file, which keeps yours as `.orig`.",
     {
         "speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\n",
         "etc/config": "period.compute=7\n",
         "etc/config.yaml": "component: ../speech.cdsl.yaml\nparameters: {}\n",
-        ".rcyaml/manifest.json": '{"version": 1, "files": {"etc/config": {"hash": "%s", "owners": ["speech.cdsl.yaml"], '
-        '"once": true}}}\n' % ("0" * 32),
+        ".rcyaml/manifest.json": _OURS.format("0" * 32).replace("slice/Speech.ice", "etc/config").replace(
+            '"owners"', '"once": true, "owners"'
+        ),
     },
     {
         "speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\n",
