@@ -10,7 +10,7 @@ from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan
 from robocomp_yaml.emit.ports import IceEndpoint, Ports, interface_key
 from robocomp_yaml.emit.specific.entries import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
-from robocomp_yaml.source.properties import entry_line, read
+from robocomp_yaml.source.properties import entry_line, read, unquoted
 
 DEFAULT_PERIOD = 100
 
@@ -56,7 +56,7 @@ def connections(linked: LinkedComponent, table: Ports, standing: Mapping[str, st
 
 def stated(properties: Mapping[str, str], key: str) -> str | None:
     """The value that a configuration gives a key under any of its spellings."""
-    return next((properties[each] for each in names(key) if properties.get(each)), None)
+    return next((unquoted(properties[each]) for each in names(key) if properties.get(each)), None)
 
 
 def names(key: str) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from robocomp_yaml.emit.plan import CONFIG
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
 from robocomp_yaml.model.parameters import Parameters, RecordType
-from robocomp_yaml.source.properties import read
+from robocomp_yaml.source.properties import read, unquoted
 from robocomp_yaml.values.new import Sections, new_document
 from robocomp_yaml.values.read import properties_to_values
 
@@ -37,6 +37,7 @@ def first_values(
         sections = _connections(linked.component, standing, ports)
         if standing:
             changed = _changed(home, standing, config.plan(linked.component, ports).text)
+            changed = {key: unquoted(value) for key, value in changed.items()} if _is_toml(standing) else changed
             values = _values(linked.parameters, standing)
             sections += _others(linked, changed)
     return new_document(linked.parameters, where, modeline, sections, values)
@@ -66,8 +67,13 @@ def _changed(folder: str, standing: Mapping[str, str], usual: str) -> dict[str, 
 
 def _values(parameters: Parameters, standing: Mapping[str, str]) -> dict[str, Any]:
     """The parameters that an `etc/config` gives other values than their defaults."""
-    found, faults = properties_to_values(parameters, standing)
+    found, faults = properties_to_values(parameters, standing, quoted=_is_toml(standing))
     return _but_defaults(parameters.root, found, faults)
+
+
+def _is_toml(standing: Mapping[str, str]) -> bool:
+    """Whether texts stand in quotes, as RoboComp's newer components have them."""
+    return any(key.startswith(("Endpoints.", "Proxies.")) and value[:1] == '"' for key, value in standing.items())
 
 
 def _but_defaults(record: RecordType, found: Mapping[str, Any], faults: Mapping[str, Any]) -> dict[str, Any]:

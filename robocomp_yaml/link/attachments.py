@@ -71,7 +71,8 @@ class Attachments(msgspec.Struct):
         self.absent.add(os.path.normpath(os.path.join(folder, "etc", "config.yaml")))
         for values in references.beside(os.path.join(folder, "etc"), "config"):
             self.absent.discard(values)
-            yield self.documents.get(values)
+            if os.path.basename(values) == "config.yaml" or _is_compiled(self.documents.glance(values)):
+                yield self.documents.get(values)
 
     def _beside(self, document: Document, folder: str) -> Iterator[Document]:
         """The documents beside a component that name it as theirs. Where none does, those are read too that may have
@@ -277,6 +278,12 @@ class Attachments(msgspec.Struct):
                 seen.add(real)
                 todo += self._extends.get(real, ())
         return False
+
+
+def _is_compiled(document: Document) -> bool:
+    """Whether values become a file of their own, as those do that were migrated from one."""
+    legacy = document.model.section("legacy") if isinstance(document.model, ValuesDocument) else None
+    return legacy is not None and legacy.get("file") is not None
 
 
 def _misplaced(linked: LinkedValues, home: list[str], here: Sequence[LinkedComponent]) -> Iterator[Diagnostic]:

@@ -105,6 +105,6 @@ def documents_below(
         if roots is not None and ".rcyaml" in folders and os.path.isfile(os.path.join(where, MANIFEST)):
             roots.append(os.path.normpath(where))
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
-        for path in (os.path.normpath(os.path.join(where, name)) for name in sorted(names)):
-            if kind_of(path):
+        for name in sorted(names):
+            if name.endswith(".yaml") and kind_of(path := os.path.normpath(os.path.join(where, name))):
                 yield path

@@ -30,7 +30,8 @@ from robocomp_yaml.values.defaults import defaults, with_defaults
 from robocomp_yaml.values.example import count_of, fits, simplest
 from robocomp_yaml.values.normalize import as_data
 
-_STEPS = 3000
+_STEPS = 3000  # of one search
+_MOST_STEPS = 12_000  # of all, with up to ten parameters; with more, each step takes longer
 _PLACES = 200
 _VALUES = 14  # tried for one place
 _UNKNOWN = {"env": "UNKNOWN"}  # what a reference is before the component starts
@@ -131,6 +132,7 @@ class _Search:
         named = [code for each in parameters.constraints for code in evaluate.paths(each.expression)]
         self.named = {path for path in members if _is_named(_code_path(parameters.root, path), named)}
         self.steps = 0
+        self.left = _MOST_STEPS // max(1, len(members) // 10)
         self.is_careful = False
 
     def concerns(self, path: Path) -> bool:
@@ -151,7 +153,7 @@ class _Search:
                 found = self._fill(shapes, optional, constraints, both)
                 if found is not None:
                     return found
-                if not constraints or self.steps >= _STEPS:
+                if not constraints or self.steps >= _STEPS or self.left <= 0:
                     break
             self.steps = 0
         return None
@@ -191,6 +193,7 @@ class _Search:
 
         def goes_well() -> bool:
             self.steps += 1
+            self.left -= 1
             return all(
                 self._hold(constraints, base, data) for base in ([self.base] if both is None else [self.base, both])
             ) and all(_differs(self.members[path].type, value) for path, value in data.items())
@@ -206,7 +209,7 @@ class _Search:
                 if search(at + 1):
                     return True
             for value in self._values(place):
-                if self.steps >= _STEPS:
+                if self.steps >= _STEPS or (constraints and self.left <= 0):
                     return False
                 if inside:
                     if path not in data:

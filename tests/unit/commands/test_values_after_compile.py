@@ -117,3 +117,13 @@ def test_an_edit_that_would_be_lost_is_named(rcyaml: Run, tmp_path: Path) -> Non
     assert rcyaml("compile").exit_code == 0
     assert "period.compute=20\n" in config.read_text()
     assert "period.compute=20\n" in (tmp_path / "speech/etc/config.orig").read_text()
+
+
+def test_the_newer_dialect_is_understood(rcyaml: Run, tmp_path: Path) -> None:
+    config = 'Proxies.Mouth = "mouth:tcp -h there -p 10200"\nEndpoints.CommonBehavior = "tcp -p 10300"\nvolume = 9\n'
+    write_tree(tmp_path, {**TREE, **WORKSPACE, "speech/etc/config": f'{config}Net.host = "robot"\nMine = "x"\n'})
+    assert rcyaml("config", "new", "speech").exit_code == 0
+    text = (tmp_path / "speech/etc/config.yaml").read_text()
+    for line in ('Mouth: "mouth:tcp -h there -p 10200"', "CommonBehavior: tcp -p 10300", "volume: 9", "host: robot", "Mine: x"):
+        assert f"  {line}\n" in text, text
+    assert rcyaml("config", "check", "speech").exit_code == 0
