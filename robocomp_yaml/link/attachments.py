@@ -120,9 +120,12 @@ class Attachments(msgspec.Struct):
                 references.hint(name, folder, "component", kinds)
             )
             if found:
-                self.diagnostics.append(codes.NAMED.at(
-                    span, name=name, hint=references.write(found, folder, "component")
-                ))
+                told = codes.NAMED.at(span, name=name, hint=references.write(found, folder, "component"))
+                is_near = not is_parameters or any(os.path.dirname(path) == folder for path in found)
+                # Parameters that stand alone may have a component's name by chance, as migrated ones have.
+                self.diagnostics.append(told if is_near else told.as_severity("warning"))
+                if not is_near:
+                    return
             elif hint or not is_plain:
                 alike = [] if hint.startswith(("write", "that is")) else self._called(os.path.basename(name), root)
                 hint = references.write(alike, folder, "component") if alike else hint
@@ -289,11 +292,9 @@ def _is_compiled(document: Document) -> bool:
 def _misplaced(linked: LinkedValues, home: list[str], here: Sequence[LinkedComponent]) -> Iterator[Diagnostic]:
     """The values that a component would take for its own, and that name another one."""
     own = linked.parameters
-    if own is None or not here or any(component.parameters is own for component in here):
+    if own is None or own.component is None or not here or any(component.parameters is own for component in here):
         return
-    folder = os.path.dirname(linked.document.path)
-    document = os.path.basename(own.document.path) if own.document else ""
-    whose = own.component.component.name if own.component else document
+    folder, whose = os.path.dirname(linked.document.path), own.component.component.name
     yield codes.MISPLACED.at(
         linked.document.span, component=here[0].component.name, other=whose,
         hint=references.write(home, folder, "component"), related=[Related("the component", here[0].component.span)],

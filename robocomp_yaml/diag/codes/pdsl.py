@@ -237,7 +237,7 @@ NAMED = Code(
     "'{name}' is a component's name, and `component:` takes the path of its document",
     "Two components of a workspace's folders may be called alike, so parameters and values name theirs by the path of "
     "its `.cdsl.yaml`, relative to this document. A plain name in a `.pdsl.yaml` stands for a component that has no "
-    "document (yet).",
+    "document (yet); where one of that name has its document in another folder, this is a warning.",
     {"speech.pdsl.yaml": "component: SpeechComp\nparameters: {}\n", "speech.cdsl.yaml": _CDSL},
     {"speech.pdsl.yaml": "component: speech.cdsl.yaml\nparameters: {}\n", "speech.cdsl.yaml": _CDSL},
 )
