@@ -100,9 +100,11 @@ class Run(msgspec.Struct):
             return None
         settled = {os.path.join(root.root, path): data for root in changes.roots for path, data in root.settled.items()}
         once = [os.path.join(root.root, path) for root in changes.roots for path in root.once]
+        ours = {os.path.normpath(path) for path in settled}
+        there = ours | {os.path.normpath(path) for path in once}  # since this run
         return stamp.take(
-            inputs=analysis.contents | own.contents,
-            absent=analysis.absent | own.absent | set(changes.journals),
+            inputs={path: raw for path, raw in (analysis.contents | own.contents).items() if path not in ours},
+            absent={path for path in analysis.absent | own.absent | set(changes.journals) if path not in there},
             folders={folder: _options.find_below(folder) for folder in analysis.found.folders},
             names=analysis.linker.search.listed() if faulty else {},
             outputs=settled | self._schemas,

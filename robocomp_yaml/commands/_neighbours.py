@@ -1,12 +1,12 @@
-"""The ports of a workspace, for the first `etc/config` of one of its components."""
+"""The ports of a workspace, for the configuration of one of its components, as far as that leaves them open."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
 from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.link.linker import Linker
-from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import documents_below, kind_of
@@ -21,17 +21,23 @@ def ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
         workspace = analysis.linker.workspace_of(linked.component.path)
         key = workspace.root if workspace.declared else ""
         if key not in known:
-            known[key] = assign([*_neighbours(workspace, analysis), *analysis.program.components.values()])
+            around = _neighbours(workspace, analysis)
+            values = {**around.values, **analysis.program.values}
+            known[key] = assign([*around.components.values(), *analysis.program.components.values()], values.values())
+            for path, raw in known[key].contents.items():
+                if raw is None:
+                    analysis.absent.add(path)
+                else:
+                    analysis.contents[path] = raw
         return known[key]
 
     return of
 
 
-def _neighbours(workspace: Workspace, analysis: Analysis) -> Iterable[LinkedComponent]:
+def _neighbours(workspace: Workspace, analysis: Analysis) -> Program:
     """All components of a workspace, whether this run is about them or not."""
     if not workspace.declared:
-        return ()
+        return Program()
     paths = [path for path in documents_below(workspace.root) if kind_of(path) == "cdsl"]
     around = Linker(analysis.linker.documents, analysis.linker.search)
-    around.link(paths)  # what is wrong with neighbours is for their own `check`
-    return around.program.components.values()
+    return around.link(paths)  # what is wrong with neighbours is for their own `check`

@@ -15,7 +15,7 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.check.pdsl import values as check
-from robocomp_yaml.commands import _options
+from robocomp_yaml.commands import _options, _which
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import values as codes
@@ -24,10 +24,12 @@ from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit import whole
+from robocomp_yaml.link.component_references import beside
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import text as source_text
+from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values import paths
 from robocomp_yaml.values import show as values_show
@@ -35,6 +37,7 @@ from robocomp_yaml.values.edit import NotEditable
 from robocomp_yaml.values.edit import set_value as edit
 from robocomp_yaml.values.effective import Effective, effective
 from robocomp_yaml.values.judge import judge
+from robocomp_yaml.values.new import lines_above
 from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import flow
 
@@ -186,7 +189,10 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     root = values.document.root
     _refuse_bad(ctx, file, type_, steps, value, _place_of(root, ["parameters", *steps]), is_text)
     try:
-        change = edit(file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null")
+        change = edit(
+            file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null",
+            lines_above=lambda way: lines_above(of, way[1:]),
+        )
     except NotEditable as refused:
         raise click.UsageError(
             f"{path} cannot be set in {file}:{refused.node.span.line}: {refused}"
@@ -262,10 +268,12 @@ def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...]) -
 
 
 def write_new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
-    component = file if file.endswith((".cdsl.yaml", ".pdsl.yaml")) else _component_near(file)
-    if not os.path.isfile(component):
-        raise click.UsageError(f"there is no document {component}")
-    target = Path(component).parent / "etc" / "config.yaml" if component == file else Path(file)
+    is_values = kind_of(file) == "config" or file.endswith(".config.yaml") or os.path.basename(file) == "config.yaml"
+    target = Path(file) if is_values else None
+    if target is not None and os.path.lexists(target):
+        raise click.UsageError(f"{target} is there already, and stays as it is")
+    component = _which.component(file) if target is None else _component_near(file)
+    target = target or Path(component).parent / _which.VALUES
     if os.path.lexists(target):
         raise click.UsageError(f"{target} is there already, and stays as it is")
     analysis = analyse((component,), include)
@@ -274,11 +282,12 @@ def write_new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
     linked = program.components[real].parameters if real in program.components else program.parameters.get(real)
     if linked is None or linked.broken or has_errors(analysis.diagnostics):
         _fail(ctx, analysis.diagnostics, program.documents)
+    from robocomp_yaml.commands._neighbours import ports
     from robocomp_yaml.emit.first_values import first_values
 
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        whole.create(str(target), first_values(linked, component, str(target)))
+        whole.create(str(target), first_values(linked, component, str(target), ports(analysis)))
     except OSError as error:
         raise click.UsageError(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
     if ctx.obj.verbosity >= 0:
@@ -287,15 +296,12 @@ def write_new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
 
 def _component_near(file: str) -> str:
     """The only component beside a values document, or one folder up."""
-    if not file.endswith((".config.yaml", "/config.yaml")) and file != "config.yaml":
-        raise click.UsageError("FILE is a component's document, or a values document: NAME.config.yaml")
     folder = os.path.dirname(file)
-    for where in (folder or ".", os.path.join(folder or ".", os.pardir)):
-        for suffix in (".cdsl.yaml", ".pdsl.yaml"):
-            listed = sorted(os.listdir(where)) if os.path.isdir(where) else []
-            names = [name for name in listed if name.endswith(suffix)]
-            if len(names) == 1:
-                return os.path.normpath(os.path.join(where, names[0]))
-            if names:
-                raise click.UsageError(f"there are several components here: {', '.join(names)}; name one of them")
+    for where in (folder, os.path.normpath(os.path.join(folder, os.pardir))):
+        for kind in ("cdsl", "pdsl"):
+            found = beside(where, kind)
+            if len(found) == 1:
+                return found[0]
+            if found:
+                raise click.UsageError(f"there are several components here: {', '.join(found)}; name one of them")
     raise click.UsageError(f"there is no component beside {file}, nor one folder up")

@@ -2,11 +2,31 @@
 
 from __future__ import annotations
 
+import os
+
 import click
 
 from robocomp_yaml.commands import _options
 
-file = click.argument("file", type=click.Path(exists=True, dir_okay=False))
+
+def _meant(ctx: click.Context, param: click.Parameter, said: str) -> str:
+    from robocomp_yaml.commands import _which
+
+    return _which.values(said)
+
+
+class _FileMayLack(click.Command):
+    """Its first argument may be left out where there is only one document that it can be."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        wanted = [param.name for param in self.get_params(ctx) if isinstance(param, click.Argument)]
+        found, _, _ = self.make_parser(ctx).parse_args(list(args))
+        given = [found[name] for name in wanted if name and isinstance(found.get(name), str)]
+        lacks = len(given) == len(wanted) - 1 and not os.path.exists(given[0])
+        return super().parse_args(ctx, ["", *args] if lacks else args)
+
+
+file = click.argument("file", metavar="[FILE]", default="", callback=_meant)
 format_ = click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
                        help="How to print it.")  # fmt: skip
 
@@ -15,17 +35,21 @@ format_ = click.option("--format", "format_", type=click.Choice(["text", "json"]
 def command() -> None:
     """The values of a component's parameters: without a build, and without a robot.
 
-    FILE is a values document: etc/config.yaml, or NAME.config.yaml.
+    FILE is a values document: etc/config.yaml, or NAME.config.yaml. A component's folder, its document or its name
+    stand for its etc/config.yaml; where there is only one component, FILE may be left out.
     """
 
 
 @command.command(short_help="A first document, with defaults and docs as comments.")
-@click.argument("file", type=click.Path(dir_okay=False))
+@click.argument("file", metavar="[COMPONENT]", default="")
 @_options.include
 @click.pass_context
 def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
-    """Write a first values document for the component FILE (its .cdsl.yaml or .pdsl.yaml) to etc/config.yaml beside it;
-    or write FILE itself, a values document, for the component that stands beside it or one folder up."""
+    """Write a first values document to etc/config.yaml in a component's folder. COMPONENT is that folder, the
+    component's document (or that of its parameters), or its name; where there is only one, it may be left out. It may
+    also be the values document to be written, NAME.config.yaml, for the component beside it or one folder up.
+
+    Values and connections that the component's etc/config has are taken over."""
     from robocomp_yaml.commands import _values
 
     _values.write_new(ctx, file, include)
@@ -57,7 +81,7 @@ def show(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) 
     _values.show(ctx, file, include, format_)
 
 
-@command.command(short_help="One effective value.")
+@command.command(short_help="One effective value.", cls=_FileMayLack)
 @file
 @click.argument("path")
 @_options.include
@@ -70,7 +94,7 @@ def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...], form
     _values.get(ctx, file, path, include, format_)
 
 
-@command.command("set", short_help="Change one value; all else stays as it is.", context_settings={
+@command.command("set", short_help="Change one value; all else stays as it is.", cls=_FileMayLack, context_settings={
     "ignore_unknown_options": True,
 })
 @file

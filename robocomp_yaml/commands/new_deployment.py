@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.program import LinkedComponent, Port
-    from robocomp_yaml.model.parameters import RecordType
+    from robocomp_yaml.model.parameters import Parameters
 
 _SUFFIX = "comp"
 
@@ -70,7 +70,7 @@ def _entry(
     document = Path(os.path.relpath(linked.component.path, path.parent)).as_posix()
     yield f"  {names[id(linked)]}:"
     yield f"    component: {document}"
-    missing = {} if _has_values(linked) else _required(linked.parameters.parameters.root)
+    missing = {} if _has_values(linked) else _required(linked.parameters.parameters)
     if missing:
         from robocomp_yaml.values.spell_yaml import flow
 
@@ -85,18 +85,16 @@ def _has_values(linked: LinkedComponent) -> bool:
     return os.path.isfile(os.path.join(os.path.dirname(linked.component.path), "etc", "config.yaml"))
 
 
-def _required(record: RecordType) -> dict[str, object]:
+def _required(parameters: Parameters) -> dict[str, Any]:
     """A value, for example, of each parameter that needs one."""
-    from robocomp_yaml.model.parameters import RecordType
-    from robocomp_yaml.values.example import example
+    from robocomp_yaml.values.fitting import fitted
 
-    found: dict[str, object] = {}
-    for member in record.members:
-        if member.is_group and isinstance(member.type, RecordType):
-            inner = _required(member.type)
-            found |= {member.name: inner} if inner else {}
-        elif member.required:
-            found[member.name] = example(member)
+    found: dict[str, Any] = {}
+    for path, value in fitted(parameters).given.items():
+        here = found
+        for step in path[:-1]:
+            here = here.setdefault(step, {})
+        here[path[-1]] = value
     return found
 
 

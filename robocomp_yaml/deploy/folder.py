@@ -69,9 +69,15 @@ def _acquire(lock: int) -> bool:
 
 
 def deployment_in(path: str) -> str:
-    """The name of the deployment that a document is about, even where it has errors; '' where it does not show it."""
+    """The name of the deployment that a document is about; of one that is no YAML (any more), what looks like it. ''
+    where it does not show it."""
+    from robocomp_yaml.source.heading import root_of, text_at_top
+
+    said = text_at_top(root_of(path), "deployment")
+    if said:
+        return said if _NAME.fullmatch(f"deployment: {said}") else ""
     try:
-        with open(path, encoding="utf-8", errors="replace") as file:
+        with open(path, encoding="utf-8-sig", errors="replace") as file:
             found = _NAME.search(file.read())
     except OSError:
         return ""

@@ -10,6 +10,7 @@ from robocomp_yaml.deploy.local import record
 from robocomp_yaml.deploy.local.engine import LocalEngine
 from robocomp_yaml.network.network import FOLDER, Host, Network
 
+
 def stand_in(path: str) -> Network | None:
     """The network of what runs, as it was started; None where nothing does, or the document does not even show its
     name."""

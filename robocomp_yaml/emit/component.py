@@ -39,12 +39,11 @@ def component_plan(
 
             plan.files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
     if options.wants("config"):
-        written = os.path.lexists(os.path.join(root, CONFIG))
-        table = assign([linked]) if written else options.ports(linked)
         plan.files += parameter_files.schemas(linked)
-        made = list(_configs(linked, program, table))
+        made = list(_configs(linked, program, lambda: options.ports(linked)))
         plan.files += made
         if all(file.path != CONFIG for file in made):
+            table = assign([linked]) if _is_complete(root, linked) else options.ports(linked)
             plan.files.append(config.plan(linked, table))
     if options.wants("docs"):
         plan.files += parameter_files.docs(linked)
@@ -66,7 +65,13 @@ def values_of(linked: LinkedComponent, program: Program) -> list[ValuesDocument]
     return [layer.document for values in documents_of(linked, program) for layer in values.layers()]
 
 
-def _configs(linked: LinkedComponent, program: Program, table: Ports) -> Iterator[FilePlan]:
+def _is_complete(root: str, linked: LinkedComponent) -> bool:
+    """Whether an `etc/config` stands there that leaves no port open, so that those of the neighbours do not matter."""
+    given = config.standing(root)
+    return all(config.stated(given, key) is not None for key in config.needed(linked))
+
+
+def _configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports]) -> Iterator[FilePlan]:
     if program.values:
         from robocomp_yaml.emit.value_files import configs, documents_of  # most components have no values
 

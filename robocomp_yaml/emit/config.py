@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan
 from robocomp_yaml.emit.ports import IceEndpoint, Ports, interface_key
-from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.source.properties import entry_line
+from robocomp_yaml.emit.specific.entries import spellings
+from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.source.properties import entry_line, read, unquoted
 
 DEFAULT_PERIOD = 100
 
@@ -31,6 +32,52 @@ def plan(component: LinkedComponent, table: Ports) -> FilePlan:
     return FilePlan(CONFIG, text, ONCE)
 
 
+def needed(linked: LinkedComponent) -> list[str]:
+    """The keys without which a component finds no other, or is not found itself."""
+    keys = [f"{name}.Endpoints" for name in ports.adapters(linked)]
+    keys += [f"{port.name}Proxy" for port in linked.requires]
+    if linked.publishes or linked.subscribes:
+        keys += ["TopicManager.Proxy", *(f"{port.name}Topic.Endpoints" for port in linked.subscribes)]
+    return keys
+
+
+def connections(linked: LinkedComponent, table: Ports, standing: Mapping[str, str]) -> dict[str, str]:
+    """The same with their values, as a first `etc/config` has them. Where no component is known that implements what
+    this one requires, what stands in its configuration already is more than a guess."""
+    values = read(plan(linked, table).text).values
+    found = {key: values[key] for key in needed(linked)}
+    for port in linked.requires:
+        key = f"{port.name}Proxy"
+        stands = stated(standing, key)
+        if stands is not None and not _others(linked, port, table):
+            found[key] = stands
+    return found
+
+
+def stated(properties: Mapping[str, str], key: str) -> str | None:
+    """The value that a configuration gives a key under any of its spellings."""
+    return next((unquoted(properties[each]) for each in names(key) if properties.get(each)), None)
+
+
+def names(key: str) -> tuple[str, ...]:
+    return key, *sorted(spellings(key))
+
+
+def standing(folder: str) -> dict[str, str]:
+    """The properties of the `etc/config` in a component's folder; none where there is none."""
+    try:
+        with open(os.path.join(folder, CONFIG), encoding="utf-8", errors="replace") as file:
+            return dict(read(file.read()).values)
+    except OSError:
+        return {}
+
+
+def _others(linked: LinkedComponent, port: Port, table: Ports) -> list[tuple[LinkedComponent, str]]:
+    """The other components that implement what one requires."""
+    here = ports.document(linked)
+    return [one for one in table.implementers.get(interface_key(port), ()) if ports.document(one[0]) != here]
+
+
 def _head(linked: LinkedComponent) -> Iterator[str]:
     name = linked.component.name
     yield f"# Configuration of {name}: one KEY=VALUE a line, as Ice reads it. rcyaml wrote it once; it is yours now."
@@ -49,14 +96,13 @@ def _offers(linked: LinkedComponent, table: Ports) -> Iterator[str]:
 def _needs(linked: LinkedComponent, table: Ports) -> Iterator[str]:
     if linked.requires:
         yield "# What it needs: where the others listen."
-    here = ports.document(linked)
     earlier: dict[tuple[str, str], int] = {}
     for port in linked.requires:
         key = interface_key(port)
         identity = port.interface.name.lower()
         # A second proxy to an interface is for a second component that implements it, where there is one.
         count = earlier[key] = earlier.get(key, -1) + 1
-        found = [one for one in table.implementers.get(key, ()) if ports.document(one[0]) != here]
+        found = _others(linked, port, table)
         yield from _comment(port.name, port.interface.doc)
         if found:
             other, adapter = found[min(count, len(found) - 1)]

@@ -1,33 +1,105 @@
-"""The text of a component's first values document, with the endpoints and proxies that it will need."""
+"""The text of a component's first values document: with the endpoints and proxies that it will need, and with what its
+`etc/config` says so far, so that a compile changes nothing that runs."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
-from robocomp_yaml.emit import ports
-from robocomp_yaml.link.program import LinkedParameters
-from robocomp_yaml.values.new import new_document
+from robocomp_yaml.emit import config
+from robocomp_yaml.emit.manifest import BASE
+from robocomp_yaml.emit.plan import CONFIG
+from robocomp_yaml.emit.ports import Ports
+from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
+from robocomp_yaml.model.parameters import Parameters, RecordType
+from robocomp_yaml.source.properties import read, unquoted
+from robocomp_yaml.values.new import Sections, new_document
+from robocomp_yaml.values.read import properties_to_values
 
 
-def first_values(linked: LinkedParameters, component: str, target: str) -> str:
-    """`component` is the path of the CDSL (or PDSL), `target` that of the document to be."""
+def first_values(
+    linked: LinkedParameters, component: str, target: str, table: Callable[[LinkedComponent], Ports]
+) -> str:
+    """`component` is the path of the CDSL (or PDSL), `target` that of the document to be; `table` gives the ports of a
+    component's workspace."""
     folder = os.path.dirname(target) or "."
     where = Path(os.path.relpath(component, folder)).as_posix()
     schema = Path(os.path.relpath(os.path.join(os.path.dirname(component), "generated", "config.schema.json"), folder))
     modeline = f"# yaml-language-server: $schema={schema.as_posix()}"
-    return new_document(linked.parameters, where, modeline, _connections(linked))
+    sections: Sections = []
+    values: dict[str, Any] = {}
+    if linked.component is not None:
+        home = os.path.dirname(linked.component.component.path)
+        standing = config.standing(home)
+        ports = table(linked.component)
+        sections = _connections(linked.component, standing, ports)
+        if standing:
+            changed = _changed(home, standing, config.plan(linked.component, ports).text)
+            changed = {key: unquoted(value) for key, value in changed.items()} if _is_toml(standing) else changed
+            values = _values(linked.parameters, standing)
+            sections += _others(linked, changed)
+    return new_document(linked.parameters, where, modeline, sections, values)
 
 
-def _connections(linked: LinkedParameters) -> list[tuple[str, list[tuple[str, str]]]]:
-    component = linked.component
-    if component is None:
-        return []
-    table = ports.assign([component])
-    served = [(name, f"tcp -p {table.endpoint(component, name).port}") for name in ports.adapters(component)]
-    served += [(f"{port.name}Topic", "tcp -p 0") for port in component.subscribes]
-    proxies = [
-        (port.name, f"{port.interface.name.lower()}:tcp -h localhost -p {ports.default_port('', port.interface.name)}")
-        for port in component.requires
+def _connections(linked: LinkedComponent, standing: Mapping[str, str], table: Ports) -> Sections:
+    """Where it and the others are: as it stands, else as compile would have it."""
+    usual = config.connections(linked, table, standing)
+    found = {key: config.stated(standing, key) or value for key, value in usual.items()}
+    served = [(key.removesuffix(".Endpoints"), text) for key, text in found.items() if key.endswith(".Endpoints")]
+    proxies = [(port.name, found[f"{port.name}Proxy"]) for port in linked.requires]
+    manager = found.get("TopicManager.Proxy", "")
+    topics = [("manager", manager)] if manager != usual.get("TopicManager.Proxy", "") else []
+    return [("endpoints", served), ("proxies", proxies), ("topics", topics)]
+
+
+def _changed(folder: str, standing: Mapping[str, str], usual: str) -> dict[str, str]:
+    """What of an `etc/config` is not as rcyaml wrote it: a user's."""
+    try:
+        with open(os.path.join(folder, BASE, CONFIG), encoding="utf-8", errors="replace") as file:
+            usual = file.read()
+    except OSError:
+        pass
+    written = read(usual).values
+    return {key: value for key, value in standing.items() if value and written.get(key) != value}
+
+
+def _values(parameters: Parameters, standing: Mapping[str, str]) -> dict[str, Any]:
+    """The parameters that an `etc/config` gives other values than their defaults."""
+    found, faults = properties_to_values(parameters, standing, quoted=_is_toml(standing))
+    return _but_defaults(parameters.root, found, faults)
+
+
+def _is_toml(standing: Mapping[str, str]) -> bool:
+    """Whether texts stand in quotes, as RoboComp's newer components have them."""
+    return any(key.startswith(("Endpoints.", "Proxies.")) and value[:1] == '"' for key, value in standing.items())
+
+
+def _but_defaults(record: RecordType, found: Mapping[str, Any], faults: Mapping[str, Any]) -> dict[str, Any]:
+    kept: dict[str, Any] = {}
+    for member in record.members:
+        value = found.get(member.name)
+        if member.is_group and isinstance(member.type, RecordType) and isinstance(value, dict):
+            inside = faults.get(member.name)
+            below = inside[0] if isinstance(inside, list) and inside and isinstance(inside[0], dict) else {}
+            kept[member.name] = _but_defaults(member.type, value, below)
+        elif value is not None and member.name not in faults:
+            if member.default is None or value != member.default.data:
+                kept[member.name] = value
+    return kept
+
+
+def _others(linked: LinkedParameters, changed: Mapping[str, str]) -> Sections:
+    """The user's entries that are neither connections nor parameters."""
+    assert linked.component is not None
+    root = linked.parameters.root
+    known = {key for each in config.needed(linked.component) for key in config.names(each)}
+    own = {key: value for key, value in changed.items()
+           if key not in known and root.member(key.partition(".")[0]) is None}
+    ice = [(key.removeprefix("Ice."), value) for key, value in own.items() if key.startswith("Ice.")]
+    # Which property a spelling of its own means is not known here: what is none of Ice's may be a parameter.
+    others = [] if linked.parameters.spellings else [
+        (key, value) for key, value in own.items() if not key.startswith("Ice.")
     ]
-    return [("endpoints", served), ("proxies", proxies)]
+    return [("ice", ice), ("properties", others)]

@@ -20,8 +20,8 @@ class Unusable(Exception):
 
 
 class Entry(msgspec.Struct, frozen=True):
-    """A file that rcyaml wrote: the digest of what it wrote, the documents it was written for (paths relative to the
-    root), and whether it was written once, as the user's."""
+    """A file that rcyaml wrote: the digest of what it put there last (see `ownership`), the documents it was written
+    for (paths relative to the root), and whether it was written once, as the user's."""
 
     hash: str
     owners: tuple[str, ...]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class Options(msgspec.Struct):
     """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
     `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
-    component's workspace (asked for only when a first `etc/config` is to be written). `only` limits it to some
+    component's workspace (asked for only where its configuration leaves some open). `only` limits it to some
     components, and leaves interfaces out."""
 
     output: str | None

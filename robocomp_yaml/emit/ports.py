@@ -1,8 +1,8 @@
-"""The ports of a workspace: those that stand in an `etc/config`, else defaults.
+"""The ports of a workspace: those that values documents give, or that stand in an `etc/config`, else defaults.
 
-A port that an existing `etc/config` of the workspace names is taken; of two defaults that meet, the later name
-(component, then interface) moves on to the next free port. So the ports depend on the workspace's names alone, and
-stay once they stand in an `etc/config`.
+A port that a configuration of the workspace names is taken; of two defaults that meet, the later name (component, then
+interface) moves on to the next free port. So the ports depend on the workspace's names alone, and stay once they stand
+in an `etc/config`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.plan import CONFIG
-from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, default_port, next_free
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
@@ -25,10 +25,12 @@ from robocomp_yaml.source.properties import Entry
 
 class Ports(msgspec.Struct):
     """The endpoint of each adapter (real path of the component's document, interface's name) of a workspace, and which
-    components implement an interface (module, name), in order of their paths."""
+    components implement an interface (module, name), in order of their paths. `contents` are the files that say so,
+    None where there is none."""
 
     endpoints: dict[tuple[str, str], IceEndpoint] = {}
     implementers: dict[tuple[str, str], list[tuple[LinkedComponent, str]]] = {}
+    contents: dict[str, bytes | None] = {}
 
     def endpoint(self, linked: LinkedComponent, name: str) -> IceEndpoint:
         return self.endpoints[document(linked), name]
@@ -44,15 +46,21 @@ def adapters(linked: LinkedComponent) -> list[str]:
     return list(dict.fromkeys([*(use.name for use in linked.component.implements), COMMON_BEHAVIOR]))
 
 
-def assign(components: Iterable[LinkedComponent]) -> Ports:
-    """The ports of a workspace's components: those that stand in their `etc/config`, else defaults."""
+def assign(components: Iterable[LinkedComponent], values: Iterable[LinkedValues] = ()) -> Ports:
+    """The ports of a workspace's components: those that their values give, those that stand in their `etc/config`,
+    else defaults."""
+    given = {id(one.parameters.component): one for one in values if one.parameters and is_own(one)}
     distinct = {document(linked): linked for linked in components}
     ordered = sorted(distinct.items(), key=lambda item: (item[1].component.name, item[0]))
     result = Ports()
     taken = set(RESERVED)
     for key, linked in ordered:
-        for name, entry in _written(linked):
-            endpoint = parse_endpoint(entry.value)
+        raw = result.contents[config_path(linked)] = _raw(linked)
+        texts = {name: entry.value for name, entry in _written(raw)}
+        if id(linked) in given:  # which `compile` writes there
+            texts |= _given(given[id(linked)])
+        for name, text in texts.items():
+            endpoint = parse_endpoint(text)
             if endpoint:
                 result.endpoints[key, name] = endpoint
                 taken.add(endpoint.port)
@@ -77,7 +85,7 @@ def clashes(components: Iterable[LinkedComponent]) -> list[Diagnostic]:
     diagnostics = []
     seen: dict[tuple[bool, int], list[tuple[str, str, Span]]] = {}
     for linked in sorted(components, key=lambda linked: linked.component.path):
-        for name, entry in _written(linked):
+        for name, entry in _written(_raw(linked)):
             endpoint = parse_endpoint(entry.value)
             if endpoint is None:
                 continue
@@ -99,14 +107,33 @@ def config_path(linked: LinkedComponent) -> str:
     return os.path.join(os.path.dirname(linked.component.path), CONFIG)
 
 
-def _written(linked: LinkedComponent) -> Iterator[tuple[str, Entry]]:
-    """The endpoint properties of a component's `etc/config`, by adapter, in either dialect."""
+def is_own(values: LinkedValues) -> bool:
+    """Whether they are what the component is configured from: `etc/config.yaml` in its folder."""
+    component = values.parameters.component if values.parameters else None
+    if component is None:
+        return False
+    own = os.path.join(os.path.dirname(component.component.path), f"{CONFIG}.yaml")
+    return os.path.realpath(own) == os.path.realpath(values.document.path)
+
+
+def _given(values: LinkedValues) -> dict[str, str]:
+    from robocomp_yaml.source.tree import Scalar
+    from robocomp_yaml.values.properties import given  # most components have no values
+
+    return {name: node.lexeme for name, node in given(values, "endpoints") if isinstance(node, Scalar)}
+
+
+def _raw(linked: LinkedComponent) -> bytes | None:
     try:
-        with open(config_path(linked), encoding="utf-8", errors="replace") as file:
-            read = properties.read(file.read())
+        with open(config_path(linked), "rb") as file:
+            return file.read()
     except OSError:
-        return
-    for key, entry in read.last.items():
+        return None
+
+
+def _written(raw: bytes | None) -> Iterator[tuple[str, Entry]]:
+    """The endpoint properties of an `etc/config`, by adapter, in either dialect."""
+    for key, entry in properties.read((raw or b"").decode(errors="replace")).last.items():
         if key.startswith("Endpoints."):
             yield key.removeprefix("Endpoints."), entry
         elif key.endswith(".Endpoints"):

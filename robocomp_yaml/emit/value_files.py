@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.plan import CONFIG, FilePlan
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
-from robocomp_yaml.source.properties import read
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties
 from robocomp_yaml.values.property_text import property_text
@@ -33,8 +32,11 @@ def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues
     return [values for values in found if os.path.basename(values.document.path) not in joined]
 
 
-def configs(linked: LinkedComponent, documents: list[LinkedValues], table: Ports) -> Iterator[FilePlan]:
-    """The property files of a component; the documents have been found right."""
+def configs(
+    linked: LinkedComponent, documents: list[LinkedValues], table: Callable[[], Ports]
+) -> Iterator[FilePlan]:
+    """The property files of a component; the documents have been found right. `table` has the ports of the workspace,
+    asked for where a document leaves some open."""
     for values in documents:
         found, _ = effective(values)
         if found is None:
@@ -47,12 +49,16 @@ def configs(linked: LinkedComponent, documents: list[LinkedValues], table: Ports
         yield FilePlan(path, property_text(sections, linked.component.name, source))
 
 
-def _with_connections(sections: list[Section], linked: LinkedComponent, table: Ports) -> list[Section]:
-    """The defaults of endpoints and proxies that the document does not give: without them nothing would start."""
+def _with_connections(
+    sections: list[Section], linked: LinkedComponent, table: Callable[[], Ports]
+) -> list[Section]:
+    """The endpoints and proxies that the document does not give, as a first `etc/config` would have them: without them
+    nothing would start."""
     given = {made.key for section in sections for made in section.properties}
+    if given >= set(config.needed(linked)):
+        return sections
+    there = config.standing(os.path.dirname(linked.component.path))
     missing = [
-        Property(key, value)
-        for key, value in read(config.plan(linked, table).text).values.items()
-        if key not in given and (key.endswith((".Endpoints", "Proxy")) and not key.startswith("Ice."))
+        Property(key, value) for key, value in config.connections(linked, table(), there).items() if key not in given
     ]
-    return [Section("Where this component and the others are, by default", missing), *sections] if missing else sections
+    return [Section("Where this component and the others are, by default", missing), *sections]

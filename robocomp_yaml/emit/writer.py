@@ -11,14 +11,13 @@ from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.emit import atomic, changes, manifest
+from robocomp_yaml.emit import atomic, changes, manifest, ownership
 from robocomp_yaml.emit.changes import Change, Changes, RootChanges
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, free_name
 from robocomp_yaml.emit.manifest import Entry, Manifest
 from robocomp_yaml.emit.places import Found
 from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan
 from robocomp_yaml.emit.wanted import WantedRoot, by_root
-from robocomp_yaml.source import properties
 from robocomp_yaml.source.digest import digest
 
 
@@ -143,7 +142,7 @@ class _Root:
         text = plan.text.encode()
         self.result.once.append(plan.path)
         if merge and found.data == merge.before:
-            self._merge(plan, found, merge)
+            self._merge(plan, found, merge, entry)
         elif found.exists:
             self._note(plan.path, changes.KEPT)
             if entry:
@@ -159,12 +158,12 @@ class _Root:
             self._own(plan.path, digest(text), once=True)
             self._keep_base(plan.path, text)
 
-    def _merge(self, plan: FilePlan, found: Found, merge: Merge) -> None:
+    def _merge(self, plan: FilePlan, found: Found, merge: Merge, entry: Entry | None) -> None:
         if merge.text == found.data:
             self._note(plan.path, changes.KEPT)
         else:
             self._write(plan, found, changes.MERGE, merge.text)
-        self._own(plan.path, digest(merge.base), once=True)
+        self._own(plan.path, ownership.merged(entry, merge), once=True)
         self._keep_base(plan.path, merge.base)
 
     def _cannot_merge(self) -> bool:
@@ -187,18 +186,16 @@ class _Root:
         elif entry and not entry.once:
             change = self._write(plan, found, changes.EDITED)
             self._warn_edited(plan.path, f"it is kept as '{os.path.basename(change.orig)}'")
-        elif self.adopt or (plan.path == CONFIG and _same_properties(found.data or b"", text)):
+        elif self.adopt or self._loses_nothing(plan.path, found.data or b"", text):
             self._write(plan, found, changes.ADOPT)
         else:
             self._note(plan.path, changes.REFUSED, found.data, text)
-            owner = self.root.shown(self.wanted.files[plan.path].owners[0])
-            self.diagnostics.append(codes.NOT_OURS.at(
-                Span(self.root.shown(plan.path)), path=plan.path,
-                hint=f"`{typed('rcyaml', 'compile', '--adopt', owner)}` writes it, and keeps yours as .orig",
-            ))
+            self.diagnostics.append(self._not_ours(plan.path, found.data or b"", text, entry))
             return
         self.result.settled[plan.path] = text
         self._own(plan.path, digest(text))
+        if entry and entry.once:
+            self._drop_base(plan.path)
 
     def _has_another(self, plan: FilePlan) -> bool:
         """Whether a root inside this one writes the very same file."""
@@ -207,8 +204,28 @@ class _Root:
 
     def _is_ours(self, path: str, data: bytes, entry: Entry | None) -> bool:
         """Whether rcyaml wrote it, for this root or for another one that has it, too."""
-        hash_ = digest(data)
-        return bool(entry and entry.hash == hash_) or manifest.any_has(f"{self.root.real}/{path}", hash_)
+        return ownership.is_as_put(entry, data) or manifest.any_has(f"{self.root.real}/{path}", digest(data))
+
+    def _loses_nothing(self, path: str, data: bytes, text: bytes) -> bool:
+        """Whether a configuration that is the user's has no entry of its own that another text would not have."""
+        if path != CONFIG:
+            return False
+        base = self._base(path)
+        return ownership.lost(base, data, text) == [] and (base is not None or ownership.lost(None, text, data) == [])
+
+    def _base(self, path: str) -> bytes | None:
+        return self.root.look(f"{manifest.BASE}/{path}").data if path in self.old.files else None
+
+    def _not_ours(self, path: str, data: bytes, text: bytes, entry: Entry | None) -> Diagnostic:
+        span = Span(self.root.shown(path))
+        adopt = typed("rcyaml", "compile", "--adopt", self.root.shown(self.wanted.files[path].owners[0]))
+        if entry is None or path != CONFIG:
+            return codes.NOT_OURS.at(span, path=path, hint=f"`{adopt}` writes it, and keeps yours as .orig")
+        keys = ", ".join(ownership.lost(self._base(path), data, text) or ["them"])
+        return codes.CHANGED.at(
+            span, path=path, hint=f"bring {keys} into {path}.yaml; `{adopt}` then rewrites the file, and keeps yours "
+            "as .orig",
+        )
 
     def _unwanted(self, path: str, entry: Entry) -> None:
         """A file of the manifest that no plan asks for: it stays as long as some document may still want it."""
@@ -297,10 +314,3 @@ class _Root:
         elif found.data != text:
             before = found.data if found.exists else None
             self.result.steps.append(atomic.Step(path, before, text))
-
-
-def _same_properties(one: bytes, other: bytes) -> bool:
-    try:
-        return properties.read(one.decode()).values == properties.read(other.decode()).values
-    except UnicodeDecodeError:
-        return False

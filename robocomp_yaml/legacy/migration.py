@@ -90,7 +90,7 @@ def _plan(
     run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
     inferred: Sequence[Inferred], force: bool,
 ) -> None:  # fmt: skip
-    written: dict[str, list[tuple[str, str]]] = {folder: [] for folder in known.new}
+    written: dict[str, list[tuple[str, str, yaml.Map]]] = {folder: [] for folder in known.new}
     planned: list[tuple[LegacyFile, Entry, str, str, yaml.Map, Notes, str]] = []
     for file, entry in good:
         rules, draft = entry.file.rules, entry.file.draft
@@ -107,7 +107,7 @@ def _plan(
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
         if home in written and not raw:
-            written[home].append((kind, document))
+            written[home].append((kind, document, content))
     run.tell_failures()
     for folder in known.new:
         run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)

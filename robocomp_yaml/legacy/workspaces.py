@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -46,12 +47,14 @@ def wants_file(root: OutputRoot) -> bool:
     return os.path.realpath(above) == root.root.real and root.is_ours(WORKSPACE_FILE)
 
 
-def file_text(root: str, documents: Iterable[tuple[str, str]]) -> str:
-    """The `rcyaml.yaml` of a migrated folder, for documents with their kinds: where its interfaces are, and what a
-    legacy repository does that only becomes wrong when it is compiled."""
+def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
+    """The `rcyaml.yaml` of a migrated folder, for documents with their kinds and contents: where its interfaces are,
+    and what a legacy repository does that only becomes wrong when it is compiled."""
     document, lint = Map(block=True), Map(block=True)
     folders: dict[str, set[str]] = {"idsl": set(), "cdsl": set()}
-    for kind, path in documents:
+    components: Counter[str] = Counter()
+    for kind, path, content in documents:
+        components.update(_component(content) if kind == "cdsl" else ())
         folder = os.path.relpath(os.path.dirname(path) or ".", root)
         folders.setdefault(kind, set()).add(folder)
     if folders["idsl"]:
@@ -62,6 +65,9 @@ def file_text(root: str, documents: Iterable[tuple[str, str]]) -> str:
         document.put("interfaces", listed)
     for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT, machines.UNREADABLE):
         lint.put(row.id, "warning")
+    if components and max(components.values()) > 1:
+        notes = Notes(head=["Components that have the same name are kept as they were."])
+        lint.put(cdsl.SAME_NAME.id, "warning", notes)
     document.put("lint", lint, Notes(head=["Files that were not there to be migrated are named still."]))
     return modeline(os.path.join(root, WORKSPACE_FILE), root, "workspace") + text(document, Notes())
 
@@ -74,6 +80,15 @@ def values_modeline(document: str, folder: str) -> str:
     """The modeline of values of the component in a folder."""
     schema = os.path.join(folder, "generated", "config.schema.json")
     return f"# yaml-language-server: $schema={os.path.relpath(schema, os.path.dirname(document) or '.')}\n"
+
+
+def _component(content: Map) -> list[str]:
+    """What tells a component from others: its name and language."""
+    entries = {entry.key: entry.value for entry in content.entries}
+    language = entries.get("language")
+    if isinstance(language, Map):
+        language = next((entry.value for entry in language.entries if entry.key == "name"), "")
+    return [f"{entries.get('component')} in {language}"]
 
 
 def _is_below(path: str, folder: str) -> bool:

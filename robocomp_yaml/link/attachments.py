@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import msgspec
 
@@ -12,30 +11,32 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related, has_errors
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link import component_references as references
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.parameters import of_no_document, resolve
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
-from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.discover import documents_below, kind_of
 
 SUFFIX = ".pdsl.yaml"
-_NAMES_COMPONENT = re.compile(rb"^component:[ \t]*[\"']?([^\"'#\r\n]+?)[\"']?[ \t]*(?:#.*)?\r?$", re.MULTILINE)
 
 
 class Attachments(msgspec.Struct):
     """Follows the references between components, parameters and values. Keys of the tables are real paths; `absent`
-    collects the paths at which a document would be found if it were there."""
+    collects the paths at which a document would be found if it were there, and `root_of` gives the folder below which
+    a document's component may be."""
 
     documents: Documents
     program: Program
     absent: set[str]
+    root_of: Callable[[str], str]
     diagnostics: list[Diagnostic] = []
     _parameters_of: dict[str, list[tuple[str, Span]]] = {}  # component: its PDSLs
     _component_of: dict[str, str] = {}  # PDSL or values: what `component:` names
     _extends: dict[str, list[str]] = {}
+    _names: dict[str, dict[str, list[str]]] = {}  # folder: its component documents by name
 
     def follow(self, document: Document) -> Iterator[Document]:
         """The documents that a document refers to."""
@@ -48,74 +49,118 @@ class Attachments(msgspec.Struct):
             yield from self._follow_reference(document, model)
             if isinstance(model, ValuesDocument):
                 yield from self._follow_layers(document, model)
+                home = references.components_of(document.path)
+                if len(home) == 1:
+                    yield self.documents.get(home[0])
 
     def _follow_component(self, document: Document, model: Component) -> Iterator[Document]:
         folder = os.path.dirname(document.path)
         linked = self.program.components[document.real]
         if model.parameters:
             path = os.path.normpath(os.path.join(folder, model.parameters))
-            if not (path.endswith(".yaml") and os.path.isfile(path)):
-                hint = _similar(path, SUFFIX)
+            if not references.is_document(path, ("pdsl",)):
+                hint = references.hint(model.parameters, folder, "parameters", ("pdsl",))
                 self.diagnostics.append(codes.NO_PARAMETERS.at(model.parameters_span, name=model.parameters, hint=hint))
+                self.absent.add(path)
                 linked.parameters.broken = linked.broken = True
             else:
                 target = self.documents.get(path)
                 self._parameters_of.setdefault(document.real, []).insert(0, (target.real, model.parameters_span))
                 yield target
-        else:
-            yield from self._beside(document, folder)
-        values = os.path.normpath(os.path.join(folder, "etc", "config.yaml"))
-        if os.path.isfile(values):
-            yield self.documents.get(values)
-        else:
-            self.absent.add(values)
+        yield from self._beside(document, folder)
+        self.absent.add(os.path.normpath(os.path.join(folder, "etc", "config.yaml")))
+        for values in references.beside(os.path.join(folder, "etc"), "config"):
+            self.absent.discard(values)
+            if os.path.basename(values) == "config.yaml" or _is_compiled(self.documents.glance(values)):
+                yield self.documents.get(values)
 
     def _beside(self, document: Document, folder: str) -> Iterator[Document]:
-        """The documents beside a component that name it as theirs."""
-        named_alike = os.path.normpath(document.path.removesuffix(".cdsl.yaml") + SUFFIX)
-        if not os.path.lexists(named_alike):
-            self.absent.add(named_alike)
-        try:
-            names = sorted(name for name in os.listdir(folder or ".") if name.endswith(SUFFIX))
-        except OSError:
-            names = []
-        for name in names:
-            path = os.path.normpath(os.path.join(folder, name))
-            try:
-                with open(path, "rb") as file:
-                    found = _NAMES_COMPONENT.search(file.read(1 << 16))
-            except OSError:
-                continue
-            if found and os.path.normpath(found[1].decode(errors="replace")) == os.path.basename(document.path):
-                target = self.documents.get(path)
+        """The documents beside a component that name it as theirs. Where none does, those are read too that may have
+        been meant to: what is wrong with them is told, and the component is not taken to have no parameters."""
+        self.absent.add(os.path.join(folder, f"{references.stem(document.path)}{SUFFIX}"))
+        doubtful = []
+        for path in references.beside(folder, "pdsl"):
+            self.absent.discard(path)
+            target = self.documents.glance(path)
+            said = target.component
+            if said and self._is_named(document, folder, said):
                 if target.model is None:  # it will not name the component itself
                     self._parameters_of.setdefault(document.real, []).append((target.real, Span(path)))
-                yield target
+                yield self.documents.get(path)
+            elif said is None or not references.is_document(os.path.normpath(os.path.join(folder, said)), ("cdsl",)):
+                doubtful.append(target)
+        if self._parameters_of.get(document.real) or (doubtful and len(references.beside(folder, "cdsl")) > 1):
+            return
+        for target in doubtful:
+            if target.model is None:
+                self._parameters_of.setdefault(document.real, []).append((target.real, Span(target.path)))
+            yield self.documents.get(target.path)
+
+    def _is_named(self, document: Document, folder: str, said: str) -> bool:
+        """Whether this component is meant; by its name too, of which `_follow_reference` says what is wrong with it."""
+        names = (document.component, references.stem(document.path))
+        return said in names or os.path.realpath(os.path.join(folder, said)) == document.real
 
     def _follow_reference(self, document: Document, model: ParameterDocument | ValuesDocument) -> Iterator[Document]:
-        """The component (or, for values, the parameters) that `component:` names; a plain name names no document."""
-        name = model.component
-        if not name or (isinstance(model, ParameterDocument) and "/" not in name and not name.endswith(".yaml")):
+        """The component (or, for values, the parameters) that `component:` names. Parameters of a component that has
+        no document name no document."""
+        name, folder = model.component, os.path.dirname(document.path)
+        if not name:
             return
+        is_parameters = isinstance(model, ParameterDocument)
         span = model.component_span if isinstance(model, ParameterDocument) else model.span
-        path = os.path.normpath(os.path.join(os.path.dirname(document.path), name))
-        kinds = (".cdsl.yaml",) if isinstance(model, ParameterDocument) else (".cdsl.yaml", SUFFIX)
-        is_kind = path.endswith(kinds) or os.path.basename(path) in ("cdsl.yaml", "pdsl.yaml")
-        if not (is_kind and os.path.isfile(path)):
-            self.diagnostics.append(codes.NO_COMPONENT.at(span, name=name, hint=_similar(path, *kinds)))
+        kinds = ("cdsl",) if is_parameters else ("cdsl", "pdsl")
+        path = os.path.normpath(os.path.join(folder, name))
+        if not references.is_document(path, kinds):
+            root = self.root_of(document.path)
+            is_name = os.path.basename(name) == name and not name.endswith((".yaml", ".yml"))
+            found = self._called(name, root) if is_name else []
+            is_plain = is_parameters and "/" not in name and not name.endswith(".yaml")
+            hint = references.hint_for_name(name, folder) if is_plain else (
+                references.hint(name, folder, "component", kinds)
+            )
+            if found:
+                told = codes.NAMED.at(span, name=name, hint=references.write(found, folder, "component"))
+                is_near = not is_parameters or any(os.path.dirname(path) == folder for path in found)
+                # Parameters that stand alone may have a component's name by chance, as migrated ones have.
+                self.diagnostics.append(told if is_near else told.as_severity("warning"))
+                if not is_near:
+                    return
+            elif hint or not is_plain:
+                alike = [] if hint.startswith(("write", "that is")) else self._called(os.path.basename(name), root)
+                hint = references.write(alike, folder, "component") if alike else hint
+                self.diagnostics.append(codes.NO_COMPONENT.at(span, name=name, hint=hint))
+            else:
+                return
             self._component_of[document.real] = ""
-            return
+            found = references.beside(folder, "cdsl") if is_parameters and not found else found
+            found = references.components_of(document.path) or found
+            if len(found) != 1:
+                return
+            path = found[0]  # what follows is judged as if it were right
         target = self.documents.get(path)
         self._component_of[document.real] = target.real
-        if isinstance(model, ParameterDocument):
+        if is_parameters:
             self._parameters_of.setdefault(target.real, []).append((document.real, span))
         yield target
+
+    def _called(self, name: str, root: str) -> list[str]:
+        """The documents whose component is called so, or whose file is: below a folder, and in this run."""
+        if root not in self._names:
+            known = self._names[root] = {}
+            below = [path for path in documents_below(root or ".") if kind_of(path) == "cdsl"]
+            read = [document.path for document in self.documents.read.values() if document.kind == "cdsl"]
+            documents = {document.real: document for document in map(self.documents.glance, (*below, *read))}
+            for document in documents.values():
+                for each in {references.stem(document.path), os.path.basename(document.path), document.component or ""}:
+                    known.setdefault(each, []).append(document.path)
+        return self._names[root].get(name, [])
 
     def _follow_layers(self, document: Document, model: ValuesDocument) -> Iterator[Document]:
         for layer in model.extends:
             path = os.path.normpath(os.path.join(os.path.dirname(document.path), str(layer.value)))
             if not (path.endswith(".yaml") and os.path.isfile(path) and kind_of(path) in ("config", None)):
-                hint = _similar(path, "config.yaml")
+                hint = references.hint(str(layer.value), os.path.dirname(document.path), "extends", ("config",))
                 self.diagnostics.append(value_codes.NO_LAYER.at(layer.span, name=layer.value, hint=hint))
                 self.program.values[document.real].broken = True
                 continue
@@ -127,6 +172,7 @@ class Attachments(msgspec.Struct):
         """After all documents are read: each component has its parameters, each values document its layers."""
         for real, component in self.program.components.items():
             self._join_component(real, component)
+        self.diagnostics += self._elsewhere()
         for document in list(self.documents.read.values()):
             if isinstance(document.model, ParameterDocument) and document.real not in self.program.parameters:
                 parameters, found = resolve(document.model)
@@ -134,7 +180,33 @@ class Attachments(msgspec.Struct):
                 self.program.parameters[document.real] = LinkedParameters(
                     parameters, document.model, broken=_hides_types(found)
                 )
+                self.diagnostics += self._unclaimed(document.model)
         self._join_layers()
+
+    def _elsewhere(self) -> Iterator[Diagnostic]:
+        """Parameters that name a component which would not find them by itself."""
+        for real, component in self.program.components.items():
+            for other, span in self._parameters_of.get(real, ()):
+                path, own = self.documents.read[other].path, component.component
+                is_beside = os.path.dirname(other) == os.path.dirname(real)
+                if not is_beside and not own.parameters:
+                    folder = os.path.dirname(own.path)
+                    yield codes.NOT_BESIDE.at(
+                        span, component=own.name, related=[Related("the component", own.span)],
+                        hint=f"{references.write([path], folder, 'parameters')} in {own.path}, or move this document "
+                        "beside it",
+                    )
+
+    def _unclaimed(self, document: ParameterDocument) -> Iterator[Diagnostic]:
+        """Parameters that name no component, beside one that names no parameters."""
+        folder = os.path.dirname(document.path)
+        beside = references.beside(folder, "cdsl")
+        component = self.program.components.get(os.path.realpath(beside[0])) if len(beside) == 1 else None
+        if component is not None and not document.component and component.parameters.document is None:
+            yield codes.UNCLAIMED.at(
+                document.span, component=component.component.name, hint=references.write(beside, folder, "component"),
+                related=[Related("the component", component.component.span)],
+            )
 
     def _join_component(self, real: str, component: LinkedComponent) -> None:
         named = self._parameters_of.get(real, [])
@@ -176,13 +248,25 @@ class Attachments(msgspec.Struct):
                     linked.extends.append(values[other])
                     values[other].is_extended = True
         for linked in values.values():
+            home = references.components_of(linked.document.path)
+            here = [found for path in home if (found := self.program.components.get(os.path.realpath(path)))]
             for base in reversed(linked.layers()):  # its own component, else that of the nearest layer
                 target = self._component_of.get(os.path.realpath(base.document.path))
                 if target is not None:
-                    linked.parameters = self._parameters(target)
+                    linked.parameters = self._parameters(target, here)
                     break
+            else:
+                if len(home) == len(here) == 1:  # whose else could they be
+                    linked.parameters = here[0].parameters
+            self.diagnostics += _misplaced(linked, home, here)
 
-    def _parameters(self, real: str) -> LinkedParameters | None:
+    def _parameters(self, real: str, here: Sequence[LinkedComponent]) -> LinkedParameters | None:
+        """Those that a values document names; of a document that several components share, those of the component
+        at hand."""
+        document = self.program.parameters[real].document if real in self.program.parameters else None
+        for component in here:
+            if document is not None and component.parameters.document is document:
+                return component.parameters
         if real in self.program.components:
             return self.program.components[real].parameters
         return self.program.parameters.get(real)
@@ -199,6 +283,24 @@ class Attachments(msgspec.Struct):
         return False
 
 
+def _is_compiled(document: Document) -> bool:
+    """Whether values become a file of their own, as those do that were migrated from one."""
+    legacy = document.model.section("legacy") if isinstance(document.model, ValuesDocument) else None
+    return legacy is not None and legacy.get("file") is not None
+
+
+def _misplaced(linked: LinkedValues, home: list[str], here: Sequence[LinkedComponent]) -> Iterator[Diagnostic]:
+    """The values that a component would take for its own, and that name another one."""
+    own = linked.parameters
+    if own is None or own.component is None or not here or any(component.parameters is own for component in here):
+        return
+    folder, whose = os.path.dirname(linked.document.path), own.component.component.name
+    yield codes.MISPLACED.at(
+        linked.document.span, component=here[0].component.name, other=whose,
+        hint=references.write(home, folder, "component"), related=[Related("the component", here[0].component.span)],
+    )
+
+
 def _hides_types(found: Iterable[Diagnostic]) -> bool:
     """Whether some parameters have no usable type; a constraint that cannot be read harms no other."""
     return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
@@ -207,14 +309,3 @@ def _hides_types(found: Iterable[Diagnostic]) -> bool:
 def leads_to(layer: Literal, document: ValuesDocument, real: str) -> bool:
     """Whether an entry of a document's `extends:` means the document with this real path."""
     return os.path.realpath(os.path.join(os.path.dirname(document.path), str(layer.value))) == real
-
-
-def _similar(path: str, *suffixes: str) -> str:
-    """The document in the same folder that was probably meant."""
-    folder = os.path.dirname(path)
-    try:
-        names = [name for name in sorted(os.listdir(folder or ".")) if name.endswith(suffixes)]
-    except OSError:
-        return f"there is no folder '{folder}'"
-    meant = suggest(os.path.basename(path), names)
-    return f"did you mean '{meant}'?" if meant else ""

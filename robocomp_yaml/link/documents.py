@@ -15,6 +15,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.model import build_interface
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.heading import COMPONENT, text_at_top
 from robocomp_yaml.source.text import decode, read_bytes
 from robocomp_yaml.source.tree import Mapping, Node, parse
 
@@ -45,13 +46,15 @@ def builder(kind: str) -> Callable[[Mapping, str], Model]:
 
 class Document(msgspec.Struct):
     """A document as far as it could be read: `model` is None where it has errors of its own. `real` is its real
-    path, `module` the name of the module it defines, as far as that can be told."""
+    path, `module` the name of the module it defines, as far as that can be told; `component` is what it says under
+    `component:`, and None where it cannot be read at all."""
 
     path: str
     real: str
     kind: str
     model: Model | None = None
     module: str = ""
+    component: str | None = None
 
 
 class Documents(msgspec.Struct):
@@ -63,16 +66,27 @@ class Documents(msgspec.Struct):
     contents: dict[str, bytes] = {}
     overlay: dict[str, bytes] = {}
     diagnostics: list[Diagnostic] = []
+    _glanced: dict[str, tuple[Document, list[Diagnostic]]] = {}
 
     def get(self, path: str, kind: str = "") -> Document:
         """The document at a path, read at the first call; `kind` is for one whose name does not say it."""
-        real = os.path.realpath(path)
-        document = self.read.get(real)
-        if document is None:
-            document = self.read[real] = Document(path, real, kind_of(path) or kind or "idsl")
-            self.diagnostics += self._load(document)
+        document = self.glance(path, kind)
+        if document.real not in self.read:
+            self.read[document.real], found = self._glanced.pop(document.real)
+            self.diagnostics += found
             self.on_read(path)
         return document
+
+    def glance(self, path: str, kind: str = "") -> Document:
+        """The same for one that may prove to be none of this run: what is wrong with it is told once it is got."""
+        real = os.path.realpath(path)
+        document = self.read.get(real)
+        if document is not None:
+            return document
+        if real not in self._glanced:
+            document = Document(path, real, kind_of(path) or kind or "idsl")
+            self._glanced[real] = document, list(self._load(document))
+        return self._glanced[real][0]
 
     def _load(self, document: Document) -> Iterator[Diagnostic]:
         raw = self.overlay.get(document.real)
@@ -94,8 +108,7 @@ class Documents(msgspec.Struct):
         if not has_errors(diagnostics):
             assert isinstance(tree, Mapping)
             document.model = builder(document.kind)(tree, document.path)
-        if isinstance(tree, Mapping):
-            document.module = build_interface.text(tree, "module")
+        document.module, document.component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
 
     def _fits(self, document: Document, tree: Node) -> list[Diagnostic]:
         diagnostics = schema.validate(document.kind, tree)

@@ -93,7 +93,13 @@ class Linker(msgspec.Struct):
     def _attachments(self) -> Attachments:
         from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
 
-        return Attachments(self.documents, self.program, self.search.absent, self.diagnostics)
+        return Attachments(self.documents, self.program, self.search.absent, self._root_of, self.diagnostics)
+
+    def _root_of(self, path: str) -> str:
+        """The folder that a document's workspace consists of; without a declared one, that of its component."""
+        workspace = self.workspace_of(path)
+        is_deep = not workspace.declared and os.path.basename(os.path.abspath(workspace.root or ".")) == "etc"
+        return os.path.normpath(os.path.join(workspace.root, os.pardir)) if is_deep else workspace.root
 
     def _deployments(self) -> DeploymentDocuments:
         from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none

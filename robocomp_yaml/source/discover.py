@@ -15,7 +15,9 @@ from robocomp_yaml.diag.terminal import typed
 
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config")
 _MODELINE = re.compile(
-    rb"#\s*yaml-language-server:\s*\$schema=\S*(?:\.rcyaml/schemas|generated)/config\.schema\.json\s*$"
+    rb"(?:\xef\xbb\xbf)?(?:[ \t]*(?:#[^\r\n]*|%[^\r\n]*|---[ \t]*)?\r?\n)*"
+    rb"[ \t]*#[ \t]*yaml-language-server:[ \t]*\$schema=\S*(?:\.rcyaml/schemas|generated)/config\.schema\.json"
+    rb"[ \t]*(?:\r?\n|\Z)"
 )
 WORKSPACE_FILE = "rcyaml.yaml"
 MANIFEST = ".rcyaml/manifest.json"
@@ -32,7 +34,8 @@ def kind_of(path: str) -> str | None:
 
 
 def _is_ours(path: str) -> bool:
-    """Many programs have a `config.yaml`: ours stands in `etc/` beside a component, or names our schema."""
+    """Many programs have a `config.yaml`: ours stands in `etc/` beside a component, or names our schema in a comment
+    above its content, where editors look for it."""
     folder = os.path.dirname(path)
     if os.path.basename(os.path.abspath(folder)) == "etc":
         try:
@@ -43,7 +46,7 @@ def _is_ours(path: str) -> bool:
             return True
     try:
         with open(path, "rb") as file:
-            return _MODELINE.match(file.readline(1 << 12)) is not None
+            return _MODELINE.match(file.read(1 << 12)) is not None
     except OSError:
         return False
 
@@ -110,5 +113,5 @@ def documents_below(
             roots.append(os.path.normpath(where))
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
         for name in sorted(names):
-            if kind_of(name if name != "config.yaml" else os.path.join(where, name)):
-                yield os.path.normpath(os.path.join(where, name))
+            if name.endswith(".yaml") and kind_of(path := os.path.normpath(os.path.join(where, name))):
+                yield path

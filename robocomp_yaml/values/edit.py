@@ -1,12 +1,15 @@
 """One value of a document changed in its text; every other byte stays.
 
 The tree says where: an existing value is replaced between its marks, a new one is put behind the last entry of the
-mapping or list that it belongs to. What would touch more than that (a list over many lines, an alias) is refused.
+mapping or list that it belongs to, and behind the comments that are indented as that entry's own. Where a first
+document (`values.new`) has a line for it with a # before it, that line becomes the value. What would touch more than
+that (a list over many lines, an alias) is refused.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Collection
 from typing import Any
 
 import msgspec
@@ -16,6 +19,7 @@ from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import quoted, scalar, single_quoted
 
 _COLON = re.compile(r"[ \t]*:")
+_LINE = re.compile(r"(?<=\n)(?P<indent>[ ]*)(?P<body>[^\r\n]*?)[ \t]*(?=\r?\n|\Z)")
 _REST_OF_LINE = re.compile(r"[ \t]*(?:#[^\n]*)?(?=\r?\n|\Z)")
 
 
@@ -34,15 +38,23 @@ class Change(msgspec.Struct, frozen=True):
     was: str
 
 
-def set_value(path: str, text: str, root: Mapping, steps: list[Step], new: str, *, is_text: bool) -> Change:
+def set_value(
+    path: str, text: str, root: Mapping, steps: list[Step], new: str, *, is_text: bool,
+    lines_above: Callable[[list[Step]], Collection[str]] = lambda steps: (),
+) -> Change:  # fmt: skip
     """The document with another value at `steps` (from its top; numbers are places in lists, and the one behind the
-    last is a new entry); `new` is YAML on one line, or the text itself where `is_text`. Raises NotEditable."""
+    last is a new entry); `new` is YAML on one line, or the text itself where `is_text`. `lines_above` gives the
+    comments of which one stands above the line of a value that is left out. Raises NotEditable."""
     node: Node = root
     key: Scalar | None = None
     for depth, step in enumerate(steps):
         found = _child(node, step)
         if found is None:
-            change = _insert(text, node, key, steps[depth:], scalar(new) if is_text else new)
+            spelled = scalar(new) if is_text else new
+            left_out = _left_out(text, node, key, steps[depth], lines_above(steps[: depth + 1]))
+            change = _uncommented(text, left_out, steps[depth:], spelled) if left_out is not None else (
+                _insert(text, node, key, steps[depth:], spelled)
+            )
             break
         key, node = found[0] or key, found[1]
     else:
@@ -131,8 +143,8 @@ def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: s
         colon = _COLON.match(text, key.end)
         if colon is None or node.end > node.start:
             raise NotEditable("there is no mapping here to add to", node)
-        indent = " " * (key.span.column + 1)
         at = _end_of_line(text, colon.end())
+        indent = " " * _inside(text, key)
         return Change(text[:at] + _line_end(text) + _block(steps, new, indent, _line_end(text)) + text[at:], "")
     if not isinstance(node, Mapping) or not isinstance(steps[0], str):
         what = "list" if isinstance(steps[0], int) else "mapping"
@@ -150,8 +162,50 @@ def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: s
     line_end = _line_end(text)
     if text[:last].endswith("\n"):  # behind a text of several lines
         return Change(text[:last] + _block(steps, new, indent, line_end) + line_end + text[last:], "")
-    at = _end_of_line(text, last)
+    at = _behind_comments(text, _end_of_line(text, last), len(indent))
     return Change(text[:at] + line_end + _block(steps, new, indent, line_end) + text[at:], "")
+
+
+def _behind_comments(text: str, at: int, indent: int) -> int:
+    """Behind the comments that follow and are indented deeper: they are about what stands above them."""
+    for line in _LINE.finditer(text, at):
+        if line["body"] and (not line["body"].startswith("#") or len(line["indent"]) <= indent):
+            break
+        if line["body"]:
+            at = line.end("body")
+    return at
+
+
+def _left_out(text: str, node: Node, key: Scalar | None, step: Step, above: Collection[str]) -> re.Match[str] | None:
+    """The line of an entry that a first document leaves out, below the key of the mapping that it belongs to."""
+    is_block = isinstance(node, Mapping) and not node.is_flow or isinstance(node, Scalar) and node.data is None
+    if key is None or not above or not is_block:
+        return None
+    outer = key.span.column - 1
+    entries = iter(node.entries.values()) if isinstance(node, Mapping) else iter(())
+    indent = next((first.span.column - 1 for first, _ in entries), _inside(text, key))
+    found, before = None, ""
+    for line in _LINE.finditer(text, _end_of_line(text, key.end)):
+        body = line["body"]
+        if body and not body.startswith("#") and len(line["indent"]) <= outer:
+            break
+        if before in above and len(line["indent"]) == indent and body.startswith(f"# {scalar(step)}:"):
+            found = line
+        before = body
+    return found
+
+
+def _inside(text: str, key: Scalar) -> int:
+    """The indentation of what belongs below a key that has nothing yet: that of the comments which stand there."""
+    outer = key.span.column - 1
+    line = _LINE.search(text, key.end)
+    is_inside = line is not None and line["body"].startswith("#") and len(line["indent"]) > outer
+    return len(line["indent"]) if line is not None and is_inside else outer + 2
+
+
+def _uncommented(text: str, line: re.Match[str], steps: list[Step], new: str) -> Change:
+    block = _block(steps, new, line["indent"], _line_end(text))
+    return Change(text[: line.start("indent")] + block + text[line.end("body") :], "")
 
 
 def _append(text: str, node: Sequence, key: Scalar | None, steps: list[Step], new: str) -> Change:

@@ -4,11 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice
+from typing import Any
 
-from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, Member, ScalarType, Size, Type
-from robocomp_yaml.values.example_text import example_text
+from robocomp_yaml.model.parameters import (
+    LIMITS,
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    ScalarType,
+    Size,
+    Type,
+)
+from robocomp_yaml.values.example_text import example_texts
 
-_MOST = 16  # entries of an example: more are too many to read
+_MOST = 16  # different values that are thought of
+_LARGEST = 1024  # entries of an example
 
 
 def example(member: Member) -> object:
@@ -18,28 +30,29 @@ def example(member: Member) -> object:
 def example_of(type_: Type) -> object:
     match type_:
         case EnumType() | BasicType():
-            return next(_simplest(type_))
+            return next(simplest(type_))
         case ListType(element=element, size=size, unique=unique):
-            return _different(element, _count(size)) if unique else [example_of(element)] * _count(size)
+            return _different(element, count_of(size)) if unique else [example_of(element)] * count_of(size)
         case MapType(element=element, size=size):
-            return {f"name{place or ''}": example_of(element) for place in range(_count(size))}
+            return {f"name{place or ''}": example_of(element) for place in range(count_of(size))}
         case _:
             return {m.name: example(m) for m in type_.members if not m.optional}
 
 
-def _count(size: Size) -> int:
-    """How many entries an example has: enough, where that is not too many."""
-    return max(1, size.least if size.least <= _MOST else 3)
+def count_of(size: Size, wanted: int | None = None) -> int:
+    """How many entries an example has: as many as wanted (usually one), or the nearest number that is allowed."""
+    count = max(1 if wanted is None else wanted, size.least)
+    return min(count, _LARGEST if size.most is None else size.most)
 
 
 def _different(element: Type, count: int) -> list[object]:
     """As many different entries as are easily found; the rest, which a person must change, repeat the last."""
     plain = element if isinstance(element, EnumType | BasicType) else None
-    entries = list(islice(_simplest(plain), count)) if plain else [example_of(element)]
+    entries = list(islice(simplest(plain), count)) if plain else [example_of(element)]
     return entries + entries[-1:] * (count - len(entries))
 
 
-def _simplest(type_: ScalarType) -> Iterator[object]:
+def simplest(type_: ScalarType) -> Iterator[object]:
     """Values that fit, all different, the simplest first; at least one."""
     if isinstance(type_, EnumType):
         yield from type_.allowed
@@ -51,7 +64,7 @@ def _simplest(type_: ScalarType) -> Iterator[object]:
     elif type_.name != "string":
         yield from _numbers(type_)
     elif type_.pattern:
-        yield example_text(type_.pattern)
+        yield from islice(example_texts(type_.pattern), _MOST)
     else:
         yield from ("text", *(f"text{number}" for number in range(2, _MOST + 1)))
 
@@ -78,3 +91,21 @@ def _nearest(type_: BasicType) -> int | float:
     if low is not None and high is not None:
         return (low.value + high.value) / 2
     return low.value + 1 if low is not None else high.value - 1  # type: ignore[union-attr]
+
+
+def fits(type_: ScalarType, value: Any) -> bool:
+    """Whether a plain value is one of its type."""
+    if isinstance(type_, EnumType):
+        return value in type_.allowed
+    if type_.name == "string":
+        allowed = [str(literal.value) for literal in type_.values]
+        return isinstance(value, str) and (type_.pattern is None or type_.pattern.matches(value)) and (
+            not allowed or value in allowed
+        )
+    if type_.name == "bool" or isinstance(value, bool):
+        return type_.name == "bool" and isinstance(value, bool)
+    if not isinstance(value, int if type_.is_integer else int | float):
+        return False
+    low, high = LIMITS[type_.name]
+    is_allowed = not type_.values or value in [literal.value for literal in type_.values]
+    return is_allowed and low <= value <= high and (type_.range is None or type_.range.holds(value))

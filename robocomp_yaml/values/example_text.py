@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 import msgspec
 
@@ -11,7 +12,23 @@ from robocomp_yaml.model.pattern import Pattern
 _COUNT = re.compile(r"\{(\d+)[^}]*\}|[*+?]")
 _CLASS = re.compile(r"\[\^?(?:\\.|[^\]\\])+\]", re.DOTALL)
 _CONTROLS = {"t": "\t", "n": "\n", "r": "\r", "f": "\f", "v": "\v"}
+_VARIED = "123456789bcdeBCDE"
+_ENOUGH = 32
 _PLAIN = "a0A-_./ "  # what a class is asked for first
+
+
+def example_texts(pattern: Pattern) -> Iterator[str]:
+    """Different texts that a pattern matches, as far as they are easily found: variations of the first one."""
+    todo = [example_text(pattern)]
+    seen = set(todo)
+    for text in todo:
+        yield text
+        for at in range(len(text), -1, -1):
+            for char in _VARIED:
+                for other in (f"{text[:at]}{char}{text[at + 1 :]}", f"{text[:at]}{char}{text[at:]}"):
+                    if len(todo) < _ENOUGH and other not in seen and pattern.matches(other):
+                        seen.add(other)
+                        todo.append(other)
 
 
 def example_text(pattern: Pattern) -> str:

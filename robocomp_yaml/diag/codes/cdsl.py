@@ -126,3 +126,15 @@ SAME_FOLDER = Code(
     {**_RIGHT, "other.cdsl.yaml": "component: OtherComp\nlanguage: python\n"},
     {**_RIGHT, "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\n"},
 )
+SAME_NAME = Code(
+    "RC2011",
+    "error",
+    "{name} is the name of another component of this workspace, too ({other})",
+    "A component's name is that of its program, its ports are chosen by it, and logs, deployments and `rcyaml config` "
+    "know it by that. Two of one name are most often a folder that was copied, in which `component:` still has the old "
+    "name. The same component in two languages is no mistake, nor are two workspaces (each with an `rcyaml.yaml` of "
+    "its own). Where you mean it, set the severity of this code in `rcyaml.yaml`.",
+    {"rcyaml.yaml": "", "speech/speech.cdsl.yaml": _HEAD, "speech2/speech.cdsl.yaml": _HEAD},
+    {"rcyaml.yaml": "", "speech/speech.cdsl.yaml": _HEAD,
+     "speech2/speech.cdsl.yaml": _HEAD.replace("SpeechComp", "SpeechComp2")},
+)

@@ -19,9 +19,9 @@ NOT_OURS = Code(
     "RC6001",
     "error",
     "'{path}' is there already, and rcyaml did not write it",
-    "rcyaml overwrites only what it wrote itself, and knows that from `.rcyaml/manifest.json`. A file with the very "
-    "text that would be written is taken over without a word; any other is yours until you say otherwise. With "
-    "`--adopt` rcyaml writes its own and keeps yours as `.orig`.",
+    "rcyaml overwrites only what it put there itself, written or merged, and knows that from `.rcyaml/manifest.json`. "
+    "A file with the very text that would be written is taken over without a word; any other is yours until you say "
+    "otherwise. With `--adopt` rcyaml writes its own and keeps yours as `.orig`.",
     {**_DOCUMENTS, "speech/slice/Speech.ice": "module Mine {};\n"},
     _DOCUMENTS,
     "compile .",
@@ -106,4 +106,26 @@ PORT_CLASH = Code(
         "other/etc/config": "Speech.Endpoints=tcp -p 12000\n",
         "speech/etc/config": "Speech.Endpoints=tcp -p 12001\n",
     },
+)
+CHANGED = Code(
+    "RC6010",
+    "error",
+    "'{path}' holds changes of yours, and its values document would have it rewritten",
+    "rcyaml writes a component's first `etc/config` once; with `etc/config.yaml` it comes from there, and every "
+    "compile rewrites it. As long as nobody changed the file, it is simply renewed. Entries of your own that the "
+    "document does not give would be lost, so nothing is written: bring them into `etc/config.yaml` (`rcyaml config "
+    "new` does so when it writes that document), or let `--adopt` rewrite the file, which keeps yours as `.orig`.",
+    {
+        "speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\n",
+        "etc/config": "period.compute=7\n",
+        "etc/config.yaml": "component: ../speech.cdsl.yaml\nparameters: {}\n",
+        ".rcyaml/manifest.json": _OURS.format("0" * 32).replace("slice/Speech.ice", "etc/config").replace(
+            '"owners"', '"once": true, "owners"'
+        ),
+    },
+    {
+        "speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\n",
+        "etc/config.yaml": "component: ../speech.cdsl.yaml\nparameters: {period: {compute: 7}}\n",
+    },
+    "compile .",
 )

@@ -231,3 +231,46 @@ DISAGREEMENT = Code(
     {"speech.cdsl.yaml": _CDSL + "parameters: speech.pdsl.yaml\n",
      "speech.pdsl.yaml": "component: speech.cdsl.yaml\nparameters: {}\n"},
 )
+NAMED = Code(
+    "RC3204",
+    ERROR,
+    "'{name}' is a component's name, and `component:` takes the path of its document",
+    "Two components of a workspace's folders may be called alike, so parameters and values name theirs by the path of "
+    "its `.cdsl.yaml`, relative to this document. A plain name in a `.pdsl.yaml` stands for a component that has no "
+    "document (yet); where one of that name has its document in another folder, this is a warning.",
+    {"speech.pdsl.yaml": "component: SpeechComp\nparameters: {}\n", "speech.cdsl.yaml": _CDSL},
+    {"speech.pdsl.yaml": "component: speech.cdsl.yaml\nparameters: {}\n", "speech.cdsl.yaml": _CDSL},
+)
+NOT_BESIDE = Code(
+    "RC3205",
+    ERROR,
+    "component {component} does not know these parameters: they stand in another folder",
+    "A component has the parameters of the document that it names under `parameters:`, or else of one beside it that "
+    "names it. One of another folder would be found by some commands (`check .`) and by others not.",
+    {"speech/speech.cdsl.yaml": _CDSL,
+     "shared/speech.pdsl.yaml": "component: ../speech/speech.cdsl.yaml\nparameters: {}\n"},
+    {"speech/speech.cdsl.yaml": _CDSL + "parameters: ../shared/speech.pdsl.yaml\n",
+     "shared/speech.pdsl.yaml": "component: ../speech/speech.cdsl.yaml\nparameters: {}\n"},
+)
+UNCLAIMED = Code(
+    "RC3206",
+    WARNING,
+    "component {component} has no parameters, and these name no component",
+    "Parameters belong to a component that they name under `component:`, or that names them under `parameters:`. "
+    "Standing beside it is not enough: a document of parameters may be shared.",
+    {"speech.pdsl.yaml": "parameters:\n  volume: {type: int, default: 50}\n", "speech.cdsl.yaml": _CDSL},
+    {"speech.pdsl.yaml": "component: speech.cdsl.yaml\nparameters:\n  volume: {type: int, default: 50}\n",
+     "speech.cdsl.yaml": _CDSL},
+)
+MISPLACED = Code(
+    "RC3207",
+    ERROR,
+    "these values stand in the folder of {component}, and are for {other}",
+    "`etc/config.yaml` is what the component of its folder is configured from. Most often it was copied together with "
+    "the folder, and names the component that it was copied from. Values of another component belong beside that one, "
+    "or into a document of another name.",
+    {"speech/speech.cdsl.yaml": _CDSL, "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\n",
+     "other/etc/config.yaml": "component: ../../speech/speech.cdsl.yaml\nparameters: {}\n"},
+    {"speech/speech.cdsl.yaml": _CDSL, "other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\n",
+     "other/etc/config.yaml": "component: ../other.cdsl.yaml\nparameters: {}\n"},
+)

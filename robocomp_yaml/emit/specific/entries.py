@@ -20,7 +20,7 @@ def lacking(base: str | None, yours: str, new: str) -> list[str]:
     if base is None:
         return []
     known = {*_keys(yours), *_keys(base)}
-    return [key for key in _keys(new) if not known & {key, *_spellings(key)} and re.fullmatch(_NEEDED, key)]
+    return [key for key in _keys(new) if not known & {key, *spellings(key)} and re.fullmatch(_NEEDED, key)]
 
 
 def paste(new: str, keys: list[str]) -> str:
@@ -50,7 +50,7 @@ def _keys(text: str) -> dict[str, str]:
     return dict(properties.read(text).values)
 
 
-def _spellings(key: str) -> set[str]:
+def spellings(key: str) -> set[str]:
     """The other names under which the run time looks for a property."""
     found = re.fullmatch(_NEEDED, key)
     if found is None:

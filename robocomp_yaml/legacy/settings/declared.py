@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_yaml.legacy.document import Map
@@ -11,11 +10,9 @@ from robocomp_yaml.legacy.settings.plan import Config, Plan
 from robocomp_yaml.legacy.settings.planning import give_back
 from robocomp_yaml.legacy.settings.shapes import Scalar
 from robocomp_yaml.model.parameters import BASIC_TYPES
-from robocomp_yaml.source import tree
-from robocomp_yaml.source.text import read_bytes
+from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.heading import component_in, root_of
 
-SUFFIX = ".pdsl.yaml"
-_NAMES = re.compile(r"^component:[ \t]*[\"']?([^\"'#\r\n]+?)[\"']?[ \t]*(?:#.*)?$", re.MULTILINE)
 Types = dict[str, str]
 """The types of plain parameters by their paths."""
 
@@ -34,21 +31,18 @@ def beside(component: str) -> Iterator[str]:
     """The PDSL documents in the folder of a component's document that name it as theirs."""
     folder = os.path.dirname(component)
     try:
-        names = sorted(name for name in os.listdir(folder or ".") if name.endswith(SUFFIX))
+        names = sorted(os.listdir(folder or "."))
     except OSError:
         return
-    for name in names:
-        path = os.path.join(folder, name)
-        raw, _ = read_bytes(path, 1 << 20)
-        found = _NAMES.search(raw.decode("utf-8", "replace")) if raw is not None else None
-        if found and os.path.normpath(found[1]) == os.path.basename(component):
+    for path in (os.path.join(folder, name) for name in names if kind_of(name) == "pdsl"):
+        said = component_in(path)
+        if said and os.path.realpath(os.path.join(folder, said)) == os.path.realpath(component):
             yield path
 
 
 def of_document(path: str) -> Types:
     """The plain parameters of a PDSL document, groups opened."""
-    raw, _ = read_bytes(path, 1 << 20)
-    root, _ = tree.parse(path, (raw or b"").decode("utf-8", "replace"))
+    root = root_of(path)
     data = root.data if root is not None else None
     parameters = data.get("parameters") if isinstance(data, dict) else None
     return dict(_plain(parameters, ""))

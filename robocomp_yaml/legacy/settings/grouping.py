@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Callable, Mapping, Sequence
 
 import msgspec
@@ -15,8 +14,8 @@ from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.settings import declared
 from robocomp_yaml.legacy.settings.sorting import Ports
 from robocomp_yaml.legacy.sources import LegacyFile
+from robocomp_yaml.source.heading import component_in
 
-_NAME = re.compile(rb"^component:[ \t]*[\"']?([\w-]+)", re.MULTILINE)
 _PARTS = ("implements", "requires", "publishes", "subscribes")
 
 Good = Sequence[tuple[LegacyFile, Entry]]
@@ -139,12 +138,7 @@ class Components:
 
     def _written(self, path: str) -> Component:
         if path not in self.known:
-            try:
-                with open(path, "rb") as opened:
-                    found = _NAME.search(opened.read(1 << 16))
-            except OSError:
-                found = None
-            name = found[1].decode(errors="replace") if found else _stem(path)
+            name = component_in(path) or _stem(path)
             self.known[path] = Component(name, path, os.path.join(os.path.dirname(path), f"{name}.pdsl.yaml"))
         return self.known[path]
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 from disk import actions, always, carry_out, codes, files, once, plan, tree
 
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit import writer
-from robocomp_yaml.emit.plan import CONFIG
+from robocomp_yaml.emit.plan import CONFIG, Merge, Merges
 
 
 def test_the_first_compile_writes_everything(tmp_path: Path) -> None:
@@ -127,7 +128,37 @@ def test_a_once_file_that_becomes_ours(tmp_path: Path) -> None:
     carry_out(plan(tmp_path, once(CONFIG, "a=3\n")))
     (tmp_path / CONFIG).write_text("a=4\n")
     _, said = carry_out(plan(tmp_path, always(CONFIG, "a=5\n")))
-    assert codes(said) == ["RC6001"] and (tmp_path / CONFIG).read_text() == "a=4\n"
+    assert codes(said) == ["RC6010"] and (tmp_path / CONFIG).read_text() == "a=4\n"
+    assert "bring a into etc/config.yaml" in said[0].hint
+
+
+def merge(root: Path, text: str, skeleton: str) -> list[Diagnostic]:
+    """As `rcyaml compile --merge` does with one file."""
+    merges = Merges({(str(root), CONFIG): Merge((root / CONFIG).read_bytes(), text.encode(), skeleton.encode())})
+    prepared = writer.prepare([plan(root, once(CONFIG, skeleton))], merges=merges)
+    return [*prepared.diagnostics, *writer.commit(prepared)]
+
+
+def test_a_merged_file_that_nobody_edited_is_ours(tmp_path: Path) -> None:
+    carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
+    assert not merge(tmp_path, "a=1\n\nb=1\n", "a=9\nb=1\n")
+    assert not merge(tmp_path, "a=1\n\nb=1\n\nc=1\n", "a=9\nb=1\nc=1\n")
+    _, said = carry_out(plan(tmp_path, always(CONFIG, "z=0\n")))
+    assert not said and (tmp_path / CONFIG).read_text() == "z=0\n"
+    assert not list(tmp_path.rglob("*.orig"))
+
+
+@pytest.mark.parametrize("first", ["a=1\nmine=1\n", "a=1\n# mine\nmine=1\n"])
+def test_a_merge_does_not_make_the_users_lines_ours(tmp_path: Path, first: str) -> None:
+    carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
+    (tmp_path / CONFIG).write_text(first)
+    assert not merge(tmp_path, f"{first}\nb=1\n", "a=1\nb=1\n")
+    assert not merge(tmp_path, f"{first}\nb=1\n\nc=1\n", "a=1\nb=1\nc=1\n")
+    _, said = carry_out(plan(tmp_path, always(CONFIG, "a=1\nb=1\n")))
+    assert codes(said) == ["RC6010"] and "mine=1" in (tmp_path / CONFIG).read_text()
+    assert "bring mine into" in said[0].hint
+    _, said = carry_out(plan(tmp_path, always(CONFIG, "mine=1\nz=0\n")))
+    assert not said and "mine=1" in (tmp_path / "etc/config.orig").read_text()
 
 
 def test_a_lost_executable_bit_comes_back(tmp_path: Path) -> None:

@@ -1,0 +1,82 @@
+"""Which document is meant, for commands about values: by its path, its folder or the component's name, or without a
+word where there is only one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+
+import click
+
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.component_references import beside, stem
+from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.heading import component_in
+
+VALUES = os.path.join("etc", "config.yaml")
+
+
+def component(said: str) -> str:
+    """The document of a component, or of parameters without one."""
+    if os.path.isdir(said or "."):
+        return _of_folder(said)
+    if kind_of(said) in ("cdsl", "pdsl") and os.path.isfile(said):
+        return said
+    if os.path.lexists(said) or os.path.basename(said) != said or said.endswith((".yaml", ".yml")):
+        raise click.UsageError(
+            f"'{said}' is no component's document" if os.path.lexists(said) else f"there is no document {said}"
+        )
+    return _named(said)
+
+
+def values(said: str) -> str:
+    """A values document: itself, or the one of the component that is meant."""
+    if os.path.isfile(said) and kind_of(said) not in ("cdsl", "pdsl"):
+        return said
+    if os.path.basename(said) == "config.yaml" or said.endswith(".config.yaml"):
+        raise click.UsageError(f"there is no document {said}")
+    document = component(said)
+    path = os.path.normpath(os.path.join(os.path.dirname(document), VALUES))
+    if not os.path.isfile(path):
+        raise click.UsageError(f"there is no {path} yet: `rcyaml config new {document}` writes it")
+    return path
+
+
+def _of_folder(folder: str) -> str:
+    """The component of a folder: the only one in it, else the only one below it."""
+    nearest = (beside(folder, "cdsl"), beside(folder, "pdsl"), _below(folder, "cdsl"), _below(folder, "pdsl"))
+    for found in nearest:
+        if len(found) == 1:
+            return found[0]
+        if found:
+            several = "there are several components here" if not folder else f"'{folder}' has several components"
+            raise click.UsageError(f"{several}: {_listed(found)}; name one of them")
+    raise click.UsageError(f"there is no component {f'in {folder!r}' if folder else 'here'}; "
+                           "`rcyaml new component NAME` writes one")  # fmt: skip
+
+
+def _below(folder: str, kind: str) -> list[str]:
+    return [path for path in documents_below(folder or ".") if kind_of(path) == kind]
+
+
+def _named(name: str) -> str:
+    """The component that is called so in this workspace; its document or its folder may be, and in another case."""
+    from robocomp_yaml.link.workspace import root_above
+
+    root = root_above("") or "."
+    names = {
+        path: (component_in(path), stem(path), os.path.basename(os.path.dirname(path))) for path in _below(root, "cdsl")
+    }
+    same: list[Callable[[str], bool]] = [lambda other: other == name, lambda other: other.lower() == name.lower()]
+    for is_same in same:
+        found = [path for path, known in names.items() if any(map(is_same, known))]
+        if len(found) == 1:
+            return found[0]
+        if found:
+            raise click.UsageError(f"several components are called '{name}': {_listed(found)}; name one of them")
+    meant = suggest(name, [called for called, *_ in names.values() if called])
+    raise click.UsageError(f"there is no component '{name}'" + (f"; did you mean '{meant}'?" if meant else ""))
+
+
+def _listed(paths: list[str]) -> str:
+    return ", ".join(paths[:10]) + (f" and {len(paths) - 10} more" if len(paths) > 10 else "")

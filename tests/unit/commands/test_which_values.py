@@ -1,0 +1,69 @@
+"""Commands about values take a document, a component's folder, its document, its name, or nothing where there is one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+
+Run = Callable[..., Result]
+TREE = {
+    "rcyaml.yaml": "", "components/arm/arm.cdsl.yaml": "component: ArmComp\nlanguage: python\n",
+    "components/arm/arm.pdsl.yaml": "component: arm.cdsl.yaml\nparameters: {force: {type: int, default: 2}}\n",
+}  # fmt: skip
+BASE = {"components/base/cdsl.yaml": "component: BaseComp\nlanguage: cpp\n"}
+ARM = "components/arm/etc/config.yaml"
+SAID = [
+    "components/arm", "components/arm/", "components/arm/arm.cdsl.yaml", "components/arm/arm.pdsl.yaml", "ArmComp", "arm",
+    "armcomp", ".", "components",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("said", [[], *([each] for each in SAID)])
+def test_new_is_written_for_it(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
+    write_tree(tmp_path, TREE)
+    result = rcyaml("config", "new", *said)
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / ARM).is_file()
+    assert rcyaml("config", "new", *said).exit_code == 2
+
+
+@pytest.mark.parametrize("said", [[], *([each] for each in SAID), [ARM]])
+def test_the_others_find_its_values(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
+    write_tree(tmp_path, {**TREE, ARM: "component: ../arm.cdsl.yaml\nparameters: {force: 3}\n"})
+    assert rcyaml("config", "check", *said).exit_code == 0
+    assert "force = 3" in rcyaml("config", "show", *said).stdout
+    assert "force=3" in rcyaml("config", "export", *said).stdout
+    assert rcyaml("config", "get", *said, "force").stdout == "3\n"
+    assert rcyaml("config", "set", *said, "force", "4", "--format", "json").exit_code == 0
+    assert rcyaml("config", "get", "-I", ".", *said, "--format", "json", "force").exit_code == 0
+    assert rcyaml("config", "set", *said, "force", "-4").exit_code == 0
+    assert "force: -4" in (tmp_path / ARM).read_text()
+
+
+@pytest.mark.parametrize(("args", "problem"), [
+    (["new"], "there are several components here: components/arm/arm.cdsl.yaml, components/base/cdsl.yaml; name one of"),
+    (["show", "components"], "'components' has several components"),
+    (["new", "ArmCmp"], "there is no component 'ArmCmp'; did you mean 'ArmComp'?"),
+    (["check", "base"], "there is no components/base/etc/config.yaml yet: `rcyaml config new components/base/cdsl.yaml`"),
+    (["show", "x.config.yaml"], "there is no document x.config.yaml"),
+    (["new", "components/arm/a.cdsl.yaml"], "there is no document components/arm/a.cdsl.yaml"),
+    (["new", "rcyaml.yaml"], "'rcyaml.yaml' is no component's document"),
+    (["show", "empty"], "there is no component in 'empty'; `rcyaml new component NAME` writes one"),
+    (["get", "components/arm/arm.pdsl.yaml"], "there is no components/arm/etc/config.yaml yet"),
+])  # fmt: skip
+def test_what_is_not_clear_is_asked_for(rcyaml: Run, tmp_path: Path, args: list[str], problem: str) -> None:
+    write_tree(tmp_path, {**TREE, **BASE, "empty": None})
+    result = rcyaml("config", *args)
+    assert result.exit_code == 2, result.output
+    assert problem in result.output
+
+
+def test_a_path_without_a_parameter_is_no_parameter(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {**TREE, ARM: "parameters: {}\n"})
+    for args in (["get", ARM], ["get", "components/arm"], ["set", ARM], ["set"]):
+        assert "Missing argument" in rcyaml("config", *args).output, args
