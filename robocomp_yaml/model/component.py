@@ -11,6 +11,7 @@ from robocomp_yaml.model.located import Located
 if TYPE_CHECKING:
     from robocomp_yaml.model.statemachine import StateMachine
 
+DEFAULT_STANDARD = 17  # of C++, where a component names none
 WAIT, FAIL, IGNORE = "wait", "fail", "ignore"
 
 
