@@ -44,7 +44,9 @@ class _Module(msgspec.Struct):
                     yield from self.macro(name)
             match definition:
                 case Struct():
-                    yield from self.told_apart([name for group in inside for name in group], {definition.name})
+                    # Ice's C++11 mapping, which components use, gives it no constructor; the older one does.
+                    for name in (name for group in inside for name in group if name.text == definition.name):
+                        yield _clash(name)
                 case ExceptionType(members=members):
                     yield from self.told_apart([name for group in inside for name in group], {definition.name})
                     yield from self.hidden(members, "member")
@@ -63,7 +65,7 @@ class _Module(msgspec.Struct):
             yield self.said(codes.CPP_MACRO.at(name.span, kind=name.kind, name=name.text, hint=_other(name.text)), hit)
 
     def told_apart(self, names: Iterable[Name], taken: set[str]) -> Iterator[Diagnostic]:
-        """Ice's C++ has no second name for a member called as its struct, nor for a method called as a type it uses."""
+        """Ice's C++ has no second name for a member called as its exception, nor for a method as a type it uses."""
         for name in names:
             if name.text in taken:
                 yield self.clash(name)
@@ -116,10 +118,7 @@ class _Module(msgspec.Struct):
         return found is not None and isinstance(found[1], Enum)
 
     def clash(self, name: Name, other: str = "") -> Diagnostic:
-        first = name.text[0].lower() + name.text[1:]
-        better = first if first != name.text else f"the{name.text[0].upper()}{name.text[1:]}"
-        hint = f"call it '{better}'" if not other else f"call the method otherwise: its results become a '{other}'"
-        return self.said(codes.CPP_NAME.at(name.span, kind=name.kind, name=name.text, hint=hint), self.users)
+        return self.said(_clash(name, other), self.users)
 
     def said(self, told: Diagnostic, users: list[LinkedComponent]) -> Diagnostic:
         if not users or is_migrated(told.span.file):
@@ -127,6 +126,13 @@ class _Module(msgspec.Struct):
         component = users[0].component
         related = Related(f"component {component.name} is in C++, and needs it", component.language.span)
         return msgspec.structs.replace(told, severity=ERROR, related=(*told.related, related))
+
+
+def _clash(name: Name, other: str = "") -> Diagnostic:
+    first = name.text[0].lower() + name.text[1:]
+    better = first if first != name.text else f"the{name.text[0].upper()}{name.text[1:]}"
+    hint = f"call it '{better}'" if not other else f"call the method otherwise: its results become a '{other}'"
+    return codes.CPP_NAME.at(name.span, kind=name.kind, name=name.text, hint=hint)
 
 
 def _is_macro_for(name: str, user: LinkedComponent) -> bool:

@@ -1,5 +1,5 @@
-"""Names that C++ cannot have: an error where a component in C++ needs the module, a warning elsewhere. What the compiler
-says of them is asked in tests/ice/test_cpp_words.py."""
+"""Names that C++ cannot have: an error where a component in C++ needs the module, a warning elsewhere. What the
+compiler says of them is asked in tests/ice/test_cpp_words.py."""
 
 from __future__ import annotations
 
@@ -87,7 +87,8 @@ def test_what_another_module_brings_along_counts(diagnostics: Check) -> None:
 def test_a_migrated_document_is_not_refused(diagnostics: Check) -> None:
     """Its names are those of programs elsewhere; so in a folder below the one that was migrated."""
     files = {
-        "in/Map.idsl.yaml": HEAD + "types: {Kind: {enum: [ENOENT]}}\ninterfaces: {Map: {methods: {Kind: {returns: Kind}}}}\n",
+        "in/Map.idsl.yaml": HEAD + "types: {Kind: {enum: [ENOENT]}}\n"
+        "interfaces: {Map: {methods: {Kind: {returns: Kind}}}}\n",
         "in/Other.idsl.yaml": "module: RoboCompOther\ntypes: {Kind: {enum: [ENOENT]}}\n",
         ".rcyaml/migrated.json": '{"files": {"in/Map.idsl.yaml": "0"}}\n',
         "in/c.cdsl.yaml": "component: C\nlanguage: cpp\nimports: [Map, Other]\nrequires: [Map]\n",
@@ -110,6 +111,7 @@ def test_hints_can_be_typed(diagnostics: Check) -> None:
 
 def test_parts_of_a_machine_in_cpp(diagnostics: Check) -> None:
     """Guards and actions are methods; in Python they may be called so."""
-    text = "component: C\nlanguage: {}\nstatemachine:\n  initial: a\n  transitions: {{a: {{to: a, event: EOF, if: ERANGE}}}}\n"
+    machine = "  initial: a\n  transitions: {{a: {{to: a, event: EOF, if: ERANGE}}}}\n"
+    text = f"component: C\nlanguage: {{}}\nstatemachine:\n{machine}"
     assert [d["code"] for d in diagnostics({"c.cdsl.yaml": text.format("cpp")})] == ["RC2237"]
     assert diagnostics({"c.cdsl.yaml": text.format("python")}) == []
