@@ -6,10 +6,11 @@ from collections.abc import Container, Iterable
 
 
 def suggest(word: str, candidates: Iterable[str]) -> str | None:
-    """The candidate that `word` was most probably meant to be: the same but for case, else the nearest spelling."""
-    known = list(dict.fromkeys(candidates))
+    """The candidate that `word` was most probably meant to be: the same but for case, else the nearest spelling. Never
+    the word itself: a hint that says what stands there mends nothing."""
+    known = [candidate for candidate in dict.fromkeys(candidates) if candidate != word]
     for candidate in known:
-        if candidate.lower() == word.lower() and candidate != word:
+        if candidate.lower() == word.lower():
             return candidate
     from difflib import get_close_matches  # only when there is something wrong
 

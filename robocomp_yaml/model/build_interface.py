@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import (
@@ -114,21 +115,26 @@ def _members(node: Node | None, key: str) -> tuple[Member, ...]:
 
 
 def _struct(key: Scalar, node: Mapping) -> Struct:
-    return Struct(key.lexeme, _members(node, "struct"), doc(node), span=key.span)
+    return Struct(key.lexeme, _members(node, "struct"), doc(node), span=key.span, list_span=_key_span(node, "struct"))
 
 
 def _enum(key: Scalar, node: Mapping) -> Enum:
     listed = node.get("enum")
     enumerators: list[Enumerator] = []
     if isinstance(listed, Sequence):
-        enumerators = [Enumerator(n.lexeme, span=n.span) for n in listed.items if isinstance(n, Scalar)]
+        enumerators = [Enumerator(n.lexeme, span=n.span, value_span=n.span) for n in listed.items if isinstance(n, Scalar)]
     elif isinstance(listed, Mapping):
         for name, value in entries(node, "enum"):
-            number = value.data if isinstance(value, Scalar) else value.data.get("value")  # type: ignore[attr-defined]
-            enumerators.append(
-                Enumerator(name.lexeme, None if number is None else int(number), doc(value), span=name.span)
-            )
-    return Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span)
+            given = value if isinstance(value, Scalar) else value.get("value") if isinstance(value, Mapping) else None
+            number: Any = given.data if isinstance(given, Scalar) else None
+            place = name.span if given is None or number is None else given.span
+            made = None if number is None else int(number)
+            enumerators.append(Enumerator(name.lexeme, made, doc(value), span=name.span, value_span=place))
+    return Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span, list_span=_key_span(node, "enum"))
+
+
+def _key_span(parent: Mapping, key: str) -> Span:
+    return parent.entries[key][0].span
 
 
 def _sequence(key: Scalar, node: Mapping) -> SequenceType:

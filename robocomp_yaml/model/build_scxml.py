@@ -68,6 +68,7 @@ class _Builder:
             scripts=tuple(self.action(child) for child in ours(root) if child.name == "script"),
             events=words(events or "", root.place(f"{OURS} events")),
             span=root.span,
+            datamodel_span=root.place("datamodel"),
         )
 
     def state(self, element: Element) -> State:

@@ -65,6 +65,7 @@ class Library(Located, frozen=True):
     version: str = ""
     entry: int = 0
     span: Span = Span("")
+    version_span: Span = Span("")
 
 
 class Source(Located, frozen=True):

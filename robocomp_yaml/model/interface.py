@@ -50,19 +50,23 @@ class Member(Located, frozen=True):
 
 
 class Struct(Located, frozen=True):
+    """`list_span` is the place of the word `struct`."""
+
     name: str
     members: tuple[Member, ...]
     doc: str = ""
     span: Span = Span("")
+    list_span: Span = Span("")
 
 
 class Enumerator(Located, frozen=True):
-    """`value` is None where the author gave none (then: one more than the one before, from 0)."""
+    """`value` is None where the author gave none (then: one more than the one before, from 0); `value_span` is where it stands, else the name."""
 
     name: str
     value: int | None = None
     doc: str = ""
     span: Span = Span("")
+    value_span: Span = Span("")
 
 
 class Enum(Located, frozen=True):
@@ -70,6 +74,7 @@ class Enum(Located, frozen=True):
     enumerators: tuple[Enumerator, ...]
     doc: str = ""
     span: Span = Span("")
+    list_span: Span = Span("")
 
 
 class Sequence(Located, frozen=True):

@@ -194,6 +194,7 @@ class StateMachine(Located, frozen=True):
     inline: bool = False
     strays: tuple[Text, ...] = ()
     span: Span = Span("")
+    datamodel_span: Span = Span("")
 
     @property
     def states(self) -> Iterator[State]:

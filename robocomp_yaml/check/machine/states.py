@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import Any
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -62,18 +63,19 @@ def _strays(index: MachineIndex) -> Iterator[Diagnostic]:
 
 def _kind(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
     """What a final state and a history may have; SCXML's shape says this for documents of its own."""
-    lists = {
+    lists: dict[str, tuple[Any, ...]] = {
         "states": state.states, "transitions": state.transitions, "entry or exit actions": state.entry or state.exit
     }  # fmt: skip
     if state.kind == FINAL:
         for what in ("states", "transitions"):
             if lists[what]:
-                place = state.transitions[0].span if what == "transitions" else state.span
+                place = lists[what][0].span
                 yield codes.FINAL_LEFT.at(place, id=state.id, what=what)
     if state.kind == HISTORY:
         for what, found in lists.items():
             if found and what != "transitions":  # those of a history are counted in `order`
-                yield codes.INLINE_HISTORY.at(state.span, what=what)
+                place = found[0].span if what == "states" else found[0][0].span
+                yield codes.INLINE_HISTORY.at(place, what=what)
         if index.parents[id(state)] is index.machine.root:
             yield codes.NO_PARENT.at(state.span)
 
@@ -127,7 +129,7 @@ def _targets(index: MachineIndex, transition: Transition, inside: State | None =
     for number, first in enumerate(found):
         for second in found[number + 1 :]:
             if not _together(index, first, second):
-                place = transition.targets[0].span
+                place = next(target.span for target in transition.targets if target.text == second.id)
                 yield codes.NOT_TOGETHER.at(place, first=first.id, second=second.id)
                 return
 

@@ -41,7 +41,7 @@ A_B = '<state id="a"><transition event="go" target="b"/></state><state id="b"/>'
              '<parallel id="p"><state id="b"/><state id="c"/></parallel>'), []),
     (machine('<state id="a"><transition event="go" target="p b"/></state>'
              '<parallel id="p"><state id="b"/></parallel>'),
-     ["2:46 RC2226 'p' and 'b' cannot be entered at once"]),
+     ["2:48 RC2226 'p' and 'b' cannot be entered at once"]),
     (machine('<state id="a"><transition cond="x" target="a"/><transition target="a"/></state>'), []),
     (machine('<state id="a" initial="b"><transition target="a"/><state id="b"/></state>'),
      ["2:27 RC2233 this goes round for ever: a → a"]),
@@ -124,7 +124,7 @@ def test_what_robocomps_worker_has(diagnostics: Check, keys: str, codes: list[st
 
 def test_no_script_language_in_cpp(diagnostics: Check) -> None:
     text = machine('<state id="a"/>', 'initial="a" datamodel="python"')
-    assert said(diagnostics, text, "cpp") == ["1:1 RC2216 the data model 'python' is not available in C++"]
+    assert said(diagnostics, text, "cpp") == ["1:85 RC2216 the data model 'python' is not available in C++"]
 
 
 @pytest.mark.parametrize(("text", "messages"), [
