@@ -22,14 +22,21 @@ def suggest(word: str, candidates: Iterable[str]) -> str | None:
     return folded[near[0]] if near else None
 
 
+def did_you_mean(word: str, known: Iterable[str], given: Container[str] = ()) -> str:
+    """A hint at what was meant, '' where nothing is near; `given` stand in the same list or mapping already, where a
+    second one would be the next error."""
+    known = list(known)
+    if meant := suggest(word, (name for name in known if name not in given)):
+        return f"did you mean '{meant}'?"
+    if meant := suggest(word, (name for name in known if name in given)):
+        return f"'{meant}' is there already"
+    return ""
+
+
 def hint_for_key(word: str, known: Iterable[str], given: Container[str]) -> str:
     """What to say of a key that means nothing: which one was meant, perhaps beside it, or which there can be."""
     if word == "<<":
         return "YAML 1.2 has no merge keys: write the keys themselves"
     known = list(known)
     free = [key for key in known if key not in given]
-    if meant := suggest(word, free):
-        return f"did you mean '{meant}'?"
-    if meant := suggest(word, (key for key in known if key in given)):
-        return f"'{meant}' is there already"
-    return f"there can be: {', '.join(free[:20])}" if free else ""
+    return did_you_mean(word, known, given) or (f"there can be: {', '.join(free[:20])}" if free else "")
