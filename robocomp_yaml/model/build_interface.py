@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import (
@@ -122,14 +121,13 @@ def _enum(key: Scalar, node: Mapping) -> Enum:
     listed = node.get("enum")
     enumerators: list[Enumerator] = []
     if isinstance(listed, Sequence):
-        enumerators = [Enumerator(n.lexeme, span=n.span, value_span=n.span) for n in listed.items if isinstance(n, Scalar)]
+        enumerators = [Enumerator(n.lexeme, span=n.span) for n in listed.items if isinstance(n, Scalar)]
     elif isinstance(listed, Mapping):
         for name, value in entries(node, "enum"):
-            given = value if isinstance(value, Scalar) else value.get("value") if isinstance(value, Mapping) else None
-            number: Any = given.data if isinstance(given, Scalar) else None
-            place = name.span if given is None or number is None else given.span
-            made = None if number is None else int(number)
-            enumerators.append(Enumerator(name.lexeme, made, doc(value), span=name.span, value_span=place))
+            number = value.data if isinstance(value, Scalar) else value.data.get("value")  # type: ignore[attr-defined]
+            enumerators.append(
+                Enumerator(name.lexeme, None if number is None else int(number), doc(value), span=name.span)
+            )
     return Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span, list_span=_key_span(node, "enum"))
 
 

@@ -60,13 +60,12 @@ class Struct(Located, frozen=True):
 
 
 class Enumerator(Located, frozen=True):
-    """`value` is None where the author gave none (then: one more than the one before, from 0); `value_span` is where it stands, else the name."""
+    """`value` is None where the author gave none (then: one more than the one before, from 0)."""
 
     name: str
     value: int | None = None
     doc: str = ""
     span: Span = Span("")
-    value_span: Span = Span("")
 
 
 class Enum(Located, frozen=True):

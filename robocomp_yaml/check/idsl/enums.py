@@ -36,14 +36,14 @@ def _numbers(enum: Enum) -> Iterator[Diagnostic]:
         number = number + 1 if enumerator.value is None else enumerator.value
         if not 0 <= number <= LARGEST:
             yield codes.ENUM_NUMBER.at(
-                enumerator.value_span, name=enumerator.name, number=number, largest=LARGEST,
+                enumerator.span, name=enumerator.name, number=number, largest=LARGEST,
                 hint="give it a number of its own: an enumerator without one has one more than the one before",
             )
             continue
         other = first.setdefault(number, enumerator)
         if other is not enumerator:
             yield codes.ENUM_NUMBER_TWICE.at(
-                enumerator.value_span, name=enumerator.name, other=other.name, number=number,
+                enumerator.span, name=enumerator.name, other=other.name, number=number,
                 hint="give one of them another number",
-                related=[Related(f"'{other.name}' has it here", other.value_span)],
+                related=[Related(f"'{other.name}' stands here", other.span)],
             )
