@@ -94,7 +94,7 @@ CPP_NAME = Code(
 CPP_MACRO = Code(
     "RC1027",
     WARNING,
-    "no {kind} in C++ can be called '{name}': C's and C++'s headers have a macro of this name",
+    "in C++, no {kind} can be called '{name}': the headers that it includes have a macro of this name",
     why="Before C++ is compiled, each `EOF`, `NULL`, `errno`, `M_PI` or `assert(…)` is replaced by what the system's "
     "headers say it is, wherever it stands: as the name of a type, a member, an enumerator, a method or a parameter it "
     "does not compile, or not wherever it is used. Case counts: `eof` is free. Slice, and Python, take them: it is an "

@@ -9,6 +9,9 @@ from typing import Any
 
 import pytest
 
+from robocomp_yaml.emit.targets.cpp_names import parameter
+from robocomp_yaml.model.names import in_code
+
 Check = Callable[..., list[dict[str, Any]]]
 
 HEAD = "module: RoboCompMap\n"
@@ -115,3 +118,12 @@ def test_parts_of_a_machine_in_cpp(diagnostics: Check) -> None:
     text = f"component: C\nlanguage: {{}}\nstatemachine:\n{machine}"
     assert [d["code"] for d in diagnostics({"c.cdsl.yaml": text.format("cpp")})] == ["RC2237"]
     assert diagnostics({"c.cdsl.yaml": text.format("python")}) == []
+
+
+def test_what_is_ours_to_name_gets_an_underscore() -> None:
+    """Accessors of parameters, events of machines: no error, since the code is generated from the same document."""
+    assert [in_code(name, "C++") for name in ("ERANGE", "be32toh", "slots", "INT_MAX", "erange")] == [
+        "ERANGE_", "be32toh_", "slots_", "INT_MAX_", "erange",
+    ]  # fmt: skip
+    assert in_code("ERANGE", "Python") == "ERANGE"
+    assert parameter("ERANGE") == "ERANGE_"
