@@ -129,14 +129,16 @@ def _ports(instance: LinkedInstance) -> Iterator[Diagnostic]:
     keyed: list[tuple[str, list[str], Iterable[Pair | Number]]] = [
         ("proxy", [port.name for port in linked.requires], entry.connect),
         ("topic", topics, entry.topics),
-        ("interface", served, (*entry.ports, *entry.endpoints)),
+        ("interface", served, entry.ports),
+        ("interface", served, entry.endpoints),
     ]
     for what, names, keys in keyed:
         for key in keys:
             if key.name not in names:
                 yield codes.UNKNOWN_PORT.at(
                     key.name_span, component=linked.component.name, what=what, name=key.name,
-                    hint=_meant(key.name, names, {other.name for other in keys}), related=[Related("the component", linked.component.span)],
+                    hint=_meant(key.name, names, {other.name for other in keys}),
+                    related=[Related("the component", linked.component.span)],
                 )
 
 

@@ -33,7 +33,7 @@ def link_ports(linked: LinkedComponent, importable: Callable[[str], str | None])
             elif not linked.broken or not _may_be_missing(linked):
                 yield codes.UNKNOWN_INTERFACE.at(
                     use.span, component=component.name, verb=verb, name=use.interface,
-                    hint=_hint(linked, use, importable, {o.interface for o in getattr(component, list_) if o is not use}),
+                    hint=_hint(linked, use, importable, {other.interface for other in getattr(component, list_)}),
                 )
             linked.broken = True
         setattr(linked, list_, tuple(ports))

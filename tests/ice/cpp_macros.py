@@ -93,7 +93,7 @@ def table(sets: dict[str, set[str]]) -> str:
     """The module, with these sets."""
     parts = [_HEAD]
     for name, when in SETS.items():
-        words = textwrap.fill(" ".join(sorted(sets[name])), 116, break_long_words=False, break_on_hyphens=False)
+        words = textwrap.fill(" ".join(sorted(sets[name])), 112, break_long_words=False, break_on_hyphens=False)
         parts.append(f'{name} = frozenset(  # {when}\n    """{textwrap.indent(words, "    ").lstrip()}""".split()\n)')
     parts.append(_FOOT.replace("{families}", str(FAMILIES).replace("'", '"')))
     return "\n\n".join(parts) + "\n"

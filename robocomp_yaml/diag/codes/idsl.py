@@ -83,10 +83,10 @@ CPP_NAME = Code(
     "the C++ that Ice makes of the {kind} '{name}' does not compile",
     why="In C++, a member cannot have the name of the exception that holds it (with Ice's older mapping, nor that of "
     "its struct), and a method not that of a type that its interface uses, spelled exactly so. A parameter (or a "
-    "member of an exception) hides the type of its name from those behind it, as in `in: {Pose: int, target: Pose}`. What a method gives back becomes a struct called as "
-    "the method, `MoveResult` for `move`, if it is more than one thing, and then no output is called as the type of "
-    "one. Slice, and Python, take them all: it is an error where a component in C++ needs the module, a warning "
-    "elsewhere and in documents that were migrated.",
+    "member of an exception) hides the type of its name from those behind it, as in `in: {Pose: int, target: Pose}`. "
+    "What a method gives back becomes a struct called as the method, `MoveResult` for `move`, if it is more than one "
+    "thing, and then no output is called as the type of one. Slice, and Python, take them all: it is an error where a "
+    "component in C++ needs the module, a warning elsewhere and in documents that were migrated.",
     wrong=_types("  Text: {struct: {Text: string}}\n"),
     right=_types("  Text: {struct: {text: string}}\n"),
 )
