@@ -11,7 +11,7 @@ TOOLS := python3-venv cmake g++ make ninja-build nodejs npm git openssl iproute2
 # More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server, and systemd.
 MORE ?=
 
-.PHONY: help demo test fast lint bench clean
+.PHONY: help demo test fast lint macros bench clean
 
 help:
 	@echo "make demo   install into $(VENV) and run the example: migrate, check, compile, run"
@@ -56,6 +56,10 @@ system:
 
 test: system $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q --reruns 2 --reruns-delay 1
+
+# The names that C++ takes, as this machine's compiler and headers have them; it only adds.
+macros: $(VENV)/tests
+	@$(VENV)/bin/python tests/ice/cpp_macros.py
 
 fast: $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) -q -m 'not slow' --ignore tests/editor --ignore tests/ice

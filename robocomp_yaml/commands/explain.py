@@ -31,23 +31,15 @@ def command(ctx: click.Context, code: str | None, format_: str) -> None:
         terminal.say_text(_listed(chosen) if code is None else _explained(chosen[0]))
 
 
-def summary(row: Code) -> str:
-    """The message with its facts as words: `{name}` as `NAME`."""
-    return row.message.format_map(_Facts())
-
-
-class _Facts(dict[str, str]):
-    def __missing__(self, key: str) -> str:
-        return key.upper()
-
-
 def _listed(rows: list[Code]) -> str:
-    return "".join(f"{row.id}  {row.severity:<7}  {summary(row)}\n" for row in rows)
+    return "".join(
+        f"{row.id}  {row.severity:<7}  {row.messages[0]}{' …' if len(row.messages) > 1 else ''}\n" for row in rows
+    )
 
 
 def _explained(row: Code) -> str:
     parts = [
-        f"{row.id} ({row.severity}): {summary(row)}",
+        "\n".join([f"{row.id} ({row.severity}): {row.messages[0]}", *(f"or: {other}" for other in row.messages[1:])]),
         _wrapped(row.why),
         f"Wrong:\n\n{_tree(row.wrong)}",
         f"Right:\n\n{_tree(row.right)}",
@@ -90,7 +82,8 @@ def _as_json(rows: list[Code]) -> str:
         {
             "code": row.id,
             "severity": row.severity,
-            "message": summary(row),
+            "message": row.messages[0],
+            "messages": row.messages,
             "why": row.why,
             "wrong": {path: text(content) for path, content in row.wrong.items()},
             "right": {path: text(content) for path, content in row.right.items()},

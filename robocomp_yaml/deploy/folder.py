@@ -10,7 +10,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 
-_NAME = re.compile(r"""^deployment:[ \t]*["']?([_A-Za-z][-A-Za-z0-9_]*)""", re.MULTILINE)
+_NAME = re.compile(r"""^["']?deployment["']?[ \t]*:[ \t]*["']?([_A-Za-z][-A-Za-z0-9_]*)""", re.MULTILINE)
 _PARTS = ("config", "logs", "state")
 
 

@@ -22,6 +22,11 @@ class Repeated(msgspec.Struct, frozen=True):
         return self.before + self.text * self.times + self.after
 
 
+class _Facts(dict[str, str]):
+    def __missing__(self, key: str) -> str:
+        return key.upper().replace("_", " ")
+
+
 Files = Mapping[str, str | bytes | Repeated | None]
 
 
@@ -31,7 +36,7 @@ class Code(msgspec.Struct, frozen=True):
     `message` is a format string for the facts given to `at`. `why` explains (Markdown). `wrong` and `right` are small
     trees of files, path to text (bytes for what is no text, None for an empty folder, "-> target" for a symlink), on
     which `rcyaml COMMAND` (a `*` is what a shell makes of it) gives this diagnostic, and gives none: the tests run
-    both.
+    both. `says` are, where the message leaves all to a fact, the messages that there are: format strings for readers.
     """
 
     id: str
@@ -41,6 +46,12 @@ class Code(msgspec.Struct, frozen=True):
     wrong: Files
     right: Files
     command: str = "check ."
+    says: tuple[str, ...] = ()
+
+    @property
+    def messages(self) -> list[str]:
+        """What it can say, with the facts as words: `{name}` as `NAME`."""
+        return [message.format_map(_Facts()) for message in self.says or (self.message,)]
 
     def at(
         self, span: Span, *, hint: str = "", related: Iterable[Related] = (), more: str = "", **facts: object

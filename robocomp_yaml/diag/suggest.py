@@ -6,10 +6,11 @@ from collections.abc import Container, Iterable
 
 
 def suggest(word: str, candidates: Iterable[str]) -> str | None:
-    """The candidate that `word` was most probably meant to be: the same but for case, else the nearest spelling."""
-    known = list(dict.fromkeys(candidates))
+    """The candidate that `word` was most probably meant to be: the same but for case, else the nearest spelling. Never
+    the word itself: a hint that says what stands there mends nothing."""
+    known = [candidate for candidate in dict.fromkeys(candidates) if candidate != word]
     for candidate in known:
-        if candidate.lower() == word.lower() and candidate != word:
+        if candidate.lower() == word.lower():
             return candidate
     from difflib import get_close_matches  # only when there is something wrong
 
@@ -21,14 +22,21 @@ def suggest(word: str, candidates: Iterable[str]) -> str | None:
     return folded[near[0]] if near else None
 
 
+def did_you_mean(word: str, known: Iterable[str], given: Container[str] = ()) -> str:
+    """A hint at what was meant, '' where nothing is near; `given` stand in the same list or mapping already, where a
+    second one would be the next error."""
+    known = list(known)
+    if meant := suggest(word, (name for name in known if name not in given)):
+        return f"did you mean '{meant}'?"
+    if meant := suggest(word, (name for name in known if name in given)):
+        return f"'{meant}' is there already"
+    return ""
+
+
 def hint_for_key(word: str, known: Iterable[str], given: Container[str]) -> str:
     """What to say of a key that means nothing: which one was meant, perhaps beside it, or which there can be."""
     if word == "<<":
         return "YAML 1.2 has no merge keys: write the keys themselves"
     known = list(known)
     free = [key for key in known if key not in given]
-    if meant := suggest(word, free):
-        return f"did you mean '{meant}'?"
-    if meant := suggest(word, (key for key in known if key in given)):
-        return f"'{meant}' is there already"
-    return f"there can be: {', '.join(free[:20])}" if free else ""
+    return did_you_mean(word, known, given) or (f"there can be: {', '.join(free[:20])}" if free else "")

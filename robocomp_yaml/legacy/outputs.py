@@ -13,10 +13,10 @@ import msgspec
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.emit.atomic import Batch, Step, WriteFailed, carry_out, recover
 from robocomp_yaml.emit.changes import unified
-from robocomp_yaml.emit.places import STATE, Root
+from robocomp_yaml.emit.places import Root
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.migrated import MEMORY
 
-MEMORY = f"{STATE}/migrated.json"
 CREATED, CHANGED, UNCHANGED, EDITED, TAKEN, FAILED = "created", "changed", "unchanged", "edited", "taken", "failed"
 UPGRADED = "upgraded"
 """An older document of ours, which stays the user's."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean, suggest
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, Served, offers
 from robocomp_yaml.link.expand_deployments import Placed
 from robocomp_yaml.link.program import Port
@@ -33,10 +33,9 @@ def _group(root: LinkedDeployment, group: LinkedGroup) -> Iterator[Diagnostic]:
     for rule in rules.values():
         port = next((p for p in facade.implements if p.name == rule.name), None) if facade else None
         if facade is not None and port is None and not facade.broken:
-            meant = suggest(rule.name, [p.name for p in facade.implements])
             yield codes.UNKNOWN_PORT.at(
                 rule.span, component=facade.component.name, what="interface", name=rule.name,
-                hint=f"did you mean '{meant}'?" if meant else "",
+                hint=did_you_mean(rule.name, [p.name for p in facade.implements], rules),
                 related=[Related("the group is to act as this component", facade.component.span)],
             )
         else:
@@ -107,10 +106,10 @@ def _methods(rule: Exposed, served: Served) -> Iterator[Diagnostic]:
     names = [method.name for method in interface.methods]
     for method in rule.allow or ():
         if method.text not in names:
-            meant = suggest(method.text, names)
+            hint = did_you_mean(method.text, names, {other.text for other in rule.allow or ()})
             yield codes.UNKNOWN_METHOD.at(
                 method.span, interface=interface.name, name=method.text,
-                hint=f"did you mean '{meant}'?" if meant else f"there are {', '.join(names)}",
+                hint=hint or f"there are {', '.join(names)}",
                 related=[Related("the interface", interface.span)],
             )
 

@@ -10,7 +10,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean, suggest
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.expand_deployments import Placed
 from robocomp_yaml.model.deployment import CONFIG, INDEX, PROCESS, Entry, Number, Pair, Text
@@ -129,14 +129,16 @@ def _ports(instance: LinkedInstance) -> Iterator[Diagnostic]:
     keyed: list[tuple[str, list[str], Iterable[Pair | Number]]] = [
         ("proxy", [port.name for port in linked.requires], entry.connect),
         ("topic", topics, entry.topics),
-        ("interface", served, (*entry.ports, *entry.endpoints)),
+        ("interface", served, entry.ports),
+        ("interface", served, entry.endpoints),
     ]
     for what, names, keys in keyed:
         for key in keys:
             if key.name not in names:
                 yield codes.UNKNOWN_PORT.at(
                     key.name_span, component=linked.component.name, what=what, name=key.name,
-                    hint=_meant(key.name, names), related=[Related("the component", linked.component.span)],
+                    hint=_meant(key.name, names, {other.name for other in keys}),
+                    related=[Related("the component", linked.component.span)],
                 )
 
 
@@ -156,6 +158,5 @@ def _programs(entry: Entry) -> Iterator[Diagnostic]:
             )
 
 
-def _meant(name: str, names: list[str]) -> str:
-    meant = suggest(name, names)
-    return f"did you mean '{meant}'?" if meant else (f"there are {', '.join(names)}" if names else "")
+def _meant(name: str, names: list[str], given: set[str]) -> str:
+    return did_you_mean(name, names, given) or (f"there are {', '.join(names)}" if names else "")

@@ -12,7 +12,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
@@ -144,7 +144,7 @@ class Linker(msgspec.Struct):
         for imported in imports:
             path, other_case = self.search.find(imported.text, document.path, workspace)
             if path is None:
-                self._unresolved(document, imported, workspace, codes)
+                self._unresolved(document, imported, {other.text for other in imports}, workspace, codes)
                 unresolved.update(_names(imported.text))
                 continue
             target = self.documents.get(path)
@@ -162,9 +162,12 @@ class Linker(msgspec.Struct):
         self._found[document.real] = [real for real in found if isinstance(found[real].model, Module)]
         return list(found.values())
 
-    def _unresolved(self, document: Document, imported: Import, workspace: Workspace, codes: ModuleType) -> None:
-        meant = suggest(imported.text, self.search.known(document.path, workspace))
-        hint = f"did you mean '{meant}'?" if meant else (
+    def _unresolved(
+        self, document: Document, imported: Import, given: set[str], workspace: Workspace, codes: ModuleType
+    ) -> None:
+        itself = os.path.basename(document.path).removesuffix(SUFFIX)
+        known = [name for name in self.search.known(document.path, workspace) if name != itself]
+        hint = did_you_mean(imported.text, known, given) or (
             "put its document beside this one, or name its folder under `interfaces:` in rcyaml.yaml, or with -I"
         )
         self.diagnostics.append(codes.UNRESOLVED_IMPORT.at(imported.span, name=imported.text, hint=hint))

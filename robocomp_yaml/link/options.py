@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import options as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.model.build_interface import items, text
 from robocomp_yaml.model.component import Component, Option, Use
 from robocomp_yaml.model.interface import Import
@@ -34,8 +34,8 @@ def expanded(component: Component) -> tuple[Component, list[Diagnostic]]:
     for option in component.options:
         meaning = _meanings().get(option.name.lower())
         if meaning is None:
-            meant = suggest(option.name, _meanings())
-            hint = f"did you mean '{meant}'?" if meant else f"there are {', '.join(_meanings())}"
+            given = {other.name.lower() for other in component.options}
+            hint = did_you_mean(option.name, _meanings(), given) or f"there are {', '.join(_meanings())}"
             diagnostics.append(codes.UNKNOWN_OPTION.at(option.span, name=option.name, hint=hint))
             continue
         component = _with(component, option, meaning)

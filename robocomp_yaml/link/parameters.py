@@ -77,7 +77,7 @@ class _Resolver:
         if not self.found:
             for name, spec in self.specs.items():
                 if name not in self.used:
-                    self.found.append(codes.UNUSED_TYPE.at(spec.span, name=name))
+                    self.found.append(codes.UNUSED_TYPE.at(spec.key_span, name=name))
 
     def named(self, name: str) -> Type | None:
         """One of the document's own types."""
@@ -85,7 +85,7 @@ class _Resolver:
             return self.done[name]
         spec = self.specs[name]
         if name in BASIC_TYPES:
-            self.found.append(codes.BASIC_NAME.at(spec.span, name=name))
+            self.found.append(codes.BASIC_NAME.at(spec.key_span, name=name))
         self.open.append(name)
         self.done[name] = resolved = self.definition(name, spec)
         self.open.pop()

@@ -33,7 +33,7 @@ def link_ports(linked: LinkedComponent, importable: Callable[[str], str | None])
             elif not linked.broken or not _may_be_missing(linked):
                 yield codes.UNKNOWN_INTERFACE.at(
                     use.span, component=component.name, verb=verb, name=use.interface,
-                    hint=_hint(linked, use, importable),
+                    hint=_hint(linked, use, importable, {other.interface for other in getattr(component, list_)}),
                 )
             linked.broken = True
         setattr(linked, list_, tuple(ports))
@@ -54,14 +54,17 @@ def _may_be_missing(linked: LinkedComponent) -> bool:
     return len(linked.imports) < len({imported.text for imported in linked.component.imports})
 
 
-def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | None]) -> str:
+def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | None], given: set[str]) -> str:
+    """`given` are the interfaces that stand beside it; another use of one has a name of its own."""
     name = use.interface.rpartition(".")[2]
     document = importable(name)
     imported = {scope.module.stem for scope in linked.imports}
     if document and document not in imported:
         return f"add '{document}' to `imports`"
     where = {i.name: scope.module.path for scope in linked.imports for i in scope.module.all_interfaces}
-    meant = suggest(name, where)
+    meant = suggest(name, (one for one in where if one not in given))
     if meant:
         return f"did you mean '{meant}' ({where[meant]})?"
+    if meant := suggest(name, given & where.keys()):
+        return f"'{meant}' is there already"
     return f"the imported modules define: {', '.join(where)}" if where else "import the module that defines it"

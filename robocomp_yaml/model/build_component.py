@@ -132,4 +132,7 @@ def _libraries(uses: Node | None) -> Iterator[Library]:
             version = text(item, "version")
             for key, node in item.items():
                 if key.lexeme in (CMAKE, PKG_CONFIG, LINK, PIP):
-                    yield Library(key.lexeme, text(item, key.lexeme), version, number, span=node.span)
+                    given = item.get("version") or node
+                    yield Library(
+                        key.lexeme, text(item, key.lexeme), version, number, span=node.span, version_span=given.span
+                    )

@@ -114,7 +114,7 @@ def _members(node: Node | None, key: str) -> tuple[Member, ...]:
 
 
 def _struct(key: Scalar, node: Mapping) -> Struct:
-    return Struct(key.lexeme, _members(node, "struct"), doc(node), span=key.span)
+    return Struct(key.lexeme, _members(node, "struct"), doc(node), span=key.span, list_span=_key_span(node, "struct"))
 
 
 def _enum(key: Scalar, node: Mapping) -> Enum:
@@ -128,7 +128,11 @@ def _enum(key: Scalar, node: Mapping) -> Enum:
             enumerators.append(
                 Enumerator(name.lexeme, None if number is None else int(number), doc(value), span=name.span)
             )
-    return Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span)
+    return Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span, list_span=_key_span(node, "enum"))
+
+
+def _key_span(parent: Mapping, key: str) -> Span:
+    return parent.entries[key][0].span
 
 
 def _sequence(key: Scalar, node: Mapping) -> SequenceType:

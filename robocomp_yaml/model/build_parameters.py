@@ -71,7 +71,7 @@ def _spec(node: Node, key: Scalar | None = None) -> Spec:
     """A type in its short or its long form."""
     if not isinstance(node, Mapping):
         assert isinstance(node, Scalar)
-        return Spec((("type", node.span),), node.lexeme, span=node.span)
+        return Spec((("type", node.span),), node.lexeme, span=node.span, key_span=(key or node).span)
     kinds = tuple((kind, node.entries[kind][0].span) for kind in KINDS if node.get(kind) is not None)
     found = {kind: node.get(kind) for kind, _ in kinds[:1]}
     named, element = found.get("type"), found.get("list") or found.get("map")
@@ -85,6 +85,7 @@ def _spec(node: Node, key: Scalar | None = None) -> Spec:
         limits=Limits(*(node.get(name) for name in ("range", "values", "pattern", "size", "unique", "unit"))),
         doc=doc(node),
         span=named.span if named is not None else key.span if key is not None else node.span,
+        key_span=(key or node).span,
     )
 
 

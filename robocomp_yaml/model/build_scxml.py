@@ -32,6 +32,7 @@ from robocomp_yaml.model.statemachine import (
     Text,
     Transition,
     Value,
+    words,
 )
 from robocomp_yaml.source.xml import Element
 
@@ -58,7 +59,6 @@ class _Builder:
 
     def machine(self, root: Element) -> StateMachine:
         events = root.get(f"{OURS} events")
-        place = root.place(f"{OURS} events")
         return StateMachine(
             name=root.get("name") or "",
             path=self.path,
@@ -66,8 +66,9 @@ class _Builder:
             datamodel=root.get("datamodel") or "",
             late=root.get("binding") == "late",
             scripts=tuple(self.action(child) for child in ours(root) if child.name == "script"),
-            events=tuple(Text(word, place) for word in (events or "").split()),
+            events=words(events or "", root.place(f"{OURS} events")),
             span=root.span,
+            datamodel_span=root.place("datamodel"),
         )
 
     def state(self, element: Element) -> State:
@@ -204,7 +205,7 @@ def _text(element: Element, name: str) -> Text | None:
 
 
 def _words(element: Element, name: str) -> tuple[Text, ...]:
-    return tuple(Text(word, element.place(name)) for word in (element.get(name) or "").split())
+    return words(element.get(name) or "", element.place(name))
 
 
 def _value(element: Element, name: str) -> Value:

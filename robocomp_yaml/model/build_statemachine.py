@@ -1,12 +1,16 @@
 """The CDSL's inline state machine as a `StateMachine`. The tree has the schema's shape.
 
-States that `initial:` and `final:` name need not be listed. A transition that says neither on which event nor on what
-condition is caused by the event `t_HERE_to_THERE`, which is what RoboComp calls the signal of such a transition.
+States that `initial:` and `final:` name need not be listed where a transition knows them, or where no `states:` are. A
+transition that says neither on which event nor on what condition is caused by the event `t_HERE_to_THERE`, which is
+what RoboComp calls the signal of such a transition.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+
+import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.build_interface import doc, entries, items, span_of, text
@@ -27,18 +31,30 @@ from robocomp_yaml.model.statemachine import (
     Transition,
     Value,
     walk,
+    words,
 )
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
-Transitions = dict[str, list[Transition]]
+
+class _Names(msgspec.Struct):
+    """What the whole document says of states: `transitions` by their source, `listed` under any `states:`, and `met` as
+    the start or the target of a transition."""
+
+    transitions: dict[str, list[Transition]] = {}
+    places: dict[str, Text] = {}
+    listed: set[str] = set()
+
+    @property
+    def met(self) -> set[str]:
+        targets = {target.text for found in self.transitions.values() for one in found for target in one.targets}
+        return targets | self.transitions.keys()
 
 
 def build(node: Mapping, name: str, path: str) -> StateMachine:
     """The machine under `statemachine:` of the component `name`."""
-    sources: dict[str, tuple[Text, list[Transition]]] = {}
-    _collect(node, sources)
-    transitions = {source: found for source, (_, found) in sources.items()}
-    root = _state("", node, STATE, node.span, transitions)
+    names = _Names()
+    _collect(node, names)
+    root = _state("", node, STATE, node.span, names)
     known = {state.id for state in walk(root.states)}
     return StateMachine(
         name,
@@ -46,24 +62,25 @@ def build(node: Mapping, name: str, path: str) -> StateMachine:
         root,
         events=tuple(Text(item.lexeme, item.span) for item in items(node, "events") if isinstance(item, Scalar)),
         inline=True,
-        strays=tuple(source for key, (source, _) in sources.items() if key not in known),
+        strays=tuple(source for key, source in names.places.items() if key not in known),
         span=node.span,
     )
 
 
-def _collect(node: Node, sources: dict[str, tuple[Text, list[Transition]]]) -> None:
+def _collect(node: Node, names: _Names) -> None:
     """All transitions by their source: those of one state may stand at any level."""
     for key, value in entries(node, "transitions"):
-        if not key.lexeme.startswith("x-"):
-            _, found = sources.setdefault(key.lexeme, (Text(key.lexeme, key.span), []))
-            found += (_transition(key.lexeme, item) for item in _listed(value))
-    for _, state in entries(node, "states"):
-        _collect(state, sources)
+        names.places.setdefault(key.lexeme, Text(key.lexeme, key.span))
+        found = names.transitions.setdefault(key.lexeme, [])
+        found += (_transition(key.lexeme, item) for item in _listed(value))
+    for key, state in entries(node, "states"):
+        names.listed.add(key.lexeme)
+        _collect(state, names)
 
 
-def _state(name: str, node: Node | None, kind: str, span: Span, transitions: Transitions) -> State:
-    initial = _named(node, "initial")
-    own = transitions.get(name, []) if name else []
+def _state(name: str, node: Node | None, kind: str, span: Span, names: _Names) -> State:
+    initial, final = _named(node, "initial"), _named(node, "final")
+    own = names.transitions.get(name, []) if name else []
     history = text(node, "history")
     if history:
         kind = HISTORY
@@ -73,9 +90,10 @@ def _state(name: str, node: Node | None, kind: str, span: Span, transitions: Tra
     return State(
         id=name,
         kind=kind,
-        states=tuple(_children(node, initial, _named(node, "final"), transitions)),
-        transitions=() if kind == HISTORY else tuple(own),
-        initial=_remembered(own) if kind == HISTORY else entered,
+        states=tuple(_children(node, initial, final, names)),
+        transitions=tuple(own[1:] if kind == HISTORY else own),
+        initial=_remembered(name, own) if kind == HISTORY else entered,
+        final=final,
         deep=history == "deep",
         entry=_blocks(node, "entry"),
         exit=_blocks(node, "exit"),
@@ -84,25 +102,29 @@ def _state(name: str, node: Node | None, kind: str, span: Span, transitions: Tra
     )
 
 
-def _children(
-    node: Node | None, initial: Text | None, final: Text | None, transitions: Transitions
-) -> Iterator[State]:
-    """The states listed, and around them those that are only named."""
-    listed = {key.lexeme: (key, value) for key, value in entries(node, "states") if not key.lexeme.startswith("x-")}
-    if initial and initial.text not in listed:
-        yield _state(initial.text, None, FINAL if initial == final else STATE, initial.span, transitions)
+def _children(node: Node | None, initial: Text | None, final: Text | None, names: _Names) -> Iterator[State]:
+    """The states listed, and around them those that are only named: by a transition, or where nothing is listed. What
+    is named and nowhere else is no state, but a name misspelled."""
+    listed = {key.lexeme: (key, value) for key, value in entries(node, "states")}
+    ends = {end.text: end for end in (final, initial) if end}
+    for name in list(ends):
+        if name in names.listed or (listed and name not in names.met):
+            del ends[name]
+    last = final.text if final else ""
+    if initial and initial.text in ends:
+        yield _state(initial.text, None, FINAL if initial.text == last else STATE, initial.span, names)
     for name, (key, value) in listed.items():
-        kind = FINAL if final and name == final.text else STATE
-        yield _state(name, value, kind, key.span, transitions)
-    if final and final.text not in listed and final != initial:
-        yield _state(final.text, None, FINAL, final.span, transitions)
+        yield _state(name, value, FINAL if name == last else STATE, key.span, names)
+    if final and final.text in ends and not (initial and initial.text == last):
+        yield _state(last, None, FINAL, final.span, names)
 
 
-def _remembered(own: list[Transition]) -> Transition | None:
-    """Where a history leads before anything is remembered."""
+def _remembered(name: str, own: list[Transition]) -> Transition | None:
+    """Where a history leads before anything is remembered: at once, without an event."""
     if not own:
         return None
-    return Transition(targets=own[0].targets, actions=own[0].actions, span=own[0].span)
+    first = own[0]
+    return replace(first, events=()) if [*first.events] == [_signal(name, to) for to in first.targets[:1]] else first
 
 
 def _transition(source: str, node: Node) -> Transition:
@@ -114,8 +136,7 @@ def _transition(source: str, node: Node) -> Transition:
     targets = tuple(Text(item.lexeme, item.span) for item in _listed(to) if isinstance(item, Scalar)) if to else ()
     condition = _named(node, "if")
     if node.get("event"):
-        place = span_of(node, "event")
-        events = tuple(Text(word, place) for word in text(node, "event").split())
+        events = words(text(node, "event"), span_of(node, "event"))
     else:
         events = (_signal(source, targets[0]),) if condition is None and targets else ()
     return Transition(

@@ -11,6 +11,7 @@ from robocomp_yaml.model.located import Located
 if TYPE_CHECKING:
     from robocomp_yaml.model.statemachine import StateMachine
 
+DEFAULT_STANDARD = 17  # of C++, where a component names none
 WAIT, FAIL, IGNORE = "wait", "fail", "ignore"
 
 
@@ -64,6 +65,7 @@ class Library(Located, frozen=True):
     version: str = ""
     entry: int = 0
     span: Span = Span("")
+    version_span: Span = Span("")
 
 
 class Source(Located, frozen=True):

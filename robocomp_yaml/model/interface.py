@@ -50,10 +50,13 @@ class Member(Located, frozen=True):
 
 
 class Struct(Located, frozen=True):
+    """`list_span` is the place of the word `struct`."""
+
     name: str
     members: tuple[Member, ...]
     doc: str = ""
     span: Span = Span("")
+    list_span: Span = Span("")
 
 
 class Enumerator(Located, frozen=True):
@@ -70,6 +73,7 @@ class Enum(Located, frozen=True):
     enumerators: tuple[Enumerator, ...]
     doc: str = ""
     span: Span = Span("")
+    list_span: Span = Span("")
 
 
 class Sequence(Located, frozen=True):

@@ -47,9 +47,11 @@ class MachineIndex(msgspec.Struct):
         yield self.machine.root
         yield from self.machine.states
 
-    def similar(self, name: str) -> str:
-        """A hint at a state whose name is like this one; to look for it in thousands would take too long."""
-        close = suggest(name, self.by_id) if len(self.by_id) < _MANY else None
+    def similar(self, name: str, inside: State | None = None) -> str:
+        """A hint at a state (in this one) whose name is like this one; to look for it in thousands would take too long.
+        """
+        ids = [found for found, state in self.by_id.items() if inside is None or inside in self.ancestors(state)]
+        close = suggest(name, ids) if len(ids) < _MANY else None
         return f"did you mean '{close}'?" if close else ""
 
     def ancestors(self, state: State) -> list[State]:

@@ -27,7 +27,7 @@ class Limits(msgspec.Struct, frozen=True):
 class Spec(Located, frozen=True):
     """What a document says about a type. `kinds` are those of KINDS that stand there, with their places: exactly one
     when nothing is wrong. `name` goes with 'type', `element` with 'list' and 'map', `members` with 'group' and
-    'struct', `enumerators` with 'enum'."""
+    'struct', `enumerators` with 'enum'. `key_span` is where it has its name, if it has one."""
 
     kinds: tuple[tuple[str, Span], ...]
     name: str = ""
@@ -37,6 +37,7 @@ class Spec(Located, frozen=True):
     limits: Limits = Limits()
     doc: str = ""
     span: Span = Span("")
+    key_span: Span = Span("")
 
     @property
     def kind(self) -> str:

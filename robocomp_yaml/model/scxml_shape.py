@@ -9,7 +9,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean, suggest
 from robocomp_yaml.source.xml import Element
 
 SCXML = "http://www.w3.org/2005/07/scxml"
@@ -93,8 +93,7 @@ def _misshapen(element: Element) -> Iterator[Diagnostic]:
     known = shape.attributes.split()
     for name in element.attributes:
         if name not in known and " " not in name:
-            close = suggest(name, known)
-            hint = f"did you mean '{close}'?" if close else f"it has {', '.join(known) or 'none'}"
+            hint = did_you_mean(name, known, element.attributes) or f"it has {', '.join(known) or 'none'}"
             yield codes.UNKNOWN_ATTRIBUTE.at(element.place(name), name=name, element=element.name, hint=hint)
     for name in shape.required.split():
         if not (element.get(name) or "").strip():

@@ -7,9 +7,11 @@ of names of actions. With `python`, expressions are Python's, run by the compone
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.located import Located
@@ -26,6 +28,19 @@ class Text(Located, frozen=True):
 
     def __str__(self) -> str:
         return self.text
+
+
+def words(text: str, span: Span) -> tuple[Text, ...]:
+    """The words of a text that stands here, each at its own place where nothing in it is escaped or on a line of its
+    own."""
+    quotes = span.end_column - span.column - len(text)
+    is_plain = span.line == span.end_line and quotes in (0, 2)
+    start = span.column + quotes // 2
+
+    def place(found: re.Match[str]) -> Span:
+        return replace(span, column=start + found.start(), end_column=start + found.end()) if is_plain else span
+
+    return tuple(Text(found[0], place(found)) for found in re.finditer(r"\S+", text))
 
 
 class Value(Located, frozen=True):
@@ -145,14 +160,15 @@ class Invoke(Located, frozen=True):
 
 
 class State(Located, frozen=True):
-    """A state, of a `kind`; `id` is '' where it has none. `initial` is what is entered with it. A history's `initial`
-    is what it stands for before anything is remembered."""
+    """A state, of a `kind`; `id` is '' where it has none. `initial` is what is entered with it, `final` what the CDSL
+    names as the one that ends it. A history's `initial` is what it stands for before anything is remembered."""
 
     id: str
     kind: str = STATE
     states: tuple[State, ...] = ()
     transitions: tuple[Transition, ...] = ()
     initial: Transition | None = None
+    final: Text | None = None
     deep: bool = False
     entry: tuple[Block, ...] = ()
     exit: tuple[Block, ...] = ()
@@ -178,6 +194,7 @@ class StateMachine(Located, frozen=True):
     inline: bool = False
     strays: tuple[Text, ...] = ()
     span: Span = Span("")
+    datamodel_span: Span = Span("")
 
     @property
     def states(self) -> Iterator[State]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import bisect
 import re
+from collections.abc import Iterator
 from xml.parsers import expat
 
 import msgspec
@@ -116,7 +117,8 @@ class _Reader:
         element = Element(name, namespace, attributes, self._here(len(name) + 1), source=self.raw)
         element.start = self.parser.CurrentByteIndex
         if attributes:
-            element.places = self._places()
+            written = [place for name, place in self._places() if name != "xmlns" and not name.startswith("xmlns:")]
+            element.places = dict(zip(attributes, written))  # both in the document's order
         if self._open:
             self._open[-1].content.append(element)
         else:
@@ -132,14 +134,12 @@ class _Reader:
         if self._open:
             self._open[-1].content.append(text)
 
-    def _places(self) -> dict[str, Span]:
+    def _places(self) -> Iterator[tuple[str, Span]]:
         """The values of the current tag's attributes, found again in the text (expat does not tell)."""
         at = self._lines[self.parser.CurrentLineNumber - 1] + self.parser.CurrentColumnNumber
-        places: dict[str, Span] = {}
         found = _TAG.match(self.text, at)
         while found and (found := _ATTRIBUTE.match(self.text, found.end())):
-            places[found[1]] = self._span(found.start(2) + 1, found.end(2) - 1)
-        return places
+            yield found[1], self._span(found.start(2) + 1, found.end(2) - 1)
 
     def _span(self, start: int, end: int) -> Span:
         first, last = bisect.bisect_right(self._lines, start), bisect.bisect_right(self._lines, end)

@@ -32,7 +32,7 @@ def _libraries(component: Component) -> Iterator[Diagnostic]:
     for library in component.libraries:
         plain = all(re.fullmatch(_NUMBERS, part) for part in library.version.split(",")) and library.kind != LINK
         if library.version and library.kind != PIP and not plain:
-            yield codes.VERSION.at(library.span, version=library.version.strip(), kind=f"`{library.kind}`")
+            yield codes.VERSION.at(library.version_span, version=library.version.strip(), kind=f"`{library.kind}`")
 
 
 def _without_build(component: Component) -> Iterator[Diagnostic]:

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.link.references import kind_of, types_of
-from robocomp_yaml.model.interface import TypeDefinition
+from robocomp_yaml.model.interface import Struct, TypeDefinition
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -16,12 +17,26 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.modules.values():
         for circle in circles(_uses(linked)):
             first = circle[0]
+            inside = [_holds(linked, d, circle[(n + 1) % len(circle)]) for n, d in enumerate(circle)]
             names = [definition.name for definition in (*circle, first)]
             yield codes.VALUE_CYCLE.at(
-                first.span, kind=kind_of(first), name=first.name, cycle=" → ".join(names),
+                inside[0], kind=kind_of(first), name=first.name, cycle=" → ".join(names),
                 hint="hold an identifier or a key of the other value, not the value itself",
-                related=[Related(f"'{d.name}' stands here", d.span) for d in circle[1:]],
-            )
+                related=[
+                    Related(f"'{d.name}' holds '{circle[(n + 1) % len(circle)].name}' here", inside[n])
+                    for n, d in enumerate(circle) if n
+                ],
+            )  # fmt: skip
+
+
+def _holds(linked: LinkedModule, outer: TypeDefinition, inner: TypeDefinition) -> Span:
+    """Where one type holds another: the member of a struct, else the type of the elements."""
+    places = [m.span for m in outer.members] if isinstance(outer, Struct) else [ref.span for ref in types_of(outer)]
+    for place, ref in zip(places, types_of(outer), strict=True):
+        found = None if ref.is_basic else linked.find(ref)
+        if found and found[1] is inner:
+            return place
+    return outer.span
 
 
 Uses = dict[str, tuple[TypeDefinition, list[str]]]

@@ -19,12 +19,12 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 yield from _numbers(definition)
                 if not definition.enumerators:
                     yield codes.EMPTY_TYPE.at(
-                        definition.span, kind="enum", name=definition.name, parts="enumerators",
+                        definition.list_span, kind="enum", name=definition.name, parts="enumerators",
                         hint="name at least one: {enum: [first]}",
                     )
             elif isinstance(definition, Struct) and not definition.members:
                 yield codes.EMPTY_TYPE.at(
-                    definition.span, kind="struct", name=definition.name, parts="members",
+                    definition.list_span, kind="struct", name=definition.name, parts="members",
                     hint="give it a member: {struct: {x: float}}",
                 )
 

@@ -1,7 +1,7 @@
 """Names within a module: what Slice lets them be, and that no two are alike.
 
 Reserved words of target languages are no concern, since Ice's mappings escape them: but for a few that the one to
-Python forgets.
+Python forgets. What C++ cannot have all the same, `cpp` says.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ import msgspec
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.link.program import Definition, Program
-from robocomp_yaml.link.references import Name, exceptions_of, groups, kind_of, types_of
-from robocomp_yaml.model.interface import Interface, Module
+from robocomp_yaml.link.program import Program
+from robocomp_yaml.link.references import Name, groups, kind_of
+from robocomp_yaml.model.interface import Module
 
 RESERVED = frozenset(
     "bool byte class const dictionary double enum exception extends false float idempotent implements int interface "
@@ -53,7 +53,6 @@ def _module(module: Module) -> Iterator[Diagnostic]:
                 yield from _legal(name)
             if group and group[0].kind == "method":
                 yield from _not_named_as(kind_of(definition), definition.name, group)
-            yield from _told_apart_in_cpp(definition, group)
             if len(group) > 1:
                 yield from _distinct(f"{kind_of(definition)} {definition.name}", group, f"{group[0].kind}s")
 
@@ -115,17 +114,3 @@ def _not_named_as(outer: str, outer_name: str, names: Iterable[Name]) -> Iterato
                 name.span, kind=name.kind, name=name.text, outer=outer, outer_name=outer_name,
                 hint="choose another name: Slice allows no such pair, in whatever case",
             )
-
-
-def _told_apart_in_cpp(definition: Definition, group: list[Name]) -> Iterator[Diagnostic]:
-    """Ice's C++ has no second name for a member called as its struct, nor for a method called as a type it uses."""
-    if not group or group[0].kind not in ("member", "method"):
-        return
-    taken = {definition.name}
-    if isinstance(definition, Interface):
-        taken = {ref.text for ref in (*types_of(definition), *exceptions_of(definition))}
-    for name in group:
-        if name.text in taken:
-            other = name.text[0].lower() + name.text[1:]
-            hint = f"call it '{other}'" if other != name.text else "choose another name"
-            yield codes.CPP_NAME.at(name.span, kind=name.kind, name=name.text, hint=hint)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import LinkedModule, Program
-from robocomp_yaml.link.references import exceptions_of, kind_of, types_of
-from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Module, TypeDefinition, TypeRef
+from robocomp_yaml.link.references import kind_of, types_of
+from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Interface, Module, TypeDefinition, TypeRef
 
 # How other languages call the basic types.
 _FOREIGN = {
@@ -32,8 +32,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
         for definition in linked.module.definitions:
             for ref in types_of(definition):
                 yield from _type(linked, ref, index)
-            for ref in exceptions_of(definition):
-                yield from _exception(linked, ref, index)
+            for method in definition.methods if isinstance(definition, Interface) else ():
+                for ref in method.throws:
+                    yield from _exception(linked, ref, index, {other.text for other in method.throws})
 
 
 class _Index:
@@ -44,9 +45,9 @@ class _Index:
         self._by_name: dict[tuple[str, bool], list[Module]] = {}
         self._suggestions_left = MOST_SUGGESTIONS
 
-    def suggest(self, word: str, candidates: Iterator[str]) -> str | None:
+    def meant(self, word: str, candidates: Iterator[str], given: Container[str]) -> str:
         self._suggestions_left -= 1
-        return suggest(word, candidates) if self._suggestions_left >= 0 else None
+        return did_you_mean(word, candidates, given) if self._suggestions_left >= 0 else ""
 
     def definers(self, name: str, exception: bool) -> list[Module]:
         """The modules that define a type, or an exception, of this name, in order of their paths."""
@@ -74,7 +75,7 @@ def _type(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnos
         )
 
 
-def _exception(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnostic]:
+def _exception(linked: LinkedModule, ref: TypeRef, index: _Index, given: set[str]) -> Iterator[Diagnostic]:
     found = None if ref.is_basic else linked.find(ref)
     if found is not None and not isinstance(found[1], ExceptionType):
         kind = kind_of(found[1])
@@ -83,12 +84,13 @@ def _exception(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Di
             related=[Related(f"the {kind} stands here", found[1].span)],
         )
     elif found is None and ref.module not in linked.unresolved:
-        hint = _hint(linked, ref, index, exception=True)
+        hint = _hint(linked, ref, index, given)
         yield codes.UNKNOWN_EXCEPTION.at(ref.span, name=ref.text, hint=hint)
 
 
-def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, exception: bool = False) -> str:
-    """How to mend a name that is not there."""
+def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | None = None) -> str:
+    """How to mend a name that is not there; `thrown` are the exceptions of the same list, None for a type."""
+    exception = thrown is not None
     if not exception and ref.text == "void":
         return "a method that returns nothing has no `returns`"
     if not exception and ref.text in _MEANT:
@@ -103,9 +105,9 @@ def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, exception: bool = F
         if id(module) in imported:
             return f"write '{module.stem}.{ref.name}': a name of another module stands behind that module's"
     if definers:
-        return f"add {definers[0].stem} to `imports`, and write '{definers[0].stem}.{ref.name}'"
-    meant = index.suggest(ref.text, _known(linked, exception))
-    return f"did you mean '{meant}'?" if meant else "define it, or import the module that does"
+        full = f"{definers[0].stem}.{ref.name}"
+        return f"add {definers[0].stem} to `imports`" + (f", and write '{full}'" if full != ref.text else "")
+    return index.meant(ref.text, _known(linked, exception), thrown or ()) or "define it, or import the module that does"
 
 
 def _known(linked: LinkedModule, exception: bool) -> Iterator[str]:

@@ -45,7 +45,7 @@ def of(machine: StateMachine, language: str) -> Iterator[Diagnostic]:
     name = machine.datamodel or NULL
     if name not in (NULL, PYTHON) or (name == PYTHON and language != "python"):
         hint = "leave it out: then conditions are guards of the worker" if language == "cpp" else 'write "python"'
-        yield codes.DATAMODEL.at(machine.span, name=name, language=_LANGUAGES[language], hint=hint)
+        yield codes.DATAMODEL.at(machine.datamodel_span, name=name, language=_LANGUAGES[language], hint=hint)
     elif name == PYTHON:
         yield from _Python(index).run()
     else:

@@ -10,22 +10,16 @@ from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.model import machine_names as names
+from robocomp_yaml.model.cpp_macros import EVER
 from robocomp_yaml.model.machine_index import MachineIndex
+from robocomp_yaml.model.names import CPP_KEYWORDS
 from robocomp_yaml.model.statemachine import Raise, Send, StateMachine, Text
 
 _EVENT = re.compile(r"(?!__)[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
-_CPP = frozenset(
-    "alignas alignof and_eq asm auto bitand bitor bool case catch char compl concept const consteval constexpr "
-    "constinit const_cast co_await co_return co_yield decltype default delete do double dynamic_cast enum explicit "
-    "export extern false float friend goto inline int long mutable namespace new noexcept not_eq nullptr operator "
-    "private protected public register reinterpret_cast requires short signed sizeof static static_assert "
-    "static_cast struct switch template this thread_local throw true typedef typeid typename union unsigned using "
-    "virtual void volatile wchar_t xor xor_eq".split()
-)
 _WORKERS = frozenset(
     "communicator compute events getPeriod initialize killYourSelf log mutex self setPeriod statemachine worker".split()
 )
-_RESERVED = _CPP | _WORKERS | frozenset(keyword.kwlist)
+_RESERVED = CPP_KEYWORDS | _WORKERS | frozenset(keyword.kwlist)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -58,6 +52,8 @@ def _in_code(linked: LinkedComponent, machine: StateMachine) -> Iterator[Diagnos
     taken = {named.name: named for named in _of_ports(linked)}
     guards, actions = names.guards(machine), names.actions(machine)
     reserved = _RESERVED | names.ROBOCOMPS if linked.component.compatibility else _RESERVED
+    if linked.component.language.name == "cpp":
+        reserved |= EVER
     for named in (*guards, *actions):
         is_own = named.kind == names.ACTION and named.name in names.CALLABLE
         if named.name in reserved and not is_own:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import Any
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -30,6 +31,7 @@ def _of(machine: StateMachine, is_invoked: bool) -> Iterator[Diagnostic]:
     for state in index.states:
         yield from _kind(index, state)
         yield from _initial(index, state)
+        yield from _final(index, state)
     for _, transition in index.transitions():
         yield from _targets(index, transition)
     for invoked in index.invoked():
@@ -47,8 +49,11 @@ def _names(index: MachineIndex, is_invoked: bool) -> Iterator[Diagnostic]:
             yield codes.STATE_NAME.at(state.span, id=state.id, hint=hint)
 
 
-def _unknown(index: MachineIndex, name: Text) -> Diagnostic:
-    return codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=index.similar(name.text))
+def _unknown(index: MachineIndex, name: Text, inside: State | None = None) -> Diagnostic:
+    hint = index.similar(name.text, inside)
+    if inside is not None and not hint and index.machine.inline:
+        hint = "write it under `states:`, or one that stands there"
+    return codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=hint)
 
 
 def _strays(index: MachineIndex) -> Iterator[Diagnostic]:
@@ -58,34 +63,34 @@ def _strays(index: MachineIndex) -> Iterator[Diagnostic]:
 
 def _kind(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
     """What a final state and a history may have; SCXML's shape says this for documents of its own."""
-    lists = {
+    lists: dict[str, tuple[Any, ...]] = {
         "states": state.states, "transitions": state.transitions, "entry or exit actions": state.entry or state.exit
     }  # fmt: skip
     if state.kind == FINAL:
         for what in ("states", "transitions"):
             if lists[what]:
-                place = state.transitions[0].span if what == "transitions" else state.span
+                place = lists[what][0].span
                 yield codes.FINAL_LEFT.at(place, id=state.id, what=what)
     if state.kind == HISTORY:
         for what, found in lists.items():
-            if found:
-                yield codes.INLINE_HISTORY.at(state.span, what=what)
+            if found and what != "transitions":  # those of a history are counted in `order`
+                place = found[0].span if what == "states" else found[0][0].span
+                yield codes.INLINE_HISTORY.at(place, what=what)
         if index.parents[id(state)] is index.machine.root:
             yield codes.NO_PARENT.at(state.span)
 
 
 def _initial(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
     """The initial state is there and stands inside; a history may also lead to a state beside it."""
-    what = f"the state '{state.id}'" if state.id else "the machine"
+    what = _shown(state)
     children = [child for child in state.states if child.kind != HISTORY]
     home = index.parents[id(state)] if state.kind == HISTORY else state
     if state.initial is not None:
-        yield from _targets(index, state.initial)
+        yield from _targets(index, state.initial, home)
         for target in state.initial.targets:
             found = index.by_id.get(target.text)
             if found is not None and home not in index.ancestors(found):
-                around = f"the state '{home.id}'" if home.id else "the machine"
-                yield codes.INITIAL_OUTSIDE.at(target.span, id=target.text, what=around)
+                yield codes.INITIAL_OUTSIDE.at(target.span, id=target.text, what=_shown(home))
     elif state.kind == HISTORY:
         if index.machine.inline:
             yield codes.NO_INITIAL.at(
@@ -101,15 +106,30 @@ def _initial(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
             yield codes.IMPLICIT_INITIAL.at(state.span, what=what, first=children[0].id, hint=hint)
 
 
-def _targets(index: MachineIndex, transition: Transition) -> Iterator[Diagnostic]:
+def _shown(state: State) -> str:
+    return f"the state '{state.id}'" if state.id else "the machine"
+
+
+def _final(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
+    """What `final:` names is one of the states directly in it."""
+    if state.final is None:
+        return
+    found = index.by_id.get(state.final.text)
+    if found is None:
+        yield _unknown(index, state.final, state)
+    elif index.parents[id(found)] is not state:
+        yield codes.INITIAL_OUTSIDE.at(state.final.span, id=found.id, what=_shown(state))
+
+
+def _targets(index: MachineIndex, transition: Transition, inside: State | None = None) -> Iterator[Diagnostic]:
     for target in transition.targets:
         if target.text not in index.by_id:
-            yield _unknown(index, target)
+            yield _unknown(index, target, inside)
     found = index.targets(transition)
     for number, first in enumerate(found):
         for second in found[number + 1 :]:
             if not _together(index, first, second):
-                place = transition.targets[0].span
+                place = next(target.span for target in transition.targets if target.text == second.id)
                 yield codes.NOT_TOGETHER.at(place, first=first.id, second=second.id)
                 return
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.model.parameters import RecordType, Type
 from robocomp_yaml.values.spelling import fault
@@ -23,10 +23,10 @@ def _spellings(linked: LinkedParameters) -> Iterator[Diagnostic]:
     for spelling in linked.parameters.spellings:
         type_ = known.get(spelling.path)
         if type_ is None:
-            meant = suggest(spelling.path, known)
+            given = {other.path for other in linked.parameters.spellings}
             yield codes.BAD_SPELLING.at(
                 spelling.span, path=spelling.path, problem="names no parameter",
-                hint=f"did you mean '{meant}'?" if meant else "",
+                hint=did_you_mean(spelling.path, known, given),
             )
         elif problem := fault(spelling, type_):
             yield codes.BAD_SPELLING.at(spelling.span, path=spelling.path, problem=problem)

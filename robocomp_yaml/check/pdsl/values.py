@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.codes.files import BAD_ICE_TEXT
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, has_errors
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.attachments import leads_to
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
@@ -126,8 +126,8 @@ def _ports(linked: LinkedValues) -> Iterator[Diagnostic]:
         parent = linked.document.section(*section[:-1])
         for name, _ in entries(parent, section[-1]):
             if name.lexeme not in names and name.lexeme.removesuffix("Comp") not in names:
-                meant = suggest(name.lexeme, names)
+                given = {other.lexeme for other, _ in entries(parent, section[-1])}
                 yield codes.UNKNOWN_PORT.at(
                     name.span, component=component.component.name, what=what, name=name.lexeme,
-                    hint=f"did you mean '{meant}'?" if meant else "",
+                    hint=did_you_mean(name.lexeme, names, given),
                 )

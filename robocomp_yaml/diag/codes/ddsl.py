@@ -179,6 +179,9 @@ BAD_PATTERN = Code(
     deployed("components:\n" + _MOVES + "  laser: {program: sleep, args: [1], ready: {log: \"ready (\"}}\n"),
     deployed("components:\n" + _MOVES + "  laser: {program: sleep, args: [1], ready: {log: 'ready \\('}}\n"),
     _CHECK,
+    says=(
+        "'{pattern}' is no regular expression: {what_Python_says}",
+    ),
 )
 CONFIG_AS_PROGRAM = Code(
     "RC4017",
@@ -270,4 +273,8 @@ TOO_LARGE = Code(
     deployed(_BOTH + "  mouth{i}: {component: mouth, instances: 10000}\n"),
     _RIGHT,
     _CHECK,
+    says=(
+        "this deployment comes to {number} processes, and {most} are the most",
+        "this deployment has includes inside of each other {number} deep, and {most} are the most",
+    ),
 )

@@ -49,7 +49,8 @@ UNKNOWN_KIND = Code(
     "RC0005",
     "error",
     "'{name}' is not the name of a document: it must end in {kinds}",
-    "The name says what a document is: NAME.KIND.yaml, where KIND is `idsl` (interfaces) or `cdsl` (a component).",
+    "The name says what a document is: NAME.KIND.yaml, where KIND is `idsl` (interfaces), `cdsl` (a component), `pdsl` "
+    "(a component's parameters), `ddsl` (a deployment) or `config` (values of parameters).",
     {"Speech.yaml": "module: RoboCompSpeech\n"},
     _GOOD,
     "check *",
@@ -58,7 +59,8 @@ NOTHING_FOUND = Code(
     "RC0006",
     "error",
     "there is no document in this folder",
-    "The folder, and the folders below it, hold no file whose name ends in `.idsl.yaml` or `.cdsl.yaml`.",
+    "The folder, and the folders below it, hold no file whose name ends in `.idsl.yaml`, `.cdsl.yaml`, "
+    "`.pdsl.yaml`, `.ddsl.yaml` or `.config.yaml`. What is legacy, `rcyaml migrate` makes into such documents.",
     {"empty": None},
     _GOOD,
 )
@@ -70,6 +72,19 @@ SYNTAX = Code(
     "bracket that is not closed, and lines that do not line up.",
     _wrong("module: RoboCompSpeech\ninterfaces: {Speech: {}\n"),
     _GOOD,
+    says=(
+        "this is not YAML: {what}",
+        "a '}}' or a ',' is missing before this",
+        "a value is missing here",
+        "a ':' makes a mapping here, where none can stand",
+        "this line has no ':' after its key",
+        "this line does not line up with the lines before it",
+        "this line belongs to no list entry",
+        "a tab stands where only blanks can indent",
+        "{found} cannot start a value here",
+        "this quoted text is never closed",
+        "no anchor (&name) of this name stands before this alias",
+    ),
 )
 EMPTY = Code(
     "RC0102",
@@ -103,12 +118,16 @@ ALIASES = Code(
     "so their total is bounded, and an alias cannot stand inside of what it repeats.",
     _wrong("module: &a [*a]\n"),
     _GOOD,
+    says=(
+        "an alias stands inside of what it repeats",
+        "aliases of this anchor make the document too large: more than {limit}",
+    ),
 )
 TOO_DEEP = Code(
     "RC0106",
     "error",
     "this is nested more than {limit} levels deep",
-    "No construct of the four languages needs more than a dozen levels; deeper nesting is a mistake or an attack.",
+    "No construct of the languages needs more than a dozen levels; deeper nesting is a mistake or an attack.",
     _wrong("module: " + "[" * 120 + "]" * 120 + "\n"),
     _GOOD,
 )
@@ -178,6 +197,11 @@ WRONG_SHAPE = Code(
     "shows what each key takes.",
     _wrong("module: [RoboCompSpeech]\n"),
     _GOOD,
+    says=(
+        "{key}: is {what}",
+        "'{value}' is no value: {why}",
+        "the values cannot be completed: `rcyaml check` says what is wrong with their parameters",
+    ),
 )
 WRONG_NAME = Code(
     "RC0205",
@@ -243,4 +267,9 @@ WORKSPACE_SETTING = Code(
     "A setting of the workspace that has no effect is most often misspelled, or names what is no longer there.",
     {"rcyaml.yaml": "interfaces: [nowhere]\n", **_GOOD},
     {"rcyaml.yaml": "interfaces: [interfaces]\n", "interfaces": None, **_GOOD},
+    says=(
+        "there is no folder '{folder}'",
+        "no diagnostic is called {code}",
+        "'{value}' is no severity",
+    ),
 )

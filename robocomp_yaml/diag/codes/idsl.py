@@ -81,10 +81,27 @@ CPP_NAME = Code(
     "RC1026",
     WARNING,
     "the C++ that Ice makes of the {kind} '{name}' does not compile",
-    why="In C++, a member cannot have the name of the struct or exception that holds it, and a method that of a type "
-    "that its interface uses, spelled exactly so. Slice, and Python, take them.",
+    why="In C++, a member cannot have the name of the exception that holds it (with Ice's older mapping, nor that of "
+    "its struct), and a method not that of a type that its interface uses, spelled exactly so. A parameter (or a "
+    "member of an exception) hides the type of its name from those behind it, as in `in: {Pose: int, target: Pose}`. "
+    "What a method gives back becomes a struct called as the method, `MoveResult` for `move`, if it is more than one "
+    "thing, and then no output is called as the type of one. Slice, and Python, take them all: it is an error where a "
+    "component in C++ needs the module, a warning elsewhere and in documents that were migrated.",
     wrong=_types("  Text: {struct: {Text: string}}\n"),
     right=_types("  Text: {struct: {text: string}}\n"),
+)
+
+CPP_MACRO = Code(
+    "RC1027",
+    WARNING,
+    "in C++, no {kind} can be called '{name}': the headers that it includes have a macro of this name",
+    why="Before C++ is compiled, each `EOF`, `NULL`, `errno`, `M_PI` or `assert(…)` is replaced by what the system's "
+    "headers say it is, wherever it stands: as the name of a type, a member, an enumerator, a method or a parameter it "
+    "does not compile, or not wherever it is used. Case counts: `eof` is free. Slice, and Python, take them: it is an "
+    "error where a component in C++ needs the module, a warning elsewhere and in documents that were migrated. Some "
+    "macros are there from C++20 on, and some with Qt, where a component has a dialog.",
+    wrong=_types("  Result: {enum: [OK, EAGAIN]}\n"),
+    right=_types("  Result: {enum: [OK, again]}\n"),
 )
 
 UNKNOWN_TYPE = Code(

@@ -25,8 +25,8 @@ UNREADABLE = Code(
     "RC2201",
     "error",
     "the state machine's file '{path}' cannot be read: {reason}",
-    "`statemachine:` names an SCXML file by a path relative to the component's document. It is not looked for anywhere "
-    "else.",
+    "`statemachine:` names an SCXML file by a path relative to the component's document. It is not looked for "
+    "anywhere else.",
     {"door.cdsl.yaml": f"{_COMPONENT}statemachine: doors.scxml\n", "door.scxml": _RIGHT["door.scxml"]},
     _RIGHT,
 )
@@ -68,8 +68,7 @@ NO_NAMESPACE = Code(
     "warning",
     "<scxml> has no namespace",
     "The namespace is what tells SCXML from any other XML: `http://www.w3.org/2005/07/scxml`. Other tools will not "
-    "take "
-    "the document without it.",
+    "take the document without it.",
     {**_RIGHT, "door.scxml": f'<scxml version="1.0" initial="closed">{_OPEN}</scxml>\n'},
     _RIGHT,
 )
@@ -87,8 +86,7 @@ UNKNOWN_ATTRIBUTE = Code(
     "warning",
     "<{element}> has no attribute '{name}'",
     "These are the attributes of SCXML 1.0; what else stands there has no effect. Attributes of other namespaces are "
-    "left "
-    "alone.",
+    "left alone.",
     _file('<state id="closed"><transition event="open" to="opened"/></state>\n'),
     _RIGHT,
 )
@@ -157,8 +155,7 @@ DATAMODEL = Code(
     "error",
     "the data model '{name}' is not available in {language}",
     "A component in Python has the data models `null` and `python`, one in C++ has `null`. With `null` (the one that "
-    "is "
-    "meant where none is named), conditions are names of guards, which are methods of the specific worker.",
+    "is meant where none is named), conditions are names of guards, which are methods of the specific worker.",
     _file(_OPEN, ' initial="closed" datamodel="ecmascript"'),
     _file(_OPEN, ' initial="closed" datamodel="python"'),
 )
@@ -168,8 +165,7 @@ NOT_IN_LANGUAGE = Code(
     "{what} '{text}' is not of the data model null: {reason}",
     "A condition is the name of a guard, or `In('state')`, joined by `and`, `or`, `not` and parentheses. A value is a "
     "text in quotes, a number, `true` or `false`. A script is a list of names of actions. What is more belongs into "
-    "the "
-    "methods of the specific worker, or into the data model `python`.",
+    "the methods of the specific worker, or into the data model `python`.",
     _file('<state id="closed"><transition event="open" cond="distance &lt; 3" target="opened"/></state>\n'
           '<state id="opened"/>\n'),
     _file('<state id="closed"><transition event="open" cond="near" target="opened"/></state>\n<state id="opened"/>\n'),
@@ -352,10 +348,52 @@ METHOD_NAME = Code(
     "error",
     "'{name}' cannot be the name of a guard or of an action",
     "Guards and actions are methods of the specific worker, so they have neither the name of something that every "
-    "worker "
-    "has, nor a word of Python or C++.",
+    "worker has, nor a word of Python or C++.",
     _inline("  initial: closed\n  states: {opened: {}}\n"
             "  transitions: {closed: {to: opened, event: open, if: default}}\n"),
     _inline("  initial: closed\n  states: {opened: {}}\n"
             "  transitions: {closed: {to: opened, event: open, if: wanted, do: killYourSelf}}\n"),
+)
+DEAD_TRANSITION = Code(
+    "RC2238",
+    "error",
+    "this transition of {state} is never taken{when}: one before it {why}",
+    "Of the transitions of a state, the first one that fits is taken. One that stands behind another one for the same "
+    "event, or behind one for `*` or `door.*` that matches it too, waits in vain, unless the first has a condition, "
+    "and not the same one; so does every one behind a transition that waits for nothing. A state inside may have "
+    "transitions for the same event: they come before. In an SCXML file, where this is legal, it is a warning.",
+    _inline("  initial: closed\n  states: {opened: {}, broken: {}}\n"
+            "  transitions: {closed: [{to: opened, event: open}, {to: broken, event: open}]}\n"),
+    _inline("  initial: closed\n  states: {opened: {}, broken: {}}\n"
+            "  transitions: {closed: [{to: opened, event: open, if: whole}, {to: broken, event: open}]}\n"),
+)
+EVENT_TWICE = Code(
+    "RC2239",
+    "error",
+    "the event '{event}' is listed twice",
+    "`events:` lists each event that code fires once; the second one is probably another one, misspelled.",
+    _inline("  initial: closed\n  events: [open, open]\n  states: {opened: {}}\n"
+            "  transitions: {closed: {to: opened, event: open}}\n"),
+    _inline("  initial: closed\n  events: [open, close]\n  states: {opened: {}}\n"
+            "  transitions: {closed: {to: opened, event: open}, opened: {to: closed, event: close}}\n"),
+)
+HISTORY_TWICE = Code(
+    "RC2240",
+    "error",
+    "a second transition of the history '{id}'",
+    "A history has one transition: it says where to go as long as there is nothing to remember.",
+    _inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n"
+            "      states: {locked: {}, ajar: {}, last: {history: shallow}}\n"
+            "      transitions: {locked: {to: ajar, event: pull}, last: [locked, ajar]}\n"),
+    _INLINE,
+)
+HISTORY_WAITS = Code(
+    "RC2241",
+    "error",
+    "the transition of the history '{id}' waits for nothing: it has neither event nor condition",
+    "Who goes to a history comes at once to where its surroundings were left, or to where its transition leads.",
+    _inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n"
+            "      states: {locked: {}, last: {history: shallow}}\n"
+            "      transitions: {locked: {to: last, event: pull}, last: {to: locked, event: back}}\n"),
+    _INLINE,
 )

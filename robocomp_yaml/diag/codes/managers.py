@@ -38,6 +38,11 @@ ODD_ENDPOINT = Code(
     "An endpoint says where a node answers: `laser:tcp -h localhost -p 10003`, Ice's identity and an address of the "
     "host where its command runs. The document says where the command runs; what the file says is kept for exporters.",
     _wrong("laser:tcp -h localhost -p 10003", "laser:tcp -h 10.0.0.9 -p 10003"), _RIGHT, _MIGRATE,
+    says=(
+        "the endpoint of '{name}' is no address with a port, so nothing says where it answers",
+        "'{name}' is started on {host}, but its endpoint is on {other}",
+        "'{name}' answers as '{interface}', which {component} does not implement",
+    ),
 )  # fmt: skip
 NEEDS_SHELL = Code(
     "RC5036", WARNING, "the command of '{name}' is for a shell, so `sh -c` runs it",

@@ -39,24 +39,51 @@ SYNTAX = Code(
     "The file does not follow its format's grammar here. All such places of a file are reported at once, one for each "
     "statement. Faults that are frequent in real files and have one possible meaning are repaired instead (RC5005).",
     _idsl("text);", "text)"), _RIGHT, _MIGRATE,
+    says=(
+        "expected {words} after '{word}', found '{found}'",
+        "'{found}' cannot stand here",
+        "a ';' is missing after '{word}'",
+        "a '}}' is missing",
+        "this {what} is never closed",
+        "this is no TOML: {why}",
+    ),
 )  # fmt: skip
 REFUSED = Code(
     "RC5004", ERROR, "{reason}",
     "Slice can say more than IDSL, and what IDSL cannot say would be lost or changed. Somebody who knows what the file "
     "is meant to say has to change it first.",
     _idsl("interface Speech", "interface Speech extends Sound"), _RIGHT, _MIGRATE,
+    says=(
+        "interfaces and exceptions cannot extend others in IDSL; repeat what they inherit",
+        "IDSL has no {what}",
+        "a module cannot stand inside of another in IDSL; give it a file of its own",
+        "a sequence or dictionary inside of another type needs a name of its own, defined before",
+    ),
 )  # fmt: skip
 REPAIRED = Code(
     "RC5005", WARNING, "{what}",
     "The file is not quite right here, as older tools let pass. What is meant is plain, so the document says it, and "
     "the line counts as repaired in the ledger (`--report`).",
     {"Speech.idsl": _IDSL + "#endif\n"}, _RIGHT, _MIGRATE,
+    says=(
+        "a ';' too many is left out",
+        "'{text}' closes nothing and is left out",
+        "the word '{text}' before the type means nothing and is left out",
+        "'{text}' is imported already",
+        "{what} is left out",
+        "{what} is taken as {meaning}",
+    ),
 )  # fmt: skip
 LOST = Code(
     "RC5006", WARNING, "{what}",
     "This line has no counterpart in the document, and what it asked for does not happen any more. The ledger counts "
     "it as lost, and `--strict` makes a loss an error.",
     _idsl("    interface", '    ["cpp:const"] interface'), _RIGHT, _MIGRATE,
+    says=(
+        "the metadata {text} has no place in IDSL",
+        "the condition '{text}' has no place in IDSL; what it encloses is taken",
+        "{what} has no place in {kind}",
+    ),
 )  # fmt: skip
 OVERLOAD = Code(
     "RC5007", WARNING, "the second method '{name}' is now called '{new}'",
@@ -80,6 +107,10 @@ UNKNOWN_TYPE = Code(
     "The legacy generator never looked what a name refers to, so such faults stayed unseen until the Slice compiler "
     "refused its output. `rcyaml check` reports the same at the document's line.",
     _idsl("string text", "Utterance text"), _RIGHT, _MIGRATE,
+    says=(
+        "module {module} defines no '{name}'",
+        "module {module} is not imported, so '{name}' is unknown",
+    ),
 )  # fmt: skip
 LATIN_1 = Code(
     "RC5011", WARNING, "this is not UTF-8 (the byte {byte} cannot stand here), so it is read as Latin-1",
@@ -213,6 +244,7 @@ UPGRADED = Code(
     "Our own documents change too, if rarely. `migrate` brings older ones up to date in their place: it changes the "
     "word that is spelled differently now, and nothing else.",
     {**_RIGHT, "speech.cdsl.yaml": _OLDER}, {**_RIGHT, "speech.cdsl.yaml": _NEWER}, _MIGRATE,
+    says=("'{old}' is now '{new}': {why}",),
 )  # fmt: skip
 BOTH_KEYS = Code(
     "RC5032", ERROR, "'{old}' is called '{new}' now, and stands here beside it",

@@ -257,6 +257,12 @@ BAD_ADDRESS = Code(
     deployed("hosts: {a: 10.0.0.256}\n" + _BOTH),
     deployed("hosts: {a: 10.0.0.2}\n" + _BOTH),
     _CHECK,
+    says=(
+        "'{address}' is no address: it is no name of a machine",
+        "'{address}' is no address: it is no {kind} address",
+        "'{address}' is no address: it stands for every address of a machine",
+        "'{address}' is no address: it stands for many machines",
+    ),
 )
 NOT_RESOLVED = Code(
     "RC4306",
@@ -283,6 +289,9 @@ NO_ENTRY = Code(
         "  angles: {list: float, default: [0.5, 1]}\n"
     },
     _CHECK,
+    says=(
+        "'{path}' leads nowhere: {why}",
+    ),
 )
 _REQUIRES = _MOUTH + "requires: [{Speech: {interface: Speech, absent: ABSENT}}]\n"
 CYCLE = Code(
@@ -325,4 +334,11 @@ NO_PROGRAM = Code(
     deployed(_BOTH + "  viewer: {program: ./viewer}\n"),
     deployed(_BOTH + "  viewer: {program: ./viewer}\n") | {"viewer": "-> /bin/true"},
     _CHECK,
+    says=(
+        "'{name}' cannot be started: there is no {path}",
+        "'{name}' cannot be started: {path} is a folder",
+        "'{name}' cannot be started: {path} is not executable",
+        "'{name}' cannot be started: PATH finds no '{program}'",
+        "'{name}' cannot be started: there is no folder {folder} to run in",
+    ),
 )

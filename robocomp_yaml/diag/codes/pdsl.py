@@ -83,6 +83,17 @@ LIMIT_MISFIT = Code(
     "`unique` lists of plain values; `unit` says what a number counts. Others would do nothing.",
     _pdsl("parameters:\n  device: {type: string, range: [0, 1], default: x}\n"),
     _pdsl("parameters:\n  device: {type: string, pattern: '[a-z]+', default: x}\n"),
+    says=(
+        "'{key}' says nothing about a value that is {kind}",
+        "'{key}' needs numbers, not '{found}'",
+        "'{key}' of whole numbers has whole limits",
+        "'{key}' has either '{one}' or '{other}', not both",
+        "'{key}' has no limit",
+        "'{key}' names '{name}', which is no enumerator of {enum}",
+        "'{key}' stands at the type already",
+        "'{key}' is for values; give it to what the group holds",
+        "'{key}' is for lists of plain values",
+    ),
 )
 EMPTY_LIMIT = Code(
     "RC3109",
@@ -91,6 +102,13 @@ EMPTY_LIMIT = Code(
     "A range whose start lies above its end, or limits that exclude each other, allow no value at all.",
     _pdsl("parameters:\n  volume: {type: int, range: [100, 0]}\n"),
     _RIGHT,
+    says=(
+        "nothing fits: no number is {range}",
+        "nothing fits: none of the values of its type is {range}",
+        "nothing fits: no enumerator of {enum} lies in this range",
+        "nothing fits: at least {least} and at most {most} entries",
+        "nothing fits: {number} entries, all different, of only {count} values",
+    ),
 )
 UNREACHABLE = Code(
     "RC3110",
@@ -100,6 +118,15 @@ UNREACHABLE = Code(
     "many, or a limit that was changed in one place only.",
     _pdsl("parameters:\n  volume: {type: int, range: [0, 100], values: [50, 200]}\n"),
     _pdsl("parameters:\n  volume: {type: int, range: [0, 100], values: [50, 100]}\n"),
+    says=(
+        "{number} cannot be reached: {type} goes from {least} to {most}",
+        "'{value}' is not {kind}",
+        "'{value}' stands twice",
+        "'{value}' is none of the values of its type",
+        "'{value}' lies outside of the range",
+        "'{value}' does not match the pattern",
+        "the enumerator '{name}' stands twice",
+    ),
 )
 BAD_PATTERN = Code(
     "RC3111",
@@ -109,6 +136,13 @@ BAD_PATTERN = Code(
     "groups, `|` and the counts `* + ? {{2,5}}`. It always matches the whole text.",
     _pdsl("parameters:\n  device: {type: string, pattern: '(?=/dev/).*', default: /dev/x}\n"),
     _pdsl("parameters:\n  device: {type: string, pattern: '/dev/.*', default: /dev/x}\n"),
+    says=(
+        "this pattern cannot be used: this '(' has no ')'",
+        "this pattern cannot be used: look-around, names and flags of groups are not known to every engine",
+        "this pattern cannot be used: '{character}' does not mean the same to every engine",
+        "this pattern cannot be used: '{character}' has nothing before it to repeat",
+        "this pattern cannot be used: {why}",
+    ),
 )
 DEFAULT_AND_OPTIONAL = Code(
     "RC3112",
@@ -125,6 +159,11 @@ BAD_DEFAULT = Code(
     "A default is a value like any other: it must fit the type, and all limits.",
     _pdsl("parameters:\n  volume: {type: int, range: [0, 100], default: 150, unit: percent}\n"),
     _RIGHT,
+    says=(
+        "the default of {name} is {value}, and must be {wanted}",
+        "the default of {name} gives a value to something else: {what}",
+        "the default of {name} comes from the environment",
+    ),
 )
 NO_IDENTIFIER = Code(
     "RC3114",
@@ -176,6 +215,11 @@ PERIOD = Code(
     "document may give them limits and defaults of its own, under a group called `period`.",
     _pdsl("parameters:\n  period: {type: int, default: 100}\n"),
     _pdsl("parameters:\n  period: {group: {compute: {type: int, range: [10, 500], default: 100}}}\n"),
+    says=(
+        "'period' is the group of the worker's periods",
+        "'period.{name}' is a whole number of milliseconds: int",
+        "the component's 'period:' says {number} ms",
+    ),
 )
 BAD_EXPRESSION = Code(
     "RC3119",
@@ -186,6 +230,15 @@ BAD_EXPRESSION = Code(
     "have a type that fits.",
     _pdsl("parameters: {low: {type: int, default: 1}, high: {type: int, default: 2}}\nconstraints: ['low < hihg']\n"),
     _pdsl("parameters: {low: {type: int, default: 1}, high: {type: int, default: 2}}\nconstraints: ['low < high']\n"),
+    says=(
+        "there is no parameter '{name}'",
+        "there is no function '{name}'",
+        "'{operator}' needs {wanted} here, and this is {found}",
+        "'{operator}' cannot compare {one} with {other}",
+        "{function}() needs {wanted} here, and this is {found}",
+        "a constraint is true or false, and this is {found}",
+        "this is no expression",
+    ),
 )
 DEFAULTS_BREAK = Code(
     "RC3120",
@@ -203,6 +256,11 @@ BAD_SPELLING = Code(
     "a list needs rows (`key` with `{{i}}`, and `columns` for records), `fields`, or `separators`.",
     _pdsl("parameters:\n  volume: {type: int, default: 1}\nlegacy:\n  volum: Speech.Volume\n"),
     _pdsl("parameters:\n  volume: {type: int, default: 1}\nlegacy:\n  volume: Speech.Volume\n"),
+    says=(
+        "the legacy spelling of '{path}' names no parameter",
+        "the legacy spelling of '{path}' has neither 'key' nor 'fields'",
+        "the legacy spelling of '{path}' is for rows, and the parameter is one plain value",
+    ),
 )
 NO_COMPONENT = Code(
     "RC3201",

@@ -92,6 +92,7 @@ CONSTRAINT = Code(
     "The PDSL's `constraints` say what must hold between parameters.",
     _values("parameters:\n  motors:\n    - {name: m0, min: 2, max: 1}\n"),
     _values("parameters:\n  motors:\n    - {name: m0, min: 0, max: 1}\n"),
+    says=("{message} (as the constraint says under `message:`, or the constraint itself)",),
 )
 BAD_REFERENCE = Code(
     "RC3309",
@@ -101,6 +102,10 @@ BAD_REFERENCE = Code(
     "or truth value stands.",
     _values("parameters:\n  volume: {env: 7UP}\n"),
     _values("parameters:\n  volume: {env: SPEECH_VOLUME}\n"),
+    says=(
+        "{path} names no variable of the environment",
+        "{path} has '{key}' beside 'env'",
+    ),
 )
 NOT_FOR_ICE = Code(
     "RC3310",
@@ -110,6 +115,11 @@ NOT_FOR_ICE = Code(
     "`legacy:` spelling cannot hold its own separator either.",
     _values('parameters:\n  device: "/dev/tty\\nUSB0"\n', _PDSL.replace("pattern: '/dev/.+', ", "")),
     _values('parameters:\n  device: "/dev/ttyUSB0"\n', _PDSL.replace("pattern: '/dev/.+', ", "")),
+    says=(
+        "{path} cannot be a property of Ice: it holds a line end",
+        "{path} cannot be a property of Ice: its row would be empty",
+        "{path} cannot be a property of Ice: another value is this property already",
+    ),
 )
 NO_LAYER = Code(
     "RC3321",

@@ -20,12 +20,12 @@ from robocomp_yaml.emit.targets.cpp_qt import QtView, RobocompView
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model.component import DEFAULT_STANDARD
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.targets.cpp_statemachine import MachineView
 
 DEFAULT_PERIOD = 100
-DEFAULT_STANDARD = 17
 BEHAVIOR = "RoboCompCommonBehavior"
 _TOPICS = frozenset(("topics.cpp", "topics.h"))  # of the run time, only where a component has topics
 # Targets that CMake makes by itself.

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from robocomp_yaml.link.program import LinkedModule
+from robocomp_yaml.model.cpp_macros import EVER
+from robocomp_yaml.model.names import CPP_KEYWORDS
 
 # What Ice 3.7's mapping puts `_cpp_` before.
 ICE_ESCAPES = frozenset(
@@ -15,8 +17,8 @@ ICE_ESCAPES = frozenset(
     "static_cast struct switch template this thread_local throw true try typedef typeid typename union unsigned using "
     "virtual void volatile wchar_t while xor xor_eq".split()
 )
-# Later keywords, which the mapping lets through: they count where a component asks for a later standard.
-_KEYWORDS = ICE_ESCAPES | frozenset("char8_t co_await co_return co_yield concept consteval constinit".split())
+# Later keywords, which the mapping lets through: they count where a component asks for a later standard. And macros.
+_KEYWORDS = ICE_ESCAPES | CPP_KEYWORDS | EVER
 
 
 def ice_name(name: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -40,7 +41,7 @@ A_B = '<state id="a"><transition event="go" target="b"/></state><state id="b"/>'
              '<parallel id="p"><state id="b"/><state id="c"/></parallel>'), []),
     (machine('<state id="a"><transition event="go" target="p b"/></state>'
              '<parallel id="p"><state id="b"/></parallel>'),
-     ["2:46 RC2226 'p' and 'b' cannot be entered at once"]),
+     ["2:48 RC2226 'p' and 'b' cannot be entered at once"]),
     (machine('<state id="a"><transition cond="x" target="a"/><transition target="a"/></state>'), []),
     (machine('<state id="a" initial="b"><transition target="a"/><state id="b"/></state>'),
      ["2:27 RC2233 this goes round for ever: a → a"]),
@@ -66,7 +67,7 @@ A_B = '<state id="a"><transition event="go" target="b"/></state><state id="b"/>'
     (machine('<state id="a"><transition event="x" cond="y"><script>y</script></transition></state>'),
      ["2:46 RC2231 the guard 'y' and the action 'y' would both be called 'y' in code"]),
     (machine('<state id="a"><transition event="a.b a_b"/></state>'),
-     ["2:34 RC2231 the event 'a.b' and the event 'a_b' would both be called 'a_b' in code"]),
+     ["2:38 RC2231 the event 'a.b' and the event 'a_b' would both be called 'a_b' in code"]),
     (machine('<state id="a"><transition event="x"/></state>',
              'initial="a" xmlns:rc="urn:robocomp:statemachine" rc:events="y"'),
      ["2:34 RC2229 nobody sends the event 'x'"]),
@@ -82,6 +83,16 @@ A_B = '<state id="a"><transition event="go" target="b"/></state><state id="b"/>'
      ["2:28 RC2215 'd.scxml' cannot be included: there is no such file"]),
     (machine('<state id="a"><onentry><send event="x" delay="1"/></onentry><transition event="x"/></state>'),
      ["2:47 RC2211 '1' is no value of 'delay'"]),
+    (machine('<state id="a"><transition event="x" target="b"/><transition event="y x" target="a"/></state>'
+             '<state id="b"/>'),
+     ["2:70 RC2238 this transition of 'a' is never taken for 'x': one before it takes 'x'"]),
+    (machine('<state id="a"><transition cond="x" event="e" target="b"/><transition event="e" target="a"/></state>'
+             '<state id="b"><transition event="a.b" target="a"/><transition event="a" target="a"/></state>'), []),
+    (machine('<state id="a"/>', 'initial="a" xmlns:rc="urn:robocomp:statemachine" rc:events="x y x"'),
+     ["1:126 RC2239 the event 'x' is listed twice"]),
+    (machine('<state id="a" initial="b"><state id="b"/><history id="h"><transition event="x" target="b"/></history>'
+             '<transition event="y" target="h"/></state>'),
+     ["2:77 RC2241 the transition of the history 'h' waits for nothing: it has neither event nor condition"]),
     (machine('<state id="a"/>', 'initial="a" datamodel="python"').replace("<state", "<script>import os\n</script><state"),
      []),
     ("\ufeff" + machine(A_B), []),
@@ -113,7 +124,7 @@ def test_what_robocomps_worker_has(diagnostics: Check, keys: str, codes: list[st
 
 def test_no_script_language_in_cpp(diagnostics: Check) -> None:
     text = machine('<state id="a"/>', 'initial="a" datamodel="python"')
-    assert said(diagnostics, text, "cpp") == ["1:1 RC2216 the data model 'python' is not available in C++"]
+    assert said(diagnostics, text, "cpp") == ["1:85 RC2216 the data model 'python' is not available in C++"]
 
 
 @pytest.mark.parametrize(("text", "messages"), [
@@ -136,6 +147,75 @@ def test_no_script_language_in_cpp(diagnostics: Check) -> None:
 ], ids=lambda value: repr(value)[:60] if isinstance(value, str) else "")  # fmt: skip
 def test_inline(diagnostics: Check, text: str, messages: list[str]) -> None:
     assert inline(diagnostics, text) == messages
+
+
+@pytest.mark.parametrize(("text", "messages"), [
+    ("  initial: runing\n  states: {running: {}, idle: {}}\n  transitions: {running: idle, idle: running}\n",
+     ["4:12 RC2221 there is no state 'runing' did you mean 'running'?"]),
+    ("  initial: idle\n  final: stopd\n  states: {stopped: {}, idle: {}}\n  transitions: {idle: stopped}\n",
+     ["5:10 RC2221 there is no state 'stopd' did you mean 'stopped'?"]),
+    ("  initial: initialize\n  final: finalize\n  states: {compute: {}}\n"
+     "  transitions: {initialize: compute, compute: finalize}\n", []),
+    ("  initial: a\n  final: b\n  transitions: {a: b}\n", []),
+    ("  initial: off\n  states: {on: {initial: slow, states: {}}}\n  transitions: {off: on}\n", []),
+    ("  initial: off\n  states: {on: {initial: slwo, final: qiuck, states: {slow: {}, quick: {}}}}\n"
+     "  transitions: {off: on, slow: quick}\n",
+     ["5:26 RC2221 there is no state 'slwo' did you mean 'slow'?",
+      "5:39 RC2221 there is no state 'qiuck' did you mean 'quick'?"]),
+    ("  initial: off\n  states: {on: {initial: no, states: {slow: {}}}}\n  transitions: {off: on, slow: on}\n",
+     ["5:26 RC2221 there is no state 'no' write it under `states:`, or one that stands there"]),
+    ("  initial: off\n  states: {on: {initial: start, states: {slow: {}}}}\n  transitions: {off: on, start: slow}\n", []),
+    ("  initial: off\n  states: {on: {initial: of, states: {slow: {}}}}\n  transitions: {off: on, slow: on}\n",
+     ["5:26 RC2221 there is no state 'of' write it under `states:`, or one that stands there"]),
+    ("  initial: slow\n  states: {on: {initial: slow, states: {slow: {}}}}\n  transitions: {slow: on}\n", []),
+    ("  initial: off\n  final: slow\n  states: {on: {initial: slow, states: {slow: {}}}}\n  transitions: {off: on}\n",
+     ["5:10 RC2225 'slow' does not stand in the machine"]),
+    ("  initial: p\n  states: {p: {parallel: true, states: {l: {initial: l1, states: {l2: {}}}, r: {}}}}\n"
+     "  transitions: {p: l2}\n", ["5:54 RC2221 there is no state 'l1' write it under `states:`, or one that stands there"]),
+], ids=lambda value: repr(value)[:60] if isinstance(value, str) else "")  # fmt: skip
+def test_a_name_of_no_state_in_initial_or_final(diagnostics: Check, text: str, messages: list[str]) -> None:
+    assert inline(diagnostics, text) == messages
+
+
+@pytest.mark.parametrize(("transitions", "told"), [
+    ("{a: [{to: b, event: x}, {to: c, event: @x}]}", "never for 'x': takes 'x'"),
+    ("{a: [{to: b, event: x}, {to: c, event: @x, if: near}]}", "never for 'x': takes 'x'"),
+    ("{a: [{to: b, event: x, if: near}, {to: c, event: x}]}", ""),
+    ("{a: [{to: b, event: x, if: near}, {to: c, event: x, if: far}]}", ""),
+    ("{a: [{to: b, event: x, if: near}, {to: c, event: @x, if: near}]}", "never for 'x': takes 'x' on the same"),
+    ("{a: [{to: b, event: x y}, {to: c, event: z @y}]}", "never for 'y': takes 'y'"),
+    ("{a: [{to: b, event: '*'}, {to: c, event: @x.y}]}", "never for 'x.y': takes '*'"),
+    ("{a: [{to: b, event: x}, {to: c, event: @x.y.*}]}", "never for 'x.y.*': takes 'x'"),
+    ("{a: [{to: b, event: x.y}, {to: c, event: x}]}", ""),
+    ("{a: [{to: b, event: x}, {to: c, event: xy}]}", ""),
+    ("{a: [{event: x, do: beep}, {to: c, event: @x}]}", "never for 'x': takes 'x'"),
+    ("{a: [b, c, @b]}", "never for 't_a_to_b': takes 't_a_to_b'"),
+    ("{a: [{to: b, if: near}, @{to: c, if: near}]}", "never: is taken at once on the same"),
+    ("{a: [{to: b, if: near}, {to: c, event: @x, if: near}]}", "never for 'x': is taken at once on the same"),
+    ("{a: {to: b, event: x}, b: {to: c, event: x}}", ""),
+])  # fmt: skip
+def test_transitions_behind_others(diagnostics: Check, transitions: str, told: str) -> None:
+    text = "component: C\nlanguage: cpp\nstatemachine:\n  initial: a\n  states:\n    {b: {}, c: {}}\n"
+    line = f"  transitions: {transitions}"  # with an @ before what is told of
+    found = diagnostics({"c.cdsl.yaml": f"{text}{line.replace('@', '')}\n"})
+    errors = [d for d in found if d["severity"] == "error"]
+    said = [re.sub(r".* is (never) taken(.*): one before it(.*)", r"\1\2:\3", d["message"]) for d in errors]
+    assert len(said) == bool(told) and "".join(said).startswith(told)
+    assert [(d["code"], d["line"], d["column"]) for d in errors] == ([("RC2238", 7, line.index("@") + 1)] if told else [])
+
+
+def test_what_a_state_inside_takes_is_its_own(diagnostics: Check) -> None:
+    """A child's transition comes before its parent's for the same event, whichever stands first."""
+    assert inline(diagnostics, "  initial: a\n  states:\n    a: {initial: b, states: {b: {}, c: {}}}\n"
+                  "  transitions: {a: {to: a, event: x}, b: {to: c, event: x}}\n") == []
+
+
+def test_a_state_with_transitions_at_two_levels(diagnostics: Check) -> None:
+    text = (
+        "  initial: a\n  transitions: {b: {to: a, event: x}}\n  states:\n"
+        "    a: {initial: b, states: {b: {}}, transitions: {b: {to: b, event: x}}}\n"
+    )
+    assert [said[:12] for said in inline(diagnostics, text)] == ["7:70 RC2238 "]
 
 
 def test_a_component_whose_machine_is_wrong_is_not_compiled(rcyaml: Callable[..., Any], diagnostics: Check) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shlex
 from collections.abc import Callable
 from pathlib import Path
@@ -14,6 +15,8 @@ from click.testing import Result
 from conftest import write_tree
 from robocomp_yaml.diag.code import Code, Files, Repeated
 from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.codes.files import NOTHING_FOUND, UNKNOWN_KIND
+from robocomp_yaml.source.discover import KINDS
 
 ROWS = list(table().values())
 
@@ -33,6 +36,20 @@ def test_the_wrong_example_gives_the_code(row: Code, rcyaml: Callable[..., Resul
     assert row.id in [d["code"] for d in said]
     assert {d["code"] for d in said if d["severity"] == "error"} <= {row.id}
     assert {d["severity"] for d in said if d["code"] == row.id} == {row.severity}
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS if row.says], ids=lambda row: row.id)
+def test_the_wrong_example_is_among_what_it_can_say(row: Code, rcyaml: Callable[..., Result], tmp_path: Path) -> None:
+    """A fact in a message fits any text, but not the messages' own words."""
+    pattern = "|".join(_pattern(message) for message in row.says)
+    for found in _run(row, row.wrong, rcyaml, tmp_path):
+        assert found["code"] != row.id or re.fullmatch(pattern, str(found["message"])), found["message"]
+
+
+def _pattern(message: str) -> str:
+    message = re.sub(r" \(.*\)$", "", message)  # for readers
+    parts = re.split(r"(?<!\{)\{[^{}]+\}(?!\})", message)
+    return ".+".join(re.escape(part.replace("{{", "{").replace("}}", "}")) for part in parts)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
@@ -56,3 +73,8 @@ def test_an_unknown_code_is_wrong_usage(rcyaml: Callable[..., Result]) -> None:
     result = rcyaml("explain", "RC209")
     assert result.exit_code == 2
     assert "did you mean RC" in result.stderr
+
+
+@pytest.mark.parametrize("row", [UNKNOWN_KIND, NOTHING_FOUND], ids=lambda row: row.id)
+def test_all_kinds_of_documents_are_named(row: Code) -> None:
+    assert [kind for kind in KINDS if not re.search(rf"`(\.{kind}\.yaml|{kind})`", row.why)] == []

@@ -1,0 +1,117 @@
+"""Which names the headers that generated C++ includes define as macros, asked of the compiler.
+
+`make macros` writes them to robocomp_yaml/model/cpp_macros.py, and keeps what stands there: another version of a
+compiler or of a library knows others.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tempfile
+import textwrap
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TABLE = ROOT / "robocomp_yaml" / "model" / "cpp_macros.py"
+FAMILIES = ("GL_", "QT_", "Q_")
+SETS = {"ALWAYS": "in every component", "SINCE_20": "with C++20 and later", "QT": "where there is a dialog"}
+_HEAD = """\
+\"\"\"Names that the headers which generated C++ includes define as macros: nothing else can have them in C++.
+
+Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
+\"\"\"
+
+from __future__ import annotations"""
+_FOOT = """\
+# Of Qt and OpenGL, which have thousands.
+FAMILIES = {families}
+
+EVER = ALWAYS | SINCE_20 | QT
+
+
+def is_macro(name: str, standard: int, has_dialog: bool) -> bool:
+    return (
+        name in ALWAYS
+        or (standard >= 20 and name in SINCE_20)
+        or (has_dialog and (name in QT or name.startswith(FAMILIES)))
+    )"""
+_SLICE = "module M { struct S { int a; }; exception E { S s; }; interface I { S f(out int a) throws E; }; };\n"
+_INCLUDE = re.compile(r"^#include <(?!Q|\{|genericworker)([^>]+)>", re.MULTILINE)
+
+
+def found() -> dict[str, set[str]]:
+    """The macros of this machine, by the sets of the table that they belong to; no `QT` where there is none."""
+    with tempfile.TemporaryDirectory() as folder:
+        include = headers(Path(folder))
+        always = _macros(include, 17)
+        sets = {"ALWAYS": always, "SINCE_20": (_macros(include, 20) | _macros(include, 23)) - always}
+        qt = next(iter(sorted(Path("/usr/include").glob("*/qt[56]/QtWidgets"))), None)
+        if qt is not None:
+            folders = [qt.parent, *(qt.parent / name for name in ("QtCore", "QtGui", "QtWidgets"))]
+            flags = ["-fPIC", *(f"-I{path}" for path in folders)]
+            sets["QT"] = _macros([*include, "QtCore", "QtWidgets", "QApplication"], 17, *flags) - always
+        return sets
+
+
+def headers(folder: Path) -> list[str]:
+    """All that the fixed sources include, and what slice2cpp makes."""
+    (folder / "M.ice").write_text(_SLICE)
+    subprocess.run(["slice2cpp", "--output-dir", str(folder), "M.ice"], cwd=folder, check=True)
+    sources = sorted(path for path in (ROOT / "templates" / "cpp").rglob("*") if path.is_file())
+    texts = [path.read_text(encoding="utf-8") for path in sources]
+    texts += [(folder / name).read_text() for name in ("M.h", "M.cpp")]
+    names = {name for text in texts for name in _INCLUDE.findall(text)} - {"M.h"}
+    ours = {"IceUtil/PushDisableWarnings.h", "IceUtil/PopDisableWarnings.h", "IceUtil/UndefSysMacros.h"}
+    return [*sorted(names - ours), "IceUtil/UndefSysMacros.h"]
+
+
+def _macros(headers: list[str], standard: int, *flags: str) -> set[str]:
+    """Those that an interface can name, and that stand for something else than themselves."""
+    source = "".join(f"#include <{header}>\n" for header in headers)
+    listed = _preprocessed(source, standard, "-dM", *flags)
+    names = set(re.findall(r"^#define (\w+)", listed, re.MULTILINE))
+    names = {name for name in names if _can_be_named(name)}
+    asked = source + "".join(f'\n@"{name}" {name} @\n' for name in sorted(names))
+    expanded = re.findall(r'@"(\w+)"\s+([^@]*?)\s*@', _preprocessed(asked, standard, "-P", *flags))
+    with_arguments = set(re.findall(r"^#define (\w+)\(", listed, re.MULTILINE))
+    return names - ({name for name, text in expanded if name == text} - with_arguments)
+
+
+def _preprocessed(source: str, standard: int, *flags: str) -> str:
+    command = ["g++", f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-E", *flags, "-x", "c++", "-"]
+    return subprocess.run(command, input=source, capture_output=True, text=True, check=True).stdout
+
+
+def _can_be_named(name: str) -> bool:
+    """Slice takes underscores between other characters only, and leaves `ice…` to Ice; some families are large."""
+    return all(name.split("_")) and not name.lower().startswith("ice") and not name.startswith(FAMILIES)
+
+
+def table(sets: dict[str, set[str]]) -> str:
+    """The module, with these sets."""
+    parts = [_HEAD]
+    for name, when in SETS.items():
+        words = textwrap.fill(" ".join(sorted(sets[name])), 112, break_long_words=False, break_on_hyphens=False)
+        parts.append(f'{name} = frozenset(  # {when}\n    """{textwrap.indent(words, "    ").lstrip()}""".split()\n)')
+    parts.append(_FOOT.replace("{families}", str(FAMILIES).replace("'", '"')))
+    return "\n\n".join(parts) + "\n"
+
+
+def main() -> None:
+    sys.path.insert(0, str(ROOT))
+    known: dict[str, set[str]] = {name: set() for name in SETS}
+    if TABLE.is_file():
+        from robocomp_yaml.model import cpp_macros
+
+        known = {name: set(getattr(cpp_macros, name)) for name in SETS}
+    for name, macros in found().items():
+        known[name] |= macros
+    known["SINCE_20"] -= known["ALWAYS"]
+    known["QT"] -= known["ALWAYS"]
+    TABLE.write_text(table(known), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

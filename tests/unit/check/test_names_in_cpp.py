@@ -1,0 +1,129 @@
+"""Names that C++ cannot have: an error where a component in C++ needs the module, a warning elsewhere. What the
+compiler says of them is asked in tests/ice/test_cpp_words.py."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from robocomp_yaml.emit.targets.cpp_names import parameter
+from robocomp_yaml.model.names import in_code
+
+Check = Callable[..., list[dict[str, Any]]]
+
+HEAD = "module: RoboCompMap\n"
+EVERYWHERE = """\
+types:
+  {0}: {{enum: [a, {0}x]}}
+  Side: {{enum: [left, {0}]}}
+  Pose: {{struct: {{{0}: float}}}}
+exceptions:
+  Lost: {{struct: {{{0}: string}}}}
+interfaces:
+  Map:
+    methods:
+      {0}: {{in: {{{0}: int}}, returns: int}}
+      find: {{out: {{{0}: int}}}}
+"""
+
+
+def component(language: str, keys: str = "") -> dict[str, str]:
+    return {"c.cdsl.yaml": f"component: C\nlanguage: {language}\n{keys}imports: [Map]\nrequires: [Map]\n"}
+
+
+def told(diagnostics: Check, text: str, **more: str) -> list[tuple[str, str, str]]:
+    found = diagnostics({"Map.idsl.yaml": HEAD + text, **more})
+    return [(f"{d['line']}:{d['column']}", d["code"], d["severity"]) for d in found]
+
+
+@pytest.mark.parametrize("word", ["ERANGE", "L_tmpnam", "offsetof", "be32toh", "HUGE_VAL", "SEEK_SET"])
+def test_a_macro_is_told_at_each_name(diagnostics: Check, word: str) -> None:
+    text = EVERYWHERE.format(word)
+    places = [
+        f"{line}:{found.start() + 1}" for line, shown in enumerate((HEAD + text).splitlines(), 1)
+        for found in re.finditer(rf"\b{word}\b", shown)
+    ]  # fmt: skip
+    assert len(places) == 7
+    assert told(diagnostics, text) == [(place, "RC1027", "warning") for place in places]
+
+
+@pytest.mark.parametrize("word", ["Erange", "erange", "EOFs", "nullptr", "stderr", "major", "linux", "lambda"])
+def test_what_only_resembles_one(diagnostics: Check, word: str) -> None:
+    assert told(diagnostics, EVERYWHERE.format(word)) == []
+
+
+def test_a_module_of_such_a_name(diagnostics: Check) -> None:
+    assert [d["code"] for d in diagnostics({"Map.idsl.yaml": "module: BUFSIZ\n"})] == ["RC1027"]
+
+
+@pytest.mark.parametrize(("word", "language", "keys", "severity"), [
+    ("EDOM", "cpp", "", "error"),
+    ("EDOM", "python", "", "warning"),
+    ("INT_MAX", "cpp", "", "warning"),  # <climits> comes with C++20's <memory>
+    ("INT_MAX", "{name: cpp, standard: 20}", "", "error"),
+    ("slots", "cpp", "", "warning"),
+    ("slots", "cpp", "gui: {toolkit: qt, base: QDialog}\n", "error"),
+    ("slots", "cpp", "compatibility: robocomp\n", "error"),
+])  # fmt: skip
+def test_an_error_where_cpp_needs_it(diagnostics: Check, word: str, language: str, keys: str, severity: str) -> None:
+    text = f"interfaces: {{Map: {{methods: {{go: {{in: {{{word}: int}}}}}}}}}}\n"
+    found = diagnostics({"Map.idsl.yaml": HEAD + text, **component(language, keys)})
+    assert [(d["code"], d["severity"]) for d in found] == [("RC1027", severity)]
+    assert [related["message"] for related in found[0]["related"]] == (
+        ["component C is in C++, and needs it"] if severity == "error" else []
+    )
+
+
+def test_what_another_module_brings_along_counts(diagnostics: Check) -> None:
+    """All that a component's modules import is compiled with it, used or not."""
+    files = {
+        "Base.idsl.yaml": "module: RoboCompBase\ntypes: {Kind: {enum: [ENOENT]}}\n",
+        "Map.idsl.yaml": HEAD + "imports: [Base]\ninterfaces: {Map: {}}\n",
+        **component("cpp"),
+    }
+    assert [(d["file"], d["severity"]) for d in diagnostics(files)] == [("Base.idsl.yaml", "error")]
+
+
+def test_a_migrated_document_is_not_refused(diagnostics: Check) -> None:
+    """Its names are those of programs elsewhere; so in a folder below the one that was migrated."""
+    files = {
+        "in/Map.idsl.yaml": HEAD + "types: {Kind: {enum: [ENOENT]}}\n"
+        "interfaces: {Map: {methods: {Kind: {returns: Kind}}}}\n",
+        "in/Other.idsl.yaml": "module: RoboCompOther\ntypes: {Kind: {enum: [ENOENT]}}\n",
+        ".rcyaml/migrated.json": '{"files": {"in/Map.idsl.yaml": "0"}}\n',
+        "in/c.cdsl.yaml": "component: C\nlanguage: cpp\nimports: [Map, Other]\nrequires: [Map]\n",
+    }
+    found = [(d["file"], d["code"], d["severity"]) for d in diagnostics(files)]
+    assert sorted(found) == [
+        ("in/Map.idsl.yaml", "RC1026", "warning"), ("in/Map.idsl.yaml", "RC1027", "warning"),
+        ("in/Other.idsl.yaml", "RC1027", "error"),
+    ]  # fmt: skip
+
+
+def test_hints_can_be_typed(diagnostics: Check) -> None:
+    text = "types: {Kind: {enum: [ENOENT, errno, BUFSIZ]}}\n"
+    found = diagnostics({"Map.idsl.yaml": HEAD + text})
+    assert [d["hint"] for d in found] == ["call it 'enoent'", "call it 'errnoValue'", "call it 'bufsiz'"]
+    for d in found:
+        text = text.replace(str(d["message"]).split("'")[1], str(d["hint"]).split("'")[1])
+    assert diagnostics({"Map.idsl.yaml": HEAD + text}) == []
+
+
+def test_parts_of_a_machine_in_cpp(diagnostics: Check) -> None:
+    """Guards and actions are methods; in Python they may be called so."""
+    machine = "  initial: a\n  transitions: {{a: {{to: a, event: EOF, if: ERANGE}}}}\n"
+    text = f"component: C\nlanguage: {{}}\nstatemachine:\n{machine}"
+    assert [d["code"] for d in diagnostics({"c.cdsl.yaml": text.format("cpp")})] == ["RC2237"]
+    assert diagnostics({"c.cdsl.yaml": text.format("python")}) == []
+
+
+def test_what_is_ours_to_name_gets_an_underscore() -> None:
+    """Accessors of parameters, events of machines: no error, since the code is generated from the same document."""
+    assert [in_code(name, "C++") for name in ("ERANGE", "be32toh", "slots", "INT_MAX", "erange")] == [
+        "ERANGE_", "be32toh_", "slots_", "INT_MAX_", "erange",
+    ]  # fmt: skip
+    assert in_code("ERANGE", "Python") == "ERANGE"
+    assert parameter("ERANGE") == "ERANGE_"
