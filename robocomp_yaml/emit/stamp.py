@@ -118,8 +118,8 @@ def save(folder: str, name: str, stamp: Stamp) -> None:
 
 def tool() -> str:
     """What tells one rcyaml from another: its version, what its installer recorded (the hashes of all files, which tell
-    two builds of one version apart wherever times are made alike), and the size and times of each of its files, which
-    tell what was changed since, or in a checkout."""
+    two builds of one version apart wherever they are), and size and times of each of its files, which tell what was
+    changed since, or in a checkout."""
     package = os.path.dirname(os.path.abspath(robocomp_yaml.__file__))
     place = os.path.dirname(package)
     tops = [package]
@@ -140,8 +140,8 @@ def _records(place: str) -> Iterator[str]:
 
 
 def _states(folder: str, base: int) -> Iterator[str]:
-    """Each file below a folder, with its size and times; of paths, what is behind the first `base` characters. The
-    time of the last change of any kind (ctime) cannot be set: installers give files of two builds one date."""
+    """Each file below a folder, with its size and times; of paths, what is behind the first `base` characters. Where
+    installers give the files of two builds one date, the time at which the disk changed (ctime) tells them apart."""
     with os.scandir(folder) as entries:
         for entry in entries:
             if not entry.is_dir():

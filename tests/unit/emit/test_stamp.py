@@ -109,7 +109,8 @@ def test_another_rcyaml_makes_it_stale(monkeypatch: pytest.MonkeyPatch) -> None:
 def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder in which rcyaml is installed."""
     place = write_tree(tmp_path / "site-packages", {
-        "robocomp_yaml/__init__.py": "", "robocomp_yaml/emit/build.py": "pass", "robocomp_yaml/_data/templates/a.j2": "a",
+        "robocomp_yaml/__init__.py": "", "robocomp_yaml/emit/build.py": "pass",
+        "robocomp_yaml/_data/templates/a.j2": "a",
         "rcyaml-0.1.0.dist-info/RECORD": "robocomp_yaml/_data/templates/a.j2,sha256=one,1\n",
         "other-1.dist-info/RECORD": "",
     })  # fmt: skip

@@ -59,7 +59,7 @@ class Place:
             (library / "Ice.py").write_text(ice)
         return home / "bin" / "python"
 
-    def start(self, *arguments: str, by: Path | str | None = None, **variables: str) -> subprocess.CompletedProcess[str]:
+    def start(self, *arguments: str, by: Path | None = None, **variables: str) -> subprocess.CompletedProcess[str]:
         command = [*([by] if by else []), self.program, *arguments]
         environment = {"PATH": f"{self.path}:{os.environ['PATH']}", "HOME": str(self.folder), **variables}
         return subprocess.run(command, env=environment, cwd=self.folder, capture_output=True, text=True, timeout=60)
@@ -184,7 +184,7 @@ def test_where_there_is_no_environment_the_hint_makes_one(place: Place, tmp_path
 
 @pytest.mark.parametrize(("ice", "why"), [
     ("def intVersion(): return 30800\ndef stringVersion(): return '3.8.0'\n", "has Ice 3.8.0, not 3.7"),
-    ("import no_such_library\n", "sees an Ice that was compiled for another Python (No module named 'no_such_library')"),
+    ("import no_such\n", "sees an Ice that was compiled for another Python (No module named 'no_such')"),
     ("raise ImportError('libIce.so.37: cannot open')\n", "cannot load its Ice (libIce.so.37: cannot open)"),
     ("syntax error\n", "cannot load its Ice (invalid syntax (Ice.py, line 1))"),
     ("raise SystemError('broken')\n", "cannot load its Ice (broken)"),
@@ -282,7 +282,8 @@ def test_none_is_started_in_vain(place: Place, tmp_path: Path) -> None:
     """The one that has Ice begins once more where another began; where it is the first one, it just goes on."""
     environment = place.python(tmp_path / "ws" / ".venv", ICE)
     starts = tmp_path / "starts"
-    text = PROGRAM.replace("import os, sys\n", f"import os, sys\nprint(sys.executable, file=open({str(starts)!r}, 'a'))\n")
+    note = f"print(sys.executable, file=open({str(starts)!r}, 'a'))"
+    text = PROGRAM.replace("import os, sys\n", f"import os, sys\n{note}\n")
     place.program.write_text(text)
     place.runs_in()
     assert starts.read_text().splitlines() == [f"{place.path}/python3", str(environment)]
