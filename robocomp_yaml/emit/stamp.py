@@ -132,7 +132,7 @@ def tool() -> str:
 
 
 def _records(place: str) -> Iterator[str]:
-    """Beside an installed package stands its RECORD; beside a checkout, and where a distribution leaves it out, none."""
+    """Beside an installed package stands its RECORD; beside a checkout, and where a distribution has none, nothing."""
     for name in sorted(os.listdir(place)):
         if name.startswith("rcyaml-") and name.endswith(".dist-info"):
             with contextlib.suppress(OSError):
