@@ -21,15 +21,6 @@ TEXT = "I am up and running"
 BOLD, DIM, PLAIN = ("\x1b[1m", "\x1b[2m", "\x1b[0m") if sys.stdout.isatty() else ("", "", "")
 # As where a virtual environment is active, this Python comes first: components start with it, unless it has no Ice.
 ENVIRONMENT = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', os.defpath)}"}
-NO_ICE = f"""
-{BOLD}Running the network needs Ice for Python, which is not here.{PLAIN} An administrator installs it in half a minute:
-
-  sudo apt install python3-zeroc-ice
-
-Without such rights, it is compiled into .venv, which takes some ten minutes and shows how far it is:
-
-  make ice demo
-"""
 
 
 def say(text: str) -> None:
@@ -90,7 +81,8 @@ def main() -> int:
     comment("The network: who serves what, and who calls whom.")
     run("rcyaml", "graph", NETWORK)
     if not runs_here():
-        print(NO_ICE, flush=True)
+        say("")
+        subprocess.run([sys.executable, HERE.parent / "tools" / "prepare.py", "advise"], check=True)
         return 1
     comment("Each is started as soon as those that it needs answer.")
     try:

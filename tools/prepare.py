@@ -7,6 +7,7 @@ is shown. Runs with any Python 3.7, and needs nothing else.
   prepare.py system GOAL PACKAGE...   Debian's packages for `make GOAL`
   prepare.py environment [EXTRA]      rcyaml and its dependencies, in .venv
   prepare.py ice                      Ice, compiled into .venv
+  prepare.py advise                   says how one comes to Ice
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import sys
 import sysconfig
 import threading
 import time
+import urllib.parse
 import urllib.request
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -34,6 +36,9 @@ DURATION = {"demo": "about half a minute", "test": "some minutes"}  # of 10 and 
 QUIETLY = {"DEBIAN_FRONTEND": "noninteractive", "PIP_DISABLE_PIP_VERSION_CHECK": "1", "LC_ALL": "C.UTF-8"}
 APT = ["-o", "DPkg::Lock::Timeout=120", "-o", "Dpkg::Use-Pty=0", "-q"]
 FOR_ADMINISTRATORS = "sudo apt install python3-zeroc-ice"
+LASTS = "some ten minutes"
+COMPILING = "Compiling Ice needs g++ and the headers of Python, OpenSSL and bzip2"
+HEADER_PACKAGES = "g++ python3-dev libssl-dev libbz2-dev"
 ICE_FILES = 250  # that a compiler is called for
 # Whether some Python would run a component: asked of the rule that every component has.
 ASK_FOR_ICE = f"""\
@@ -42,8 +47,8 @@ sys.path.insert(0, {str(ROOT / "templates" / "python" / "runtime")!r})
 import interpreter
 try:
     interpreter.settle({str(ROOT)!r}, ["-c", sys.argv[1], sys.argv[1]])
-except interpreter.NoPython:
-    sys.exit(1)
+except interpreter.NoPython as error:
+    sys.exit(f"make: {{error}}")
 """
 HEADERS = "#include <Python.h>\n#include <openssl/ssl.h>\n#include <bzlib.h>\n"
 PIP = "https://pypi.org/pypi/pip/json"
@@ -59,7 +64,7 @@ def main(goal: str, *words: str) -> None:
     elif goal == "environment":
         environment(*words)
     else:
-        ice()
+        {"ice": ice, "advise": advise}[goal]()
 
 
 def system(goal: str, packages: Sequence[str]) -> None:
@@ -139,7 +144,7 @@ def without_ensurepip() -> None:
     try:
         with urllib.request.urlopen(PIP, timeout=60) as answer:
             found = next(one for one in json.load(answer)["urls"] if one["packagetype"] == "bdist_wheel")
-        with urllib.request.urlopen(found["url"], timeout=60) as answer:
+        with urllib.request.urlopen(urllib.parse.urljoin(PIP, found["url"]), timeout=60) as answer:
             content = answer.read()
         if hashlib.sha256(content).hexdigest() != found["digests"]["sha256"]:
             raise ValueError("its digest is not the one that was announced")
@@ -155,18 +160,33 @@ def without_ensurepip() -> None:
     named.unlink()
 
 
+def advise() -> None:
+    """What one can do who has no Ice, and could not have it installed."""
+    if os.environ.get("RCYAML_PYTHON"):
+        subprocess.run([sys.executable, "-c", ASK_FOR_ICE, ASK_FOR_ICE], stdout=subprocess.DEVNULL)
+        return
+    show("Running the network needs Ice for Python, which is not here. An administrator installs it in half a minute:")
+    show(f"\n  {FOR_ADMINISTRATORS}\n\nWithout such rights, it is compiled into {shown()}: {LASTS}, with progress.")
+    if not can_compile():
+        show(f"{COMPILING}, not all of which are here ({HEADER_PACKAGES}).")
+    show("\n  make ice demo\n")
+
+
+def can_compile() -> bool:
+    include = sysconfig.get_paths()["include"]
+    compiler = shutil.which("g++") or shutil.which("c++")
+    return bool(compiler) and answers([compiler or "", "-fsyntax-only", f"-I{include}", "-x", "c++", "-"], HEADERS)
+
+
 def ice() -> None:
     if answers([PYTHON, "-c", "import Ice"]):
         return show(f"{shown()} has Ice already")
-    include = sysconfig.get_paths()["include"]
-    compiler = shutil.which("g++") or shutil.which("c++")
-    if not (compiler and answers([compiler, "-fsyntax-only", f"-I{include}", "-x", "c++", "-"], HEADERS)):
+    if not can_compile():
         raise Failed(
-            "Compiling Ice needs g++ and the headers of Python, OpenSSL and bzip2, not all of which are here.\n"
-            "An administrator installs these (sudo apt install g++ python3-dev libssl-dev libbz2-dev), or sooner Ice "
-            f"itself:\n  {FOR_ADMINISTRATORS}"
+            f"{COMPILING}, not all of which are here. An administrator installs these:\n"
+            f"  sudo apt install {HEADER_PACKAGES}\nor sooner Ice itself:\n  {FOR_ADMINISTRATORS}"
         )
-    show("Ice is compiled for this Python: some 250 files, a few seconds each.")
+    show(f"Ice is compiled for this Python, which takes {LASTS}.")
     compiled = 0
 
     def of_compiler(line: str) -> str:
@@ -174,7 +194,8 @@ def ice() -> None:
         compiled += bool(re.search(r"(g\+\+|gcc|cc|c\+\+|clang\S*) .* -c ", line))
         return f"{compiled} of about {ICE_FILES} files" if compiled else of_pip(line)
 
-    call([PYTHON, "-m", "pip", "install", "-v", "--editable", f"{ROOT}[ice]"], f"compiling Ice into {shown()}", of_compiler)
+    command = [PYTHON, "-m", "pip", "install", "-v", "--editable", f"{ROOT}[ice]"]
+    call(command, f"compiling Ice into {shown()}", of_compiler)
 
 
 def of_apt(line: str) -> str:
@@ -188,8 +209,8 @@ def of_apt(line: str) -> str:
 
 
 def of_pip(line: str) -> str:
-    found = re.match(r"\s*(Collecting|Downloading|Building wheel for|Installing collected packages)\s*:?\s*([\w.\[\]-]*)", line)
-    return f"{found[1].lower()} {found[2] if 'packages' not in found[1] else ''}".strip() if found else ""
+    found = re.match(r"\s*(Collecting [\w.-]+|Building wheel for [\w.-]+|Installing collected packages)", line)
+    return found[1][0].lower() + found[1][1:] if found else ""
 
 
 def call(command: Sequence[str | Path], doing: str, told: Callable[[str], str] = lambda line: "") -> None:
