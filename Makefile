@@ -1,60 +1,51 @@
 # rcyaml: `make demo` shows what it does, `make test` proves that it works.
 
 VENV ?= .venv
-# Ice comes as a module for Debian's own python3 (3.11); another one cannot load it.
-PYTHON ?= $(shell test -x /usr/bin/python3 && echo /usr/bin/python3 || echo python3)
+export VENV
+# Ice comes as a module for Debian's own python3; a newer one in front of it cannot load it.
+PYTHON ?= $(or $(RCYAML_PYTHON),$(shell /usr/bin/python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
+  && echo /usr/bin/python3 || echo python3))
 JOBS ?= 2
-ICE := zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 python3-zeroc-ice \
-  zeroc-icegrid zeroc-ice-utils
-QT := qt6-base-dev
-TOOLS := python3-venv cmake g++ make ninja-build nodejs npm git openssl iproute2
+
+# What the system is to have for a goal: installed where that may be done, else named.
+demo_NEEDS := python3-venv python3-zeroc-ice
+test_NEEDS := $(demo_NEEDS) \
+  zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 zeroc-icegrid zeroc-ice-utils \
+  qt6-base-dev cmake g++ make ninja-build nodejs npm git openssl iproute2
 # More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server, and systemd.
 MORE ?=
 
-.PHONY: help demo test fast lint macros bench clean
+.PHONY: help demo test fast lint macros bench ice clean system-demo system-test
+.NOTPARALLEL:
 
 help:
-	@echo "make demo   install into $(VENV) and run the example: migrate, check, compile, run"
+	@echo "make demo   install into $(VENV), and run the example: migrate, check, compile, deploy, call"
 	@echo "make test   install what the tests need, and run them all"
 	@echo "make fast   the tests that need neither C++ builds nor an editor"
 	@echo "make bench  the benchmarks, as ratios"
+	@echo "make lint   the layers of the modules"
+	@echo "make macros the names that C++ takes, from this machine's compiler and headers"
+	@echo "make ice    compile Ice into $(VENV), where Debian's python3-zeroc-ice cannot be installed: minutes"
 	@echo "make clean  remove $(VENV) and what the demo made"
 
+system-demo system-test: system-%:
+	@$(PYTHON) tools/prepare.py system $* $($*_NEEDS) $(if $(filter test,$*),$(MORE))
+
 $(VENV)/rcyaml: pyproject.toml
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "rcyaml needs Python 3.11 or later"; exit 1; }
-	@test -x $(VENV)/bin/python || $(PYTHON) -m venv --system-site-packages $(VENV) 2>/dev/null || $(MAKE) --no-print-directory venv-package
-	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable .
+	@$(PYTHON) tools/prepare.py environment
 	@touch $@
-
-# Debian's python3 comes without venv: its package is fetched when we may, else asked for.
-.PHONY: venv-package
-venv-package:
-	@rm -rf $(VENV)
-	@if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
-	  apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq python3-venv >/dev/null; \
-	else echo "python3 cannot make virtual environments here: apt install python3-venv, then again"; exit 1; fi
-	@$(PYTHON) -m venv --system-site-packages $(VENV)
-
-demo: $(VENV)/rcyaml
-	@$(VENV)/bin/python examples/demo.py
 
 $(VENV)/tests: pyproject.toml $(VENV)/rcyaml
-	@$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
+	@$(PYTHON) tools/prepare.py environment test
 	@touch $@
 
-# What the tests need of the system: installed when we may, else named.
-.PHONY: system
-system:
-	@missing=""; \
-	for package in $(ICE) $(QT) $(TOOLS) $(MORE); do \
-	  case $$package in nodejs) command -v node >/dev/null && continue;; npm) command -v npm >/dev/null && continue;; esac; \
-	  dpkg-query -W -f '$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$package"; done; \
-	if [ -n "$$missing" ]; then \
-	  if [ "$$(id -u)" = 0 ]; then echo "installing:$$missing"; \
-	    apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing >/dev/null; \
-	  else echo "some tests will be skipped; to run them all: sudo apt install$$missing"; fi; fi
+demo: system-demo $(VENV)/rcyaml
+	@$(VENV)/bin/python examples/demo.py
 
-test: system $(VENV)/tests
+ice: $(VENV)/rcyaml
+	@$(PYTHON) tools/prepare.py ice
+
+test: system-test $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q --reruns 2 --reruns-delay 1
 
 # The names that C++ takes, as this machine's compiler and headers have them; it only adds.

@@ -1,67 +1,107 @@
-"""The main job on the examples, as a user would do it: migrate, check, compile, deploy.
+"""The main job on the examples, as a user would do it: migrate, check, compile, deploy, call.
 
-Works on a copy of the examples in `.demo/`. Run it with `make demo`.
+Works on a copy of the examples in `.demo/`. Run it with `make demo`. The exit code is 1 where the network cannot be
+shown, as Ice is missing.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).resolve().parent
 DEMO = HERE.parent / ".demo"
 NETWORK = "head.ddsl.yaml"
-SECONDS = 2.5  # for the head to say what it has to say
+TEXT = "I am up and running"
 BOLD, DIM, PLAIN = ("\x1b[1m", "\x1b[2m", "\x1b[0m") if sys.stdout.isatty() else ("", "", "")
+# As where a virtual environment is active, this Python comes first: components start with it, unless it has no Ice.
+ENVIRONMENT = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', os.defpath)}"}
 
 
-def show(text: str) -> None:
+def say(text: str) -> None:
     print(text, flush=True)
 
 
-def rcyaml(*args: str) -> None:
-    """Runs rcyaml in the copy, showing the command and what it prints. As where a virtual environment is active,
-    this Python comes first: components start with it."""
-    show(f"\n{BOLD}$ rcyaml {' '.join(args)}{PLAIN}")
-    program = [sys.executable, "-m", "robocomp_yaml", "--color", "always" if sys.stdout.isatty() else "never"]
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)])
-    subprocess.run([*program, *args], cwd=DEMO, check=True, env={**os.environ, "PATH": path})
+def comment(text: str) -> None:
+    say(f"\n{DIM}# {text}{PLAIN}")
 
 
-def has_ice() -> bool:
-    found = subprocess.run([sys.executable, "-c", "import Ice"], capture_output=True)
-    return found.returncode == 0
+def run(*words: str) -> None:
+    """Runs a command in the copy, showing it and what it prints."""
+    say(f"{BOLD}$ {' '.join(word if word.isalnum() else quoted(word) for word in words)}{PLAIN}")
+    colors = ["--color", "always" if sys.stdout.isatty() else "never"]
+    command = [sys.executable, "-m", "robocomp_yaml", *colors, *words[1:]] if words[0] == "rcyaml" else words
+    subprocess.run(command, cwd=DEMO, check=True, env=ENVIRONMENT)
 
 
-def main() -> None:
+def quoted(word: str) -> str:
+    return f"'{word}'" if set(word) & set(" :") else word
+
+
+def asked(*words: str) -> dict[str, Any]:
+    """What `rcyaml deploy` answers, without showing it."""
+    done = subprocess.run(
+        [sys.executable, "-m", "robocomp_yaml", "deploy", *words, "--format", "json"],
+        cwd=DEMO, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    answer: dict[str, Any] = json.loads(done.stdout)
+    return answer
+
+
+def runs_here() -> bool:
+    """Whether this machine has all that the components need, which is Ice."""
+    return all(not one["missing"] for found in asked("probe", NETWORK)["hosts"].values() for one in found)
+
+
+def proxy_of(interface: str) -> str:
+    """Where the running network serves it."""
+    for process in asked("status", NETWORK)["processes"]:
+        for served in process["endpoints"]:
+            if served["interface"] == interface:
+                return f"{served['identity']}:{served['endpoint']}"
+    raise LookupError(f"nobody serves {interface}")
+
+
+def main() -> int:
+    if (DEMO / NETWORK).is_file():
+        asked("down", NETWORK)  # of a demo that was killed
     shutil.rmtree(DEMO, ignore_errors=True)
-    shutil.copytree(HERE, DEMO, ignore=shutil.ignore_patterns("demo.py", "cpp"))
-    show(f"A robot's head, copied to {DEMO.name}/: two components as legacy files, and one that is YAML already.")
-    rcyaml("migrate", "talkinghead")
-    show(f"\n{BOLD}$ cat talkinghead/components/speech/speechcomp.cdsl.yaml{PLAIN}")
-    show((DEMO / "talkinghead/components/speech/speechcomp.cdsl.yaml").read_text().rstrip())
-    rcyaml("compile", "talkinghead", "jointmotor")
-    rcyaml("check")
-    rcyaml("graph", NETWORK)
-    if not has_ice():
-        show(
-            "\nTo run the components, Ice is missing: `apt install python3-zeroc-ice` (Debian 12), or "
-            "`pip install zeroc-ice`; then `make demo` again."
-        )
-        return
+    shutil.copytree(HERE, DEMO, ignore=shutil.ignore_patterns("demo.py", "cpp", "__pycache__"))
+    comment(f"A robot's head, copied to {DEMO.name}/: two components as legacy files, and one that is YAML already.")
+    run("rcyaml", "migrate", "talkinghead")
+    run("cat", "talkinghead/components/speech/speechcomp.cdsl.yaml")
+    comment("All of it compiled to Slice, and to components that run.")
+    run("rcyaml", "compile", "talkinghead", "jointmotor")
+    run("rcyaml", "check")
+    comment("The network: who serves what, and who calls whom.")
+    run("rcyaml", "graph", NETWORK)
+    if not runs_here():
+        say("")
+        subprocess.run([sys.executable, HERE.parent / "tools" / "prepare.py", "advise"], check=True)
+        return 1
+    comment("Each is started as soon as those that it needs answer.")
     try:
-        rcyaml("deploy", "up", NETWORK)
-        time.sleep(SECONDS)
-        rcyaml("deploy", "status", NETWORK)
-        rcyaml("deploy", "logs", "-n", "8", NETWORK)
+        run("rcyaml", "deploy", "up", NETWORK)
+        comment("A call from outside, over Ice.")
+        run("python3", "say.py", proxy_of("Speech"), TEXT)
+        run("rcyaml", "deploy", "status", NETWORK)
+        run("rcyaml", "deploy", "logs", "-n", "6", NETWORK)
     finally:
-        rcyaml("deploy", "down", NETWORK)
-    show(f"\n{DIM}SpeechComp called MouthComp over Ice, beside JointMotorComp; all were stopped in order.{PLAIN}")
+        comment("All are stopped in order.")
+        run("rcyaml", "deploy", "down", NETWORK)
+    comment(f"{DEMO.name}/ holds all of it. Your own: `.venv/bin/rcyaml new --help`, and the tour in the README.")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        sys.exit(main())
+    except subprocess.CalledProcessError as failure:
+        sys.exit(f"\nThe demo ends here, as a command failed (exit code {failure.returncode}); its words stand above.")
+    except KeyboardInterrupt:
+        sys.exit(130)

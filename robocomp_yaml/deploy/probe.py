@@ -20,7 +20,9 @@ from robocomp_yaml.network.network import Host, Network
 WITHIN = 60.0
 NODE = "the IceGrid node"
 """What is said to use `icegridnode`."""
-SCRIPT, MODULES = "templates/probe/ask.sh", "templates/probe/modules.py"
+SCRIPT = "templates/probe/ask.sh"
+MODULES = ("templates/python/runtime/interpreter.py", "templates/probe/modules.py")
+"""What is told to each Python, as one text: which Python runs a component, and what the one at hand does not find."""
 
 
 class ProbeFailed(Exception):
@@ -56,7 +58,7 @@ def programs(network: Network) -> dict[str, tuple[str, ...]]:
 
 async def probe(host: Host, wanted: dict[str, tuple[str, ...]]) -> list[Found]:
     """Raises ProbeFailed."""
-    script = ["sh", "-c", resources.text(SCRIPT), "ask", resources.text(MODULES)]
+    script = ["sh", "-c", resources.text(SCRIPT), "ask", "".join(map(resources.text, MODULES))]
     command = script if is_here(host.address) else _over_ssh(host, script)
     try:
         asked = await asyncio.create_subprocess_exec(

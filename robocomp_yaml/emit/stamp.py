@@ -124,24 +124,36 @@ def save(folder: str, name: str, stamp: Stamp) -> None:
 
 
 def tool() -> str:
-    """What tells one rcyaml from another: its version; in a checkout, where code and data change without a new one,
-    also the size and time of each of its files."""
+    """What tells one rcyaml from another: its version, what its installer recorded (the hashes of all files, which tell
+    two builds of one version apart wherever they are), and size and times of each of its files, which tell what was
+    changed since, or in a checkout."""
     package = os.path.dirname(os.path.abspath(robocomp_yaml.__file__))
-    if os.path.isdir(os.path.join(package, "_data")):
-        return robocomp_yaml.__version__
-    parts = [robocomp_yaml.__version__]
-    for top in (package, *(os.path.join(os.path.dirname(package), name) for name in _DATA)):
-        parts += sorted(_states(top, len(os.path.dirname(package))))
-    return digest("\n".join(parts).encode())
+    place = os.path.dirname(package)
+    tops = [package]
+    if not os.path.isdir(os.path.join(package, "_data")):
+        tops += (os.path.join(place, name) for name in _DATA)
+    parts = [robocomp_yaml.__version__, *_records(place)]
+    for top in tops:
+        parts += sorted(_states(top, len(place)))
+    return digest("\n".join(parts).encode(errors="surrogateescape"))
+
+
+def _records(place: str) -> Iterator[str]:
+    """Beside an installed package stands its RECORD; beside a checkout, and where a distribution has none, nothing."""
+    for name in sorted(os.listdir(place)):
+        if name.startswith("rcyaml-") and name.endswith(".dist-info"):
+            with contextlib.suppress(OSError):
+                yield f"{name} {_digest(os.path.join(place, name, 'RECORD'))}"
 
 
 def _states(folder: str, base: int) -> Iterator[str]:
-    """Each file below a folder, with its size and time; of paths, what is behind the first `base` characters."""
+    """Each file below a folder, with its size and times; of paths, what is behind the first `base` characters. Where
+    installers give the files of two builds one date, the time at which the disk changed (ctime) tells them apart."""
     with os.scandir(folder) as entries:
         for entry in entries:
             if not entry.is_dir():
                 state = entry.stat()
-                yield f"{entry.path[base:]} {state.st_size} {state.st_mtime_ns}"
+                yield f"{entry.path[base:]} {state.st_size} {state.st_mtime_ns} {state.st_ctime_ns}"
             elif entry.name != "__pycache__":
                 yield from _states(entry.path, base)
 

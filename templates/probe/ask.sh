@@ -20,7 +20,7 @@ while IFS= read -r program; do
       missing="$missing $interpreter"
     else
       case ${interpreter##*/} in
-        python*) missing="$missing $("$interpreter" -c "$1" "$path" </dev/null 2>/dev/null)" ;;
+        python*) missing="$missing $("$interpreter" -c "$1" "$path" "$1" </dev/null 2>/dev/null)" ;;
       esac
     fi
     missing=$(printf '%s' "$missing" | tr '\n' ' ')

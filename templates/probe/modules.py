@@ -1,7 +1,8 @@
 """Prints the modules that a Python program imports when it starts, and that its interpreter does not find.
 
-Of a component, the code in `src/` and `generated/` counts too. Nothing of it is run: paths that it adds by a text are
-searched, and what stands behind `Ice.loadSlice` may be anything that a Slice file defines.
+Of a component, the code in `src/` and `generated/` counts too, and the Python is the one that would run it: the rule of
+components (`interpreter.py`) stands above this text, as `settle`. Nothing of the program is run: paths that it adds by
+a text are searched, and what stands behind `Ice.loadSlice` may be anything that a Slice file defines.
 """
 
 import ast
@@ -48,6 +49,20 @@ def is_there(name):
         return False
 
 
+def lacks_ice(program):
+    """Whether no Python here could run a component; in the one that could, this script goes on."""
+    root = os.path.dirname(os.path.dirname(os.path.abspath(program)))
+    if not os.path.isfile(os.path.join(root, "generated", "runtime", "interpreter.py")):
+        return False
+    sys.path[:] = filter(None, sys.path)  # not the folder where this happens to run
+    try:
+        settle(root, ["-c", sys.argv[2], *sys.argv[1:]])  # noqa: F821 (it stands above)
+    except NoPython:  # noqa: F821
+        return True
+    return False
+
+
+missing = {"Ice"} if lacks_ice(sys.argv[1]) else set()
 trees = []
 for path in sources(sys.argv[1]):
     try:
@@ -58,4 +73,4 @@ for path in sources(sys.argv[1]):
 for tree in trees:
     sys.path.extend(added_paths(tree))
 names = {name.partition(".")[0] for tree in trees for name in imported(tree)}
-print(*sorted(name for name in names if not is_there(name)))
+print(*sorted(missing | {name for name in names if not is_there(name)}))

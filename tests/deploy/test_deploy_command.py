@@ -17,6 +17,7 @@ from click.testing import Result
 
 from conftest import write_tree
 from processes import Ports, until
+from robocomp_yaml import resources
 from robocomp_yaml.deploy.local import procfs
 from small_networks import Place
 from terminals import foreign, on_terminal
@@ -389,6 +390,33 @@ def test_a_program_that_lacks_something(robot: Path, rcyaml: Rcyaml) -> None:
     assert {os.path.relpath(one["program"], robot): one["missing"] for one in found} == {
         "lost": ["no-such-interpreter"], "tool": ["no_such_module"], "arm/bin/ArmComp": ["no_such"],
     }  # fmt: skip
+
+
+def test_a_component_is_looked_at_by_the_python_that_would_run_it(
+    robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The workspace's, which has Ice, and a module that no other has."""
+    rule = resources.text("templates/python/runtime/interpreter.py")
+    write_tree(robot, {
+        "robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  arm: {program: ./arm/bin/ArmComp}\n",
+        "rcyaml.yaml": "",
+        "arm/bin/ArmComp": "#!/usr/bin/env python3\nfrom generated.main import main\n",
+        "arm/generated/runtime/interpreter.py": rule, "arm/generated/main.py": "", "arm/src/worker.py": "import only_there\n",
+        ".venv/pyvenv.cfg": f"home = {Path(sys.executable).resolve().parent}\ninclude-system-site-packages = false\n",
+        ".venv/lib/python{}.{}/site-packages/only_there.py".format(*sys.version_info[:2]): "",
+        ".venv/lib/python{}.{}/site-packages/Ice.py".format(*sys.version_info[:2]): "def intVersion(): return 30708\n",
+    })  # fmt: skip
+    (robot / ".venv/bin").mkdir()
+    (robot / ".venv/bin/python").symlink_to(Path(sys.executable).resolve())
+    (robot / "arm/bin/ArmComp").chmod(0o755)
+
+    def missing() -> object:
+        (found,) = json.loads(deploy(rcyaml, "probe", "--format", "json").stdout)["hosts"].values()
+        return found[0]["missing"]
+
+    assert missing() == []
+    monkeypatch.setenv("RCYAML_PYTHON", "/no/such/python")
+    assert missing() == ["Ice", "only_there"]
 
 
 def test_it_is_exported(robot: Path, rcyaml: Rcyaml) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import socket
 import subprocess
 import sys
@@ -154,12 +155,27 @@ def test_help_needs_no_ice(arm: Built) -> None:
         assert done.returncode == 0 and done.stdout.startswith("usage: bin/ArmComp [CONFIG]") and not done.stderr
 
 
+def test_a_newer_python_in_front(arm: Built, free_port: Ports, tmp_path: Path) -> None:
+    """One without Ice: the component runs in the workspace's."""
+    arm.configure({"Arm.Endpoints": f"tcp -p {free_port()}"})
+    (tmp_path / "front").mkdir()
+    front = tmp_path / "front" / "python3"
+    front.write_text(f'#!/bin/sh\nexec {sys.executable} -S -I "$@"\n')
+    front.chmod(0o755)
+    (arm.root / ".venv").symlink_to(sys.prefix)
+    environment = {**os.environ, "PATH": f"{front.parent}:{os.environ['PATH']}"}
+    program = [arm.command[1], "--startup-check"]
+    done = subprocess.run(program, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0 and "ArmComp starts as it should" in done.stdout + done.stderr
+
+
 def test_without_ice(arm: Built) -> None:
-    """-S -I: a Python that sees nothing but its own library."""
-    done = subprocess.run([sys.executable, "-S", "-I", arm.command[1]], capture_output=True, text=True)
+    """What is set is the only one that is tried."""
+    environment = {**os.environ, "RCYAML_PYTHON": "/no/such/python"}
+    done = subprocess.run(arm.command, env=environment, capture_output=True, text=True)
     assert done.returncode == 1 and not done.stdout
     (line,) = done.stderr.splitlines()
-    assert line.startswith(f"ArmComp: this Python ({sys.executable}) has no Ice: install Debian's python3-zeroc-ice")
+    assert line.startswith("ArmComp: RCYAML_PYTHON names /no/such/python, which is not there: let it name a Python")
 
 
 def test_the_slice_folder_is_gone(arm: Built, start: Start) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
 import os
 import subprocess
 import sys
@@ -16,6 +18,7 @@ from conftest import ROOT, read_tree, write_tree
 pytestmark = pytest.mark.slow
 
 DATA = ("schemas", "templates", "migrate")
+SPEECH = "component: SpeechComp\nlanguage: python\nimports: [Speech]\n"
 COMPONENT = {
     "Speech.idsl.yaml": "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n      say: {in: {text: string}}\n",
     "speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n",
@@ -61,14 +64,23 @@ def test_the_sdist_has_all_data(built: Path) -> None:
     assert {"pyproject.toml", "README.md", "LICENSE", "Makefile", "tests/conftest.py"} <= names
 
 
-def test_it_works_outside_the_checkout(built: Path, tmp_path: Path) -> None:
-    """The wheel, which `build` has made from the sdist."""
-    (package,) = built.glob("*.whl")
-    run(sys.executable, "-m", "venv", str(tmp_path / "venv"))
-    python = str(tmp_path / "venv" / "bin" / "python")
-    run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", str(package))
+@pytest.fixture(scope="module")
+def bin_(built: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where the commands are of an environment into which the wheel is installed, which `build` made from the sdist."""
+    environment = tmp_path_factory.mktemp("installed") / "venv"
+    run(sys.executable, "-m", "venv", str(environment))
+    (wheel,) = built.glob("*.whl")
+    install(environment / "bin", wheel)
+    return environment / "bin"
+
+
+def install(bin_: Path, wheel: Path, *options: str) -> None:
+    run(str(bin_ / "python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *options, str(wheel))
+
+
+def test_it_works_outside_the_checkout(bin_: Path, tmp_path: Path) -> None:
     work = write_tree(tmp_path / "work", COMPONENT)
-    rcyaml = str(tmp_path / "venv" / "bin" / "rcyaml")
+    rcyaml = str(bin_ / "rcyaml")
     run(rcyaml, "migrate", "old", cwd=work)
     run(rcyaml, "check", cwd=work)
     run(rcyaml, "compile", cwd=work)
@@ -77,3 +89,36 @@ def test_it_works_outside_the_checkout(built: Path, tmp_path: Path) -> None:
     assert {"slice/Speech.ice", "old/slice/Mouth.ice", "etc/config", "bin/SpeechComp"} <= set(tree)
     assert {"src/specificworker.py", "generated/genericworker.py"} <= set(tree)
     run(rcyaml, "compile", "--check", cwd=work)
+
+
+def test_another_build_of_the_same_version_compiles_again(built: Path, bin_: Path, tmp_path: Path) -> None:
+    work = write_tree(tmp_path / "work", {"Speech.idsl.yaml": "module: RoboCompSpeech\n", "speech.cdsl.yaml": SPEECH})
+    compile_ = (str(bin_ / "rcyaml"), "compile")
+    run(*compile_, cwd=work)
+    assert "0 files written" in run(*compile_, cwd=work)
+    (wheel,) = built.glob("*.whl")
+    other = rebuilt(wheel, tmp_path, "templates/python/runtime/log.py", b"Do not edit", b"DO NOT EDIT")
+    install(bin_, other, "--force-reinstall", "--no-deps")
+    assert "1 file written" in run(*compile_, cwd=work)
+    assert "DO NOT EDIT" in (work / "generated/runtime/log.py").read_text(encoding="utf-8")
+    assert "0 files written" in run(*compile_, cwd=work)
+
+
+def rebuilt(wheel: Path, folder: Path, file: str, before: bytes, after: bytes) -> Path:
+    """A wheel of the same name in another folder, with one file of the data changed."""
+    with zipfile.ZipFile(wheel) as archive:
+        content = {name: archive.read(name) for name in archive.namelist()}
+    path = f"robocomp_yaml/_data/{file}"
+    old, new = content[path], content[path].replace(before, after)
+    assert old != new
+    (record,) = (name for name in content if name.endswith(".dist-info/RECORD"))
+    content |= {path: new, record: content[record].replace(recorded(old), recorded(new))}
+    with zipfile.ZipFile(folder / wheel.name, "w") as archive:
+        for name, data in content.items():
+            archive.writestr(name, data)
+    return folder / wheel.name
+
+
+def recorded(data: bytes) -> bytes:
+    """As RECORD names the contents of a file."""
+    return b"sha256=" + base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=")

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from generated.runtime import interpreter
+
 USAGE = """\
 usage: bin/{name} [CONFIG] [--Ice.X=Y ...] [--KEY=VALUE ...] [--startup-check]
 
@@ -15,10 +17,9 @@ usage: bin/{name} [CONFIG] [--Ice.X=Y ...] [--KEY=VALUE ...] [--startup-check]
   --Ice.Config=FILE another way to name it; given both, FILE is read after CONFIG
   --KEY=VALUE       any property: wins over the same one in the file
   --startup-check   start everything, then stop
-"""
-NO_ICE = """\
-{name}: this Python ({python}) has no Ice: \
-install Debian's python3-zeroc-ice, or run '{python} -m pip install zeroc-ice'
+
+It runs in the first Python that has Ice: $RCYAML_PYTHON where it is set, else the workspace's .venv, python3 on the
+path, /usr/bin/python3.
 """
 
 
@@ -42,9 +43,9 @@ def main(root: Path, name: str, arguments: Sequence[str]) -> int:
         print(f"{name}: {error}\n\n{USAGE.format(name=name)}", file=sys.stderr, end="")
         return 2
     try:
-        import Ice
-    except ImportError:
-        print(NO_ICE.format(name=name, python=sys.executable), file=sys.stderr, end="")
+        interpreter.settle(str(root), [sys.argv[0], *arguments])
+    except interpreter.NoPython as error:
+        print(f"{name}: {error}", file=sys.stderr)
         return 1
     from generated.runtime.launch import launch
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -11,6 +12,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from conftest import write_tree
 from robocomp_yaml.emit import stamp
 from robocomp_yaml.source.discover import documents_below
 
@@ -101,6 +103,61 @@ def test_another_rcyaml_makes_it_stale(monkeypatch: pytest.MonkeyPatch) -> None:
     stamp.save("out", KEY, taken)
     monkeypatch.setattr("robocomp_yaml.__version__", "99")
     assert not current()
+
+
+@pytest.fixture
+def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder in which rcyaml is installed."""
+    place = write_tree(tmp_path / "site-packages", {
+        "robocomp_yaml/__init__.py": "", "robocomp_yaml/emit/build.py": "pass",
+        "robocomp_yaml/_data/templates/a.j2": "a",
+        "rcyaml-0.1.0.dist-info/RECORD": "robocomp_yaml/_data/templates/a.j2,sha256=one,1\n",
+        "other-1.dist-info/RECORD": "",
+    })  # fmt: skip
+    monkeypatch.setattr("robocomp_yaml.__file__", str(place / "robocomp_yaml" / "__init__.py"))
+    return place
+
+
+def rewritten(path: Path, text: str) -> None:
+    """Another text of the same length, with the same date."""
+    before = path.stat()
+    assert before.st_size == len(text)
+    path.write_text(text)
+    os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
+
+
+@pytest.mark.parametrize("change", [
+    lambda at: rewritten(at / "rcyaml-0.1.0.dist-info/RECORD", "robocomp_yaml/_data/templates/a.j2,sha256=two,1\n"),
+    lambda at: rewritten(at / "robocomp_yaml/_data/templates/a.j2", "b"),
+    lambda at: rewritten(at / "robocomp_yaml/emit/build.py", "exit"),
+    lambda at: (at / "robocomp_yaml/emit/more.py").touch(),
+    lambda at: (at / "robocomp_yaml/emit/build.py").rename(at / "robocomp_yaml/emit/built.py"),
+    lambda at: (at / "robocomp_yaml/_data/templates/a.j2").unlink(),
+    lambda at: (at / "rcyaml-0.1.0.dist-info/RECORD").unlink(),
+    lambda at: (at / "rcyaml-0.1.0.dist-info").rename(at / "rcyaml-0.1.0+local.dist-info"),
+])
+def test_another_build_of_the_same_version_makes_it_stale(installed: Path, change: Callable[[Path], object]) -> None:
+    before = stamp.tool()
+    assert stamp.tool() == before
+    change(installed)
+    assert stamp.tool() != before
+
+
+@pytest.mark.parametrize("change", [
+    lambda at: write_tree(at / "robocomp_yaml/emit/__pycache__", {"build.pyc": ""}),
+    lambda at: write_tree(at, {"other-1.dist-info/RECORD": "more", "another/__init__.py": ""}),
+])
+def test_what_is_not_rcyaml_does_not_count(installed: Path, change: Callable[[Path], object]) -> None:
+    before = stamp.tool()
+    change(installed)
+    assert stamp.tool() == before
+
+
+def test_a_distribution_without_records(installed: Path) -> None:
+    shutil.rmtree(installed / "rcyaml-0.1.0.dist-info")
+    before = stamp.tool()
+    rewritten(installed / "robocomp_yaml/_data/templates/a.j2", "b")
+    assert stamp.tool() != before
 
 
 def test_what_was_read_counts_not_what_stands_there_now() -> None:

@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+"""Calls a component from outside of its network, as any program with Ice can: `say.py PROXY TEXT` lets Speech say it."""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+COMPONENT = Path(__file__).resolve().parent / "talkinghead" / "components" / "speech"
+SLICE = COMPONENT / "slice"
+sys.path.insert(0, str(COMPONENT))
+
+
+def main(proxy: str, text: str) -> None:
+    import Ice
+
+    Ice.loadSlice("", ["-I", str(SLICE), "--all", str(SLICE / "Speech.ice")])
+    import RoboCompSpeech
+
+    with Ice.initialize(["--Ice.Default.InvocationTimeout=5000"]) as communicator:
+        speech = RoboCompSpeech.SpeechPrx.checkedCast(communicator.stringToProxy(proxy))
+        print(f"Speech.say({text!r}) answers {speech.say(text, False)}", flush=True)
+        while speech.isBusy():
+            time.sleep(0.1)
+        print("Speech.isBusy() answers False: it has said it")
+
+
+if __name__ == "__main__":
+    from generated.runtime import interpreter
+
+    try:
+        interpreter.settle(str(COMPONENT), sys.argv)  # goes on in a Python that has Ice
+        main(*sys.argv[1:])
+    except interpreter.NoPython as error:
+        sys.exit(f"say.py: {error}")
