@@ -2,17 +2,39 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import islice
 
-from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, Member, ScalarType, Size, Type
+from robocomp_yaml.model.parameters import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    ScalarType,
+    Size,
+    Type,
+    is_secret,
+)
 from robocomp_yaml.values.example_text import example_text
+from robocomp_yaml.values.hidden import hidden
 
 _MOST = 16  # entries of an example: more are too many to read
 
 
 def example(member: Member) -> object:
-    return member.default.data if member.default is not None else example_of(member.type)
+    if isinstance(member.type, BasicType | EnumType) and member.type.secret:
+        return {"env": _variable(member.name)}
+    if member.default is not None and not is_secret(member.type):
+        return hidden(member.type, member.default.data)
+    return example_of(member.type)
+
+
+def _variable(name: str) -> str:
+    """A variable of the environment for what has this name."""
+    made = re.sub(r"[^A-Z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", name).upper()).strip("_")
+    return made if made[:1].isalpha() else f"SECRET_{made}".rstrip("_")
 
 
 def example_of(type_: Type) -> object:
@@ -41,7 +63,9 @@ def _different(element: Type, count: int) -> list[object]:
 
 def _simplest(type_: ScalarType) -> Iterator[object]:
     """Values that fit, all different, the simplest first; at least one."""
-    if isinstance(type_, EnumType):
+    if type_.secret:
+        yield from ({"env": f"SECRET{number}" if number > 1 else "SECRET"} for number in range(1, _MOST + 1))
+    elif isinstance(type_, EnumType):
         yield from type_.allowed
     elif type_.values:
         is_text = type_.name == "string"

@@ -27,7 +27,7 @@ from robocomp_yaml.model.parameters import (
 from robocomp_yaml.model.pdsl import Spelling
 from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Node, Scalar
-from robocomp_yaml.values import lexemes, rows
+from robocomp_yaml.values import lexemes, references, rows
 from robocomp_yaml.values.defaults import with_defaults
 from robocomp_yaml.values.layers import Place, child
 from robocomp_yaml.values.paths import Step, escaped, in_words
@@ -51,13 +51,14 @@ class Property(msgspec.Struct, frozen=True):
 class Writer(msgspec.Struct):
     """Writes the parameters. `only_given`: defaults are left out. `quote`: text stands in double quotes, as in flat
     TOML. `unquotes`: whoever reads the file takes such quotes away. `head` is where faults are shown that have no line
-    of their own."""
+    of their own; `folder` is that of the file to be, None where it may be put anywhere."""
 
     parameters: Parameters
     head: Span
     only_given: bool = False
     quote: bool = False
     unquotes: bool = False
+    folder: str | None = None
     faults: list[Diagnostic] = []
 
     def write(self, data: dict[str, Any], place: Place | None) -> list[Property]:
@@ -139,13 +140,14 @@ class Writer(msgspec.Struct):
     def text(self, type_: ScalarType, data: Any, where: Where, path: Path) -> str | None:
         """The text of a plain value; None where none can be."""
         if isinstance(data, dict):
-            return f"${{env:{data['env']}}}"
+            return references.text(data, node_of(where), self.folder)
         if isinstance(data, str):
             if any(char in data for char in "\r\n\0"):
                 self.fault(where, path, "it holds a line end")
                 return None
-            if lexemes.reference(data):
-                self.fault(where, path, "it would be read as a reference to the environment")
+            if references.read(data):
+                what = "a file" if references.FILE in references.read(data) else "the environment"
+                self.fault(where, path, f"it would be read as a reference to {what}")
                 return None
             if (self.quote or self.unquotes) and unquoted(data) != data:
                 self.fault(where, path, "in quotes, it would be read without them")

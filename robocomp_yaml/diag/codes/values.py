@@ -56,7 +56,7 @@ OUT_OF_RANGE = Code(
 NO_MATCH = Code(
     "RC3304",
     ERROR,
-    "{path} is '{value}', and must match {pattern}",
+    "{path} is {value}, and must match {pattern}",
     "The whole text must match the pattern that the PDSL gives.",
     _values("parameters:\n  device: ttyUSB0\n"),
     _values("parameters:\n  device: /dev/ttyUSB0\n"),
@@ -97,8 +97,8 @@ BAD_REFERENCE = Code(
     "RC3309",
     ERROR,
     "{path} {problem}",
-    "`{{env: NAME}}` takes a value from the environment when the component starts. It can stand where one number, text "
-    "or truth value stands.",
+    "`{{env: NAME}}` takes a value from the environment when the component starts, and `{{file: PATH}}` from a file. "
+    "They can stand where one number, text or truth value stands.",
     _values("parameters:\n  volume: {env: 7UP}\n"),
     _values("parameters:\n  volume: {env: SPEECH_VOLUME}\n"),
 )
