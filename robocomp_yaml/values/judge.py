@@ -24,7 +24,7 @@ from robocomp_yaml.model.parameters import (
     is_secret,
     kind_in_words,
 )
-from robocomp_yaml.secrets import HIDDEN
+from robocomp_yaml.secrets import HIDDEN, url
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 from robocomp_yaml.values import references
 from robocomp_yaml.values.paths import Step, in_words
@@ -62,6 +62,7 @@ def shown(node: Node, type_: Type) -> str:
 
 
 def _short(text: str) -> str:
+    text = url(text)
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 

@@ -140,7 +140,7 @@ def test_the_run_time_needs_ice_alone() -> None:
 
 # Of Python 3.9.
 STANDARD = set(
-    "__future__ collections contextlib dataclasses logging math numbers operator os pathlib re signal sys tempfile "
+    "__future__ collections contextlib dataclasses logging math numbers operator os pathlib re signal stat sys tempfile "
     "threading time types typing".split()
 )  # fmt: skip
 
