@@ -11,12 +11,15 @@ CONFIG = "etc/config"
 
 class FilePlan(msgspec.Struct, frozen=True):
     """One file below an output root. `path` is relative, with '/'. `policy` ALWAYS: ours, rewritten whenever it
-    changes. ONCE: written if it is missing, then the user's."""
+    changes. ONCE: written if it is missing, then the user's. `sources` are documents that it is made of beside its
+    owner: who cannot read those cannot read it. `secrets` are properties in it that are not to be shown."""
 
     path: str
     text: str
     policy: str = ALWAYS
     executable: bool = False
+    sources: tuple[str, ...] = ()
+    secrets: tuple[str, ...] = ()
 
 
 class Merge(msgspec.Struct, frozen=True):

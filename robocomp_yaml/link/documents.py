@@ -44,14 +44,15 @@ def builder(kind: str) -> Callable[[Mapping, str], Model]:
 
 
 class Document(msgspec.Struct):
-    """A document as far as it could be read: `model` is None where it has errors of its own. `real` is its real
-    path, `module` the name of the module it defines, as far as that can be told."""
+    """A document as far as it could be read: `model` is None where it has errors of its own, `tree` where it is no
+    YAML. `real` is its real path, `module` the name of the module it defines, as far as that can be told."""
 
     path: str
     real: str
     kind: str
     model: Model | None = None
     module: str = ""
+    tree: Node | None = None
 
 
 class Documents(msgspec.Struct):
@@ -90,6 +91,7 @@ class Documents(msgspec.Struct):
         yield from diagnostics
         if tree is None:
             return
+        document.tree = tree
         yield from (diagnostics := self._fits(document, tree))
         if not has_errors(diagnostics):
             assert isinstance(tree, Mapping)

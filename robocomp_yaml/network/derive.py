@@ -63,7 +63,7 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
             configuration.make()
             diagnostics += configuration.diagnostics
             text = configuration.text
-        network.processes[draft.name] = processes.of_draft(draft, text, known)
+        network.processes[draft.name] = processes.of_draft(draft, text, known, configuration.secrets)
     diagnostics += _put_in_order(network, needs)
     return network, diagnostics
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Any
 
 from robocomp_yaml import secrets
@@ -21,6 +21,20 @@ def holds_secret(type_: Type) -> bool:
             return holds_secret(element)
         case _:
             return any(holds_secret(member.type) for member in type_.members)
+
+
+def declared(type_: Type) -> Iterator[str]:
+    """The names of members that a document calls secret."""
+    match type_:
+        case ListType(element=element) | MapType(element=element):
+            yield from declared(element)
+        case RecordType(members=members):
+            for member in members:
+                if member.secret:
+                    yield member.name
+                yield from declared(member.type)
+        case _:
+            return
 
 
 def hidden(type_: Type, data: Any) -> Any:
@@ -91,14 +105,16 @@ def _of_member(record: RecordType, key: Scalar, value: Node) -> Iterator[Scalar]
         yield from named_nodes(value)
 
 
-def named_nodes(node: Node) -> Iterator[Scalar]:
-    """Every plain value that stands below a key whose name says that it is secret."""
+def named_nodes(node: Node, names: Collection[str] = ()) -> Iterator[Scalar]:
+    """Every plain value that stands below a key whose name says that it is secret, or is one of these."""
     if isinstance(node, Mapping) and not is_reference(node.data):
         for key, value in node.items():
-            yield from _plain_below(value) if secrets.is_secret(key.lexeme) else named_nodes(value)
+            last = (paths.parse(key.lexeme) or [key.lexeme])[-1] if names else ""
+            named = secrets.is_secret(key.lexeme) or last in names
+            yield from _plain_below(value) if named else named_nodes(value, names)
     elif isinstance(node, Sequence):
         for item in node.items:
-            yield from named_nodes(item)
+            yield from named_nodes(item, names)
 
 
 def _plain_below(node: Node) -> Iterator[Scalar]:

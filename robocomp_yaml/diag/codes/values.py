@@ -111,6 +111,19 @@ NOT_FOR_ICE = Code(
     _values('parameters:\n  device: "/dev/tty\\nUSB0"\n', _PDSL.replace("pattern: '/dev/.+', ", "")),
     _values('parameters:\n  device: "/dev/ttyUSB0"\n', _PDSL.replace("pattern: '/dev/.+', ", "")),
 )
+_SECRET = "component: speech.cdsl.yaml\nparameters: {password: string}\n"
+OPEN_SECRET = Code(
+    "RC3311",
+    WARNING,
+    "this is secret, and others can read {file}",
+    "A password or a token that stands in a document is read by whoever can read the document, and often goes into a "
+    "repository with it. Give the value where it is used: `{{env: NAME}}` takes it from the environment when the "
+    "component starts, and `{{file: PATH}}` from a file. Or let nobody but the owner read the document: then what is "
+    "made of it is for the owner alone, too. Parameters are secret that say `secret: true`, or whose names say so; in "
+    "a URL the password is.",
+    _values("parameters:\n  password: hunter2\n", _SECRET),
+    _values("parameters:\n  password: {env: PASSWORD}\n", _SECRET),
+)
 NO_LAYER = Code(
     "RC3321",
     ERROR,

@@ -13,10 +13,16 @@ import unicodedata
 from collections.abc import Sequence
 
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic
+from robocomp_yaml.diag.hidden import hide, parts
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.secrets import Part, parts_of_lines
 
 WIDEST = 160  # a longer line is cut around its fault
 MOST_READ = 1 << 25  # bytes of a file in which lines to show are looked for
+_CODE = (
+    ".py", ".cpp", ".cc", ".h", ".hpp", ".ice", ".cmake", ".scxml", ".ui", "idsl.yaml", "cdsl.yaml", "pdsl.yaml",
+    ".idsl", ".cdsl", ".smdsl", ".jcdsl",
+)  # fmt: skip
 _COLORS = {ERROR: "31", WARNING: "33", NOTE: "36"}
 
 
@@ -42,16 +48,19 @@ def _one(diagnostic: Diagnostic, lines: _Lines, color: bool) -> str:
     head = _paint(f"{diagnostic.severity}[{diagnostic.code}]", f"1;{tint}", color)
     out = [f"{head}: {_paint(diagnostic.message, '1', color)}"]
     width = len(str(diagnostic.span.line))
-    out += _snippet(diagnostic.span, diagnostic.hint, width, tint, lines, color)
+    hidden = diagnostic.hidden
+    out += _snippet(diagnostic.span, diagnostic.hint, width, tint, lines, color, hidden)
     for related in diagnostic.related:
         width = len(str(related.span.line))
-        out += _snippet(related.span, related.message, width, _COLORS[NOTE], lines, color)
+        out += _snippet(related.span, related.message, width, _COLORS[NOTE], lines, color, hidden)
     if diagnostic.more:
         out += [f"    {line}" if line else "" for line in diagnostic.more.splitlines()]
     return "\n".join(out) + "\n"
 
 
-def _snippet(span: Span, label: str, width: int, tint: str, lines: _Lines, color: bool) -> list[str]:
+def _snippet(
+    span: Span, label: str, width: int, tint: str, lines: _Lines, color: bool, hidden: tuple[Span, ...] | None
+) -> list[str]:
     pad = " " * width
     rail, corner = _paint("│", "34", color), _paint("┌─", "34", color)
     text = lines.get(span.file, span.line)
@@ -60,7 +69,9 @@ def _snippet(span: Span, label: str, width: int, tint: str, lines: _Lines, color
         return [*out, f"{pad} {_paint('=', '34', color)} {label}"] if label else out
     start = span.column - 1
     end = span.end_column - 1 if span.end_line == span.line else len(text.rstrip())
-    text, start, end = _cut(text, start, max(start + 1, min(end, len(text))))
+    secret = lines.secrets(span) if hidden is None else parts(span.line, len(text), _of_file(hidden, span.file))
+    text, start, end = hide(text, secret, start, max(start + 1, min(end, len(text))))
+    text, start, end = _cut(text, start, end)
     marks = " " * _columns(text[:start]) + _paint("^" * max(1, _columns(text[start:end])), f"1;{tint}", color)
     return [
         f"{pad} {corner} {span.file}:{span.line}:{span.column}",
@@ -102,6 +113,10 @@ def _paint(text: str, tint: str, color: bool) -> str:
     return f"\x1b[{tint}m{text}\x1b[0m" if color else text
 
 
+def _of_file(places: tuple[Span, ...], file: str) -> list[Span]:
+    return [place for place in places if place.file == file]
+
+
 class _Lines:
     """The lines of the files that diagnostics point at, each file read once."""
 
@@ -113,6 +128,12 @@ class _Lines:
             self._files[file] = _read(file)
         lines = self._files[file]
         return lines[line - 1] if lines and line <= len(lines) else None
+
+    def secrets(self, span: Span) -> list[Part]:
+        """What is hidden of a line by the names in it; in code and in types, names stand for other things."""
+        if span.file.endswith(_CODE):
+            return []
+        return parts_of_lines(self._files[span.file] or []).get(span.line - 1, [])
 
 
 def _read(file: str) -> list[str] | None:

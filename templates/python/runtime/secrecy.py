@@ -22,8 +22,8 @@ _ABOUT = frozenset((
 """Words that end the name of something about a secret, which is none itself."""
 _HOW = frozenset((
     "max", "min", "num", "number", "count", "use", "has", "no", "allow", "require", "requires", "show", "hide",
-    "enable", "is", "with", "ask", "low", "high", "band", "all", "by", "over", "under", "two", "single", "first", "second",
-    "multi",
+    "enable", "is", "with", "ask", "low", "high", "band", "all", "by", "over", "under", "two", "single", "first",
+    "second", "multi",
 ))  # fmt: skip
 """Words that begin such a name."""
 
@@ -39,7 +39,7 @@ def is_secret(name: str) -> bool:
     return any(word in _WORDS or word.endswith(_ENDS) for word in words)
 
 
-_USER_INFO = re.compile(r"([A-Za-z][A-Za-z0-9+.-]*://[^\s/?#:@'\"<>]*):([^\s/?#'\"<>]+)@")
+_USER_INFO = re.compile(r"([A-Za-z][A-Za-z0-9+.-]{0,30}://[^\s/?#:@'\"<>]*):([^\s/?#'\"<>]+)@")
 
 
 def url(text: str) -> str:
