@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml import secrets
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.atomic import Step
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE
@@ -26,23 +27,35 @@ WRITING = (CREATE, UPDATE, ADOPT, EDITED, MERGE, REMOVE)
 
 
 class Change(msgspec.Struct, frozen=True):
-    """What happens to one file. `path` can be opened from the user's folder, `orig` too ('' where nothing is kept)."""
+    """What happens to one file. `path` can be opened from the user's folder, `orig` too ('' where nothing is kept).
+    `secrets` are properties in it that are not to be shown."""
 
     path: str
     action: str
     before: bytes | None = None
     after: bytes | None = None
     orig: str = ""
+    secrets: tuple[str, ...] = ()
 
     def diff(self) -> Iterator[str]:
-        """A unified diff, line by line."""
+        """A unified diff, line by line. In property files, secrets are hidden."""
         import difflib  # asked for with --diff only
 
-        yield from difflib.unified_diff(
+        found = difflib.unified_diff(
             _lines(self.before), _lines(self.after),
             os.devnull if self.before is None else f"a/{self.path}",
             os.devnull if self.after is None else f"b/{self.path}",
         )
+        is_config = os.path.basename(os.path.dirname(self.path)) == "etc"
+        yield from (self._shown(line) for line in found) if is_config else found
+
+    def _shown(self, line: str) -> str:
+        key, equals, value = line[1:].partition("=")
+        if not equals or line.startswith(("---", "+++", "@@")):
+            return line
+        end = "\n" if line.endswith("\n") else ""
+        said = secrets.value(key.strip(), value.strip(), self.secrets)
+        return line if said == value.strip() else f"{line[0]}{key}={said}{end}"
 
 
 class RootChanges(msgspec.Struct):
