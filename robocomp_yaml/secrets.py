@@ -126,6 +126,15 @@ def may_hold(text: str) -> bool:
 
 
 Part = tuple[int, int]
+def hidden_lines(text: str) -> list[str]:
+    """The lines of a document or a property file, with their ends, as they may be shown."""
+    lines = text.splitlines(keepends=True)
+    for number, parts in parts_of_lines([line.rstrip("\r\n") for line in lines]).items():
+        for start, end in sorted(parts, reverse=True):
+            lines[number] = f"{lines[number][:start]}{HIDDEN}{lines[number][end:]}"
+    return lines
+
+
 _KEY = re.compile(r"[\"']?(?P<name>(?<![\w.])[A-Za-z_\x80-\U0010ffff][\w.\-\[\]]{0,60})[\"']?[ \t]*(?P<sign>[:=])")
 _FLOW_VALUE = re.compile(r"[ \t]*(?:\"(?:[^\"\\]|\\.)*\"?|'(?:[^']|'')*'?|[^,}\]]*)")
 _LISTED = re.compile(
@@ -141,7 +150,8 @@ def parts_of_lines(lines: Sequence[str], names: Collection[str] = ()) -> dict[in
     below: int | None = None  # the indentation of the key whose value goes on
     for number, line in enumerate(lines):
         start = len(line) - len(line.lstrip())
-        if below is not None and (start > below or not line.strip() or line.lstrip().startswith("- ")):
+        goes_on = below is not None and (start > below or (start == below and not _KEY.search(line)))
+        if goes_on or (below is not None and (not line.strip() or line.lstrip().startswith("- "))):
             if line.strip():
                 found[number] = [(start, len(line.rstrip()))]
             continue

@@ -7,6 +7,7 @@ errors of its own the names count, and of one that is no YAML the lines.
 from __future__ import annotations
 
 import os
+import re
 import shlex
 from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
@@ -24,16 +25,18 @@ from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.model.parameters import RecordType
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
-from robocomp_yaml.values.hidden import declared, named_nodes, nodes
+from robocomp_yaml.values.hidden import declared, named_nodes, nodes, plain_below
 
 _PROPERTIES = ("properties", "ice", "endpoints", "proxies", "topics")
 
 
 class Secret(msgspec.Struct, frozen=True):
-    """A plain value that a document holds itself. `part` is where a longer text is not secret as a whole."""
+    """A plain value that a document holds itself. `part` is what of a longer text is secret; `is_sure` is False where
+    nobody can tell, for what it is given to is not known."""
 
     node: Scalar
     part: str = ""
+    is_sure: bool = True
 
 
 def check(program: Program, documents: Iterable[Document], contents: dict[str, bytes]) -> Iterator[Diagnostic]:
@@ -42,8 +45,7 @@ def check(program: Program, documents: Iterable[Document], contents: dict[str, b
     for document in documents:
         if document.kind in _KINDS and document.model is not None and finder.may_hold(document, contents):
             if _others_can_read(document.path):
-                for secret in finder.secrets(document):
-                    yield _warning(document, secret)
+                yield from (_warning(document, secret) for secret in finder.secrets(document) if secret.is_sure)
 
 
 def hidden(program: Program, documents: Iterable[Document], contents: dict[str, bytes], files: set[str]) -> Hidden:
@@ -93,7 +95,8 @@ class _Finder:
     def may_hold(self, document: Document, contents: dict[str, bytes]) -> bool:
         """Most documents hold none, which is soon seen."""
         text = contents.get(document.path, b"").decode("utf-8", "replace")
-        return secrets.may_hold(text) or any(name in text for name in self.names)
+        is_alone = document.kind != "pdsl" and document.real not in self.program.values  # what it gives is not known
+        return is_alone or secrets.may_hold(text) or any(name in text for name in self.names)
 
     def secrets(self, document: Document) -> Iterator[Secret]:
         tree = document.tree
@@ -120,17 +123,14 @@ class _Finder:
         values = self.program.values.get(document.real)
         linked = values.parameters if values is not None else None
         given = tree.get("parameters")
+        if linked is None:
+            yield from named_nodes(tree, {*self.names, *_names_nearby(document.path)})
+            return
         if given is not None:
-            yield from self._typed(linked, given)
+            yield from nodes(linked.parameters.root, given)
         for section in _PROPERTIES:
             if (node := tree.get(section)) is not None:
                 yield from named_nodes(node)
-
-    def _typed(self, linked: LinkedParameters | None, node: Node) -> Iterator[Scalar]:
-        if linked is not None:
-            yield from nodes(linked.parameters.root, node)
-        else:
-            yield from named_nodes(node, self.names)
 
     def _of_parameters(self, document: Document) -> Iterator[Scalar]:
         """Defaults of what is secret."""
@@ -154,8 +154,13 @@ class _Finder:
                 yield from map(Secret, named_nodes(env))
             for key in ("args", "ready"):
                 yield from _words(entry.get(key), self.names)
-            if (given := entry.get("set")) is not None:
-                yield from map(Secret, self._typed(owners.get(str(given.span)), given))
+            given = entry.get("set")
+            linked_to = owners.get(str(given.span)) if given is not None else None
+            if given is not None and linked_to is not None:
+                yield from map(Secret, nodes(linked_to.parameters.root, given))
+            elif given is not None:
+                yield from map(Secret, named_nodes(given, self.names))
+                yield from _unsure(given)
 
 
 def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
@@ -164,11 +169,17 @@ def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
         node = node.get("command")
     if not isinstance(node, Sequence):
         return
+    for item in node.items:
+        yield from _unsure(item) if not isinstance(item, Scalar) else ()
     words = [item for item in node.items if isinstance(item, Scalar)]
     for item, shown in zip(words, secrets.words((item.lexeme for item in words), names), strict=True):
         if shown != item.lexeme:
             head, _, tail = shown.partition(secrets.HIDDEN)
             yield Secret(item, item.lexeme[len(head) : len(item.lexeme) - len(tail) or None])
+
+
+def _unsure(node: Node) -> Iterator[Secret]:
+    return (Secret(found, is_sure=False) for found in plain_below(node))
 
 
 def _texts(node: Node) -> Iterator[Scalar]:
@@ -204,7 +215,9 @@ def _add_lines(found: Hidden, document: Document, contents: dict[str, bytes], na
     for number, parts in secrets.parts_of_lines(lines, known).items():
         for start, end in parts:
             span = Span(document.path, number + 1, start + 1, number + 1, end + 1)
-            found.add(span, lines[number][start:end].strip("\"' "))
+            part = lines[number][start:end]
+            for text in (part.strip("\"' "), *re.findall(r"[^\s\"'!&*@{}\[\],]{4,}", part)):
+                found.add(span, text)
 
 
 def _names_nearby(path: str) -> Iterator[str]:

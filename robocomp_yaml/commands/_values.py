@@ -25,7 +25,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type, is_secret
 from robocomp_yaml.pipeline import Analysis, analyse
-from robocomp_yaml.secrets import HIDDEN, url
+from robocomp_yaml.secrets import HIDDEN, hidden_lines
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values import paths
@@ -281,7 +281,7 @@ def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...], *
 
         shown = replace(values, data=hidden(values.parameters.root, values.data)) if is_hidden else values
         text = toml_text(loaded.values, shown)
-        click.echo(url(text) if is_hidden else text, nl=False)
+        click.echo("".join(hidden_lines(text)) if is_hidden else text, nl=False)
         return
     from robocomp_yaml.values.properties import properties
     from robocomp_yaml.values.property_text import property_text

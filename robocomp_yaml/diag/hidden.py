@@ -29,7 +29,8 @@ class Hidden(msgspec.Struct):
         self.texts.setdefault(span.file, set()).add(text.strip())
 
     def veiled(self, diagnostic: Diagnostic) -> Diagnostic:
-        """The diagnostic without the secrets of the files that it is about."""
+        """The diagnostic without the secrets of the files that it is about. A hint that would repeat one is left out:
+        it may say in other words what it is."""
         spans = [diagnostic.span, *(related.span for related in diagnostic.related)]
         texts = {text for span in spans for text in self.texts.get(span.file, ())}
         shown = {(span.file, span.line) for span in spans}
@@ -39,8 +40,9 @@ class Hidden(msgspec.Struct):
         )  # fmt: skip
         is_known = hidden or all(span.file in self.files for span in spans)
         related = tuple(Related(without(one.message, texts), one.span) for one in diagnostic.related)
+        hint = without(diagnostic.hint, texts)
         return replace(
-            diagnostic, message=without(diagnostic.message, texts), hint=without(diagnostic.hint, texts),
+            diagnostic, message=without(diagnostic.message, texts), hint=hint if hint == url(diagnostic.hint) else "",
             more=without(diagnostic.more, texts), related=related, hidden=hidden if is_known else None,
         )  # fmt: skip
 

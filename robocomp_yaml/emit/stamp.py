@@ -28,8 +28,8 @@ class Stamp(msgspec.Struct, frozen=True):
     """All paths are as the run used them, relative to its working folder or absolute.
 
     `inputs`: of each file read, its real path and its digest with who may read it. `absent`: where it looked in vain.
-    `folders`: of each folder asked, what was found below. `outputs`: of each file written, its digest and who may read and run it. `present`:
-    files whose contents are the user's. `replay`: what the run had to say, in the caller's form.
+    `folders`: of each folder asked, what was found below. `outputs`: of each file written, its digest and who may read
+    and run it. `present`: files whose contents are the user's. `replay`: what the run had to say, in the caller's form.
     """
 
     tool: str

@@ -71,20 +71,20 @@ def nodes(type_: Type, node: Node) -> Iterator[Scalar]:
     match type_:
         case BasicType() | EnumType():
             if type_.secret and not is_reference(node.data):
-                yield from _plain_below(node)
+                yield from plain_below(node)
         case ListType(element=element) if isinstance(node, Sequence):
             for item in node.items:
                 yield from nodes(element, item)
         case MapType(element=element) if isinstance(node, Mapping):
             for key, value in node.items():
                 named = secrets.is_secret(key.lexeme) and isinstance(value.data, str)
-                yield from _plain_below(value) if named else nodes(element, value)
+                yield from plain_below(value) if named else nodes(element, value)
         case RecordType() if isinstance(node, Mapping):
             for key, value in node.items():
                 yield from _of_member(type_, key, value)
         case _:
             if not is_reference(node.data):
-                yield from _plain_below(node) if holds_secret(type_) else named_nodes(node)
+                yield from plain_below(node) if holds_secret(type_) else named_nodes(node)
 
 
 def _of_member(record: RecordType, key: Scalar, value: Node) -> Iterator[Scalar]:
@@ -100,7 +100,7 @@ def _of_member(record: RecordType, key: Scalar, value: Node) -> Iterator[Scalar]
     if type_ is not None and not (isinstance(value.data, str) and secrets.is_secret(steps[-1])):
         yield from nodes(type_, value)
     elif type_ is not None or secrets.is_secret(key.lexeme):
-        yield from _plain_below(value)
+        yield from plain_below(value)
     else:
         yield from named_nodes(value)
 
@@ -111,20 +111,21 @@ def named_nodes(node: Node, names: Collection[str] = ()) -> Iterator[Scalar]:
         for key, value in node.items():
             last = (paths.parse(key.lexeme) or [key.lexeme])[-1] if names else ""
             named = secrets.is_secret(key.lexeme) or last in names
-            yield from _plain_below(value) if named else named_nodes(value, names)
+            yield from plain_below(value) if named else named_nodes(value, names)
     elif isinstance(node, Sequence):
         for item in node.items:
             yield from named_nodes(item, names)
 
 
-def _plain_below(node: Node) -> Iterator[Scalar]:
+def plain_below(node: Node) -> Iterator[Scalar]:
+    """Every plain value in a node, but for references."""
     if isinstance(node, Scalar):
         if node.data is not None and node.data != "":
             yield node
     elif isinstance(node, Mapping):
         if not is_reference(node.data):
             for _, value in node.items():
-                yield from _plain_below(value)
+                yield from plain_below(value)
     elif isinstance(node, Sequence):
         for item in node.items:
-            yield from _plain_below(item)
+            yield from plain_below(item)
