@@ -8,7 +8,7 @@ import shutil
 import sys
 from collections.abc import Collection, Coroutine, Iterable
 from contextlib import ExitStack
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 import msgspec
@@ -31,6 +31,9 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.network import Network
 
+if TYPE_CHECKING:
+    from robocomp_yaml.pipeline import Analysis
+
 T = TypeVar("T")
 
 INTERRUPTED = "interrupted: what runs goes on; `rcyaml deploy down` stops it"
@@ -38,14 +41,14 @@ INTERRUPTED = "interrupted: what runs goes on; `rcyaml deploy down` stops it"
 
 class Opened(msgspec.Struct):
     """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
-    so far, of which some have been `shown`; `documents` were read. `lock` is held while it is changed."""
+    so far, of which some have been `shown`; `analysis` is of the documents. `lock` is held while it is changed."""
 
     path: str
     network: Network
     engine: Engine
     format_: str
+    analysis: Analysis
     told: list[Diagnostic] = []
-    documents: int = 0
     shown: list[Diagnostic] = []
     lock: ExitStack = msgspec.field(default_factory=ExitStack)
 
@@ -62,7 +65,7 @@ def open_(
     documents."""
     from robocomp_yaml.pipeline import analyse
 
-    path = _document(ddsl)
+    path = os.path.normpath(_document(ddsl))
     analysis = analyse([path], include)
     network = analysis.networks.get(os.path.realpath(path))
     if network is None and lenient:
@@ -78,7 +81,7 @@ def open_(
         from robocomp_yaml.deploy.outdated import outdated
 
         told = analysis.with_more(outdated(analysis.program.deployments[os.path.realpath(path)]))
-    return Opened(path, network, make_engine(engine, network), format_, told, analysis.program.documents)
+    return Opened(path, network, make_engine(engine, network), format_, analysis, told)
 
 
 def _document(path: str) -> str:
@@ -273,13 +276,13 @@ def _show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> Non
     new = [_placed(opened, one) for one in told if one not in opened.shown]
     opened.shown += told
     if new:
-        text = render("text", new, opened.documents, _options.colored(ctx, sys.stderr))
+        text = render("text", new, opened.analysis.program.documents, _options.colored(ctx, sys.stderr))
         # Its last line counts the documents, which is not what this is about.
         click.echo(text.rstrip("\n").rpartition("\n")[0].rstrip("\n"), color=ctx.color, err=True)
 
 
 def _placed(opened: Opened, told: Diagnostic) -> Diagnostic:
-    """Engines know the document by its whole path, which is not how the user named it."""
-    if told.span.file != opened.network.path:
-        return told
-    return replace(told, span=replace(told.span, file=opened.path))
+    """Engines know the document by its whole path, which is not how the user named it, and nothing of secrets."""
+    if told.span.file == opened.network.path:
+        told = replace(told, span=replace(told.span, file=opened.path))
+    return opened.analysis.veiled([told])[0]
