@@ -160,7 +160,7 @@ class _Finder:
                 yield from map(Secret, nodes(linked_to.parameters.root, given))
             elif given is not None:
                 yield from map(Secret, named_nodes(given, self.names))
-                yield from _unsure(given)
+                yield from _unsure(given) if "component" in entry.entries else ()
 
 
 def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
@@ -170,7 +170,7 @@ def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
     if not isinstance(node, Sequence):
         return
     for item in node.items:
-        yield from _unsure(item) if not isinstance(item, Scalar) else ()
+        yield from map(Secret, named_nodes(item))
     words = [item for item in node.items if isinstance(item, Scalar)]
     for item, shown in zip(words, secrets.words((item.lexeme for item in words), names), strict=True):
         if shown != item.lexeme:

@@ -140,7 +140,7 @@ def test_nor_by_values_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], t
 
 DEPLOYMENTS = [
     "  a: {component: speech, set: {wifi: canaryA, pin: 4711471}, args: ['--wifi=canaryB']}\n",
-    "  a: {program: /bin/true, args: [--token, canaryA, {x: canaryB}], env: {PASSWORD: [canaryC]}, port: x}\n",
+    "  a: {program: /bin/true, args: [--token, canaryA, {token: canaryB}], env: {PASSWORD: [canaryC]}, port: x}\n",
     "  a: {program: /bin/true, env: {PASSWORD: 4711471, TOKEN: 'canary}\n",
     "  a: {component: speech, set: {wifi: [canaryA], pin: canaryB, name: 3, 'accounts[4].key': canaryC}}\n",
     "  a: {component: nowhere, set: {wifi: canaryA, password: canaryB}, env: {X: 'x://a:canary@b'}}\n",
