@@ -39,7 +39,7 @@ def differences(old: Spec, new: Spec) -> list[Difference]:
         *_command_field(old, new),
         *_field("cwd", before.cwd, after.cwd),
         *_entries("env", _variables(before.env), _variables(after.env), ()),
-        *_config(before.config, after.config),
+        *_config(before.config, after.config, {*before.secrets, *after.secrets}),
         *_files(dict(old.digests), dict(new.digests)),
         *_live(before, after),
     ]
@@ -79,11 +79,11 @@ def _variables(variables: tuple[Variable, ...]) -> dict[str, str]:
             for variable in variables}  # fmt: skip
 
 
-def _config(old: ConfigFile | None, new: ConfigFile | None) -> Iterator[Difference]:
+def _config(old: ConfigFile | None, new: ConfigFile | None, names: set[str]) -> Iterator[Difference]:
     """By property; a text that differs in nothing else has changed as a whole."""
     before, after = old.text if old else "", new.text if new else ""
     if before != after:
-        hidden = {*(old.secrets if old else ()), *(new.secrets if new else ())}
+        hidden = {*names, *(old.secrets if old else ()), *(new.secrets if new else ())}
         found = list(_entries("config", properties.read(before).values, properties.read(after).values, hidden))
         yield from found or [Difference("config")]
 
