@@ -47,7 +47,7 @@ def differences(old: Spec, new: Spec) -> list[Difference]:
 
 def _field(name: str, old: str, new: str, *, is_live: bool = False) -> Iterator[Difference]:
     if old != new:
-        yield Difference(name, old, new, is_live)
+        yield Difference(name, secrets.masked(old), secrets.masked(new), is_live)
 
 
 def _entries(
@@ -117,7 +117,7 @@ def _ready(process: Process) -> dict[str, str]:
     """Without the pings: they follow from what is served, as a rule."""
     ready = process.ready
     port = "" if ready.port is None else str(ready.port)
-    return {"within": f"{ready.within:g} s", "port": port, "command": secrets.command(ready.command), "log": ready.log}
+    return {"within": f"{ready.within:g} s", "port": port, "command": " ".join(ready.command), "log": ready.log}
 
 
 def _restart(process: Process) -> dict[str, str]:

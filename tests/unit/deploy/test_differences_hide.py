@@ -11,7 +11,9 @@ def spec(secret: str) -> Spec:
     command = ("/bin/x", f"--wifi={secret}", "--password", secret, f"http://bob:{secret}@host", "--name=x")
     process = Process(
         "x", "here", command, "/", env=(Variable("TOKEN", secret), Variable("DB", f"x://u:{secret}@h")),
-        config=ConfigFile("config/x", f"wifi={secret}\nlock={secret}\nmail.password={secret}\nname={len(secret)}\n", ("lock",)),
+        config=ConfigFile(
+            "config/x", f"wifi={secret}\nlock={secret}\nmail.password={secret}\nname={len(secret)}\n", ("lock",)
+        ),
         ready=Readiness(command=("ask", f"--api-key={secret}")), secrets=("wifi",),
     )  # fmt: skip
     return Spec(process, "", command, "/config/x")
