@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from robocomp_yaml.check import checks
+from robocomp_yaml.check import checks, secrets
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
+from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
@@ -38,7 +39,19 @@ class Analysis(msgspec.Struct):
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
-        return in_order([*self.diagnostics, *_with_lint(diagnostics, self.linker)])
+        return in_order([*self.diagnostics, *self.veiled(_with_lint(diagnostics, self.linker))])
+
+    def veiled(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+        """Diagnostics without the secrets that the documents hold."""
+        told = list(diagnostics)
+        hidden = self.hidden({span.file for one in told for span in (one.span, *(r.span for r in one.related))})
+        return [hidden.veiled(one) for one in told]
+
+    def hidden(self, files: set[str] | None = None) -> Hidden:
+        """The secrets that these documents hold, or all."""
+        documents = self.linker.documents.read.values()
+        files = {document.path for document in documents} if files is None else files
+        return secrets.hidden(self.program, documents, self.contents, files) if files else Hidden()
 
 
 def search_folders(given: Iterable[str]) -> tuple[str, ...]:
@@ -70,8 +83,10 @@ def analyse(
         said += more
     for workspace in linker.workspaces.values():
         contents[os.path.normpath(os.path.join(workspace.root, WORKSPACE_FILE))] = workspace.content
-    told = in_order(_with_lint(said, linker))
-    return Analysis(program, linker, found, told, contents, linker.search.absent, networks)
+    said += secrets.check(program, documents.read.values(), contents)
+    analysis = Analysis(program, linker, found, [], contents, linker.search.absent, networks)
+    analysis.diagnostics = in_order(analysis.veiled(_with_lint(said, linker)))
+    return analysis
 
 
 def _reader(documents: Documents, absent: set[str]) -> Callable[[str], bytes | None]:

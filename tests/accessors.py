@@ -49,13 +49,13 @@ def live(parameters: Parameters, properties: dict[str, str], overrides: dict[str
 def take(parameters: Parameters, data: Any) -> tuple[Any, list[str]]:
     """Data as the accessors take it: as data again, with defaults; and what is wrong. References are not judged."""
     made = python(parameters)
-    from generated.runtime import composite, texts  # type: ignore[import-not-found]
+    from generated.runtime import composite, references  # type: ignore[import-not-found]
     from generated.runtime.plain import Taking  # type: ignore[import-not-found]
 
     kind, taking = composite.Recording(made.TABLE.values), Taking()
-    with mock.patch.object(texts.os, "environ", {}):
+    with mock.patch.object(references.os, "environ", {}):
         values = kind.take(data, (), taking)
-    problems = [problem.message for problem in taking.problems if "comes from the environment" not in problem.message]
+    problems = [problem.message for problem in taking.problems if " comes from the " not in problem.message]
     return (None if problems else composite.data(kind, values)), problems
 
 

@@ -15,7 +15,7 @@ from robocomp_yaml.emit.targets import cpp_parameters
 from robocomp_yaml.model.parameters import Parameters
 
 DRIVER = ROOT / "tests" / "cpp_driver" / "main.cpp"
-RUNTIME = ("texts", "kinds", "reading", "editing", "store", "expressions", "pattern")
+RUNTIME = ("secrecy", "texts", "references", "kinds", "reading", "editing", "store", "expressions", "pattern")
 
 
 class Program:
@@ -76,4 +76,4 @@ def unhexed(word: str) -> str:
 
 def problems(words: list[str]) -> list[str]:
     messages = [unhexed(word) for word in words[1:]] if words[0] == "no" else []
-    return [message for message in messages if "comes from the environment" not in message]
+    return [message for message in messages if " comes from the " not in message]

@@ -49,12 +49,13 @@ def values(of: LinkedParameters, data: Data, **more: Any) -> LinkedValues:
 
 # Documents of parameters with values that fit them, and values that may not.
 
-NAMES = ("alpha", "beta", "gamma", "delta", "from", "size", "keys", "env", "2d", "a-b")
+NAMES = ("alpha", "beta", "gamma", "delta", "from", "size", "keys", "env", "file", "password", "2d", "a-b")
 PATTERNS = {r"[A-Z][0-9]+": ("A1", "Z99"), r"/dev/\w+": ("/dev/x",), r"a|b": ("a", "b"), r".*": ("", "x#y"),
             r"[^,\s]{1,3}": ("é", "a=b")}
 TEXTS = st.text(st.characters(exclude_categories=("Cs",), exclude_characters="\0\r\x85\u2028\u2029\ufeff"), max_size=6)
 HARD_TEXTS = st.lists(
-    st.sampled_from(("#", "=", "\\", " ", "a", "é", ",", ";", '"', "'", "%", ".", "${env:X}", ": ", "1", "true", "\t")),
+    st.sampled_from(("#", "=", "\\", " ", "a", "é", ",", ";", '"', "'", "%", ".", "${env:X}", "${file:x}", ": ", "1", "true",
+                     "\t")),
     max_size=5,
 ).map("".join)
 KEYS = st.sampled_from(("left", "a.b", "a b", "", "keys", "size", "%", "x=y", "é", "0", "#", "\\", "[0]", "a\tb"))
@@ -183,7 +184,9 @@ def documents(draw: st.DrawFn) -> tuple[Data, Data]:
 JUNK = st.sampled_from((
     True, False, 0, 1, 1.0, 1.5, -1e9, 2**31, 2**63, 2**64, -(2**63) - 1, 1e300, 1e39, 10**400, math.nan, math.inf,
     -math.inf, "", "1", "true", "slow", "A1\n", "xA1", "A1x", [], [1, 1.0], {}, {"env": "HOME"}, {"env": 1},
-    {"env": "7UP"}, {"env": "A\n"}, {"env": "A", "b": 1}, {"x": 1}, None, -0.0, "c", "é,x",
+    {"env": "7UP"}, {"env": "A\n"}, {"env": "A", "b": 1}, {"x": 1},
+    {"file": "a/b c"}, {"file": ""}, {"file": "a/"}, {"file": "a\nb"}, {"file": 1}, {"file": "a "}, {"file": "}"},
+    {"env": "A", "file": "b"}, None, -0.0, "c", "é,x",
 ))
 
 

@@ -14,6 +14,7 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._outcome import File, Outcome
 from robocomp_yaml.diag.codes import machines, values
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
+from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.emit import stamp, writer
 from robocomp_yaml.emit.build import Build, build
 from robocomp_yaml.emit.changes import Changes
@@ -122,8 +123,11 @@ def _is_of_contents(error: Diagnostic) -> bool:
 def _outcome_of(
     analysis: Analysis, built: Build, changes: Changes, told: list[Diagnostic], *, with_diff: bool
 ) -> Outcome:
+    hidden = analysis.hidden() if with_diff else Hidden()
     files = [
-        File(root.root, change.path, change.action, change.orig, change.diff() if with_diff else "")
+        File(
+            root.root, change.path, change.action, change.orig, hidden.without(change.diff()) if with_diff else ""
+        )  # fmt: skip
         for root in changes.roots
         for change in root.changes
     ]

@@ -8,7 +8,7 @@ import shutil
 import sys
 from collections.abc import Collection, Coroutine, Iterable
 from contextlib import ExitStack
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 import msgspec
@@ -33,19 +33,22 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.network import Network
 
+if TYPE_CHECKING:
+    from robocomp_yaml.pipeline import Analysis
+
 T = TypeVar("T")
 
 class Opened(msgspec.Struct):
     """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
-    so far, of which some have been `shown`; `documents` were read. `lock` is held while it is changed. `ended_by` is
-    the exit code where the user had enough of what was brought up."""
+    so far, of which some have been `shown`; `analysis` is of the documents. `lock` is held while it is changed.
+    `ended_by` is the exit code where the user had enough of what was brought up."""
 
     path: str
     network: Network
     engine: Engine
     format_: str
+    analysis: Analysis
     told: list[Diagnostic] = []
-    documents: int = 0
     shown: list[Diagnostic] = []
     lock: ExitStack = msgspec.field(default_factory=ExitStack)
     ended_by: int = 0
@@ -63,7 +66,7 @@ def open_(
     documents."""
     from robocomp_yaml.pipeline import analyse
 
-    path = document(ddsl, include)
+    path = os.path.normpath(document(ddsl, include))
     analysis = analyse([path], include)
     network = analysis.networks.get(os.path.realpath(path))
     if network is None and lenient:
@@ -79,7 +82,7 @@ def open_(
         from robocomp_yaml.deploy.outdated import outdated
 
         told = analysis.with_more(outdated(analysis.program.deployments[os.path.realpath(path)]))
-    return Opened(path, network, make_engine(engine, network), format_, told, analysis.program.documents)
+    return Opened(path, network, make_engine(engine, network), format_, analysis, told)
 
 
 def chosen(network: Network, names: Iterable[str]) -> set[str]:
@@ -273,7 +276,7 @@ def show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> None
 
 
 def _placed(opened: Opened, told: Diagnostic) -> Diagnostic:
-    """Engines know the document by its whole path, which is not how the user named it."""
-    if told.span.file != opened.network.path:
-        return told
-    return replace(told, span=replace(told.span, file=opened.path))
+    """Engines know the document by its whole path, which is not how the user named it, and nothing of secrets."""
+    if told.span.file == opened.network.path:
+        told = replace(told, span=replace(told.span, file=opened.path))
+    return opened.analysis.veiled([told])[0]

@@ -26,8 +26,9 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit import whole
 from robocomp_yaml.link.component_references import beside
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
-from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type
+from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type, is_secret
 from robocomp_yaml.pipeline import Analysis, analyse
+from robocomp_yaml.secrets import HIDDEN, hidden_lines
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
@@ -36,12 +37,14 @@ from robocomp_yaml.values import show as values_show
 from robocomp_yaml.values.edit import NotEditable
 from robocomp_yaml.values.edit import set_value as edit
 from robocomp_yaml.values.effective import Effective, effective
+from robocomp_yaml.values.hidden import hidden
 from robocomp_yaml.values.judge import judge
 from robocomp_yaml.values.new import lines_above
 from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import flow
 
-_REFERENCE = re.compile(r"\{ *env *: *[A-Za-z_][A-Za-z0-9_]* *\}", re.ASCII)  # as `get` prints it
+# As `get` prints them.
+_REFERENCE = re.compile(r"\{ *(?:env *: *[A-Za-z_][A-Za-z0-9_]*|file *: *[^{}]*[^{} /]) *\}", re.ASCII)
 
 
 class Loaded(msgspec.Struct):
@@ -50,6 +53,7 @@ class Loaded(msgspec.Struct):
     values: LinkedValues | None
     diagnostics: list[Diagnostic] = []
     documents: int = 0
+    analysis: Analysis | None = None
 
     @property
     def parameters(self) -> LinkedParameters:
@@ -73,7 +77,7 @@ def load(ctx: click.Context, file: str, include: tuple[str, ...], overlay: dict[
         told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
     if values is not None and values.parameters is not None and check.is_only_layer(values):
         told += check.of_document(values, complete=True)
-    return Loaded(values, in_order(told), program.documents)
+    return Loaded(values, in_order(analysis.veiled(told)), program.documents, analysis)
 
 
 def _effective(ctx: click.Context, file: str, include: tuple[str, ...]) -> tuple[Loaded, Effective]:
@@ -115,9 +119,9 @@ def _all_paths(root: RecordType) -> Iterator[tuple[str, Type]]:
     return ((path, member.type) for path, member in leaves(root))
 
 
-def show(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
+def show(ctx: click.Context, file: str, include: tuple[str, ...], format_: str, *, reveal: bool) -> None:
     _, values = _effective(ctx, file, include)
-    rows = list(values_show.shown(values))
+    rows = list(values_show.shown(values, reveal=reveal))
     if format_ == "json":
         terminal.data(dumps({"values": [_as_json(row) for row in rows]}), json=True)
         return
@@ -133,12 +137,13 @@ def _origin(row: values_show.Shown) -> str:
     if row.node is None:
         where = f", {_place(row.default)}" if row.default is not None else ""
         return f"default{where}"
-    overrode = "".join(f", overrides {_said(node)} ({_place(node)})" for node in row.overrode)
+    overrode = "".join(f", overrides {_said(row, node)} ({_place(node)})" for node in row.overrode)
     return f"{_place(row.node)}{overrode}"
 
 
-def _said(node: Node) -> str:
-    text = node.lexeme if isinstance(node, Scalar) else flow(node.data)
+def _said(row: values_show.Shown, node: Node) -> str:
+    data = row.hide(node.data)
+    text = node.lexeme if isinstance(node, Scalar) and data == node.data else flow(data)
     return text if len(text) <= 40 else text[:39] + "…"
 
 
@@ -150,7 +155,7 @@ def _as_json(row: values_show.Shown) -> dict[str, Any]:
     return {
         "path": row.path, "value": row.data, "unit": row.unit, "editable": row.editable,
         "default": row.node is None, **_json_place(row.node or row.default),
-        "overrode": [{"value": node.data, **_json_place(node)} for node in row.overrode],
+        "overrode": [{"value": row.hide(node.data), **_json_place(node)} for node in row.overrode],
     }
 
 
@@ -158,14 +163,16 @@ def _json_place(node: Node | None) -> dict[str, Any]:
     return {"file": node.span.file if node else None, "line": node.span.line if node else None}
 
 
-def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...], format_: str) -> None:
+def get(
+    ctx: click.Context, file: str, path: str, include: tuple[str, ...], format_: str, *, reveal: bool
+) -> None:  # fmt: skip
     _, values = _effective(ctx, file, include)
     steps, _ = _steps(path, values.parameters.root)
     found = values_show.find(values, steps)
     if found is None:
         terminal.say(f"{path} has no value", err=True)
         ctx.exit(1)
-    data = found[0]
+    data = found[0] if reveal else values_show.hidden_at(values.parameters.root, steps, found[0])
     if format_ == "json":
         terminal.data(dumps({"path": path, "value": data}), json=True)
         return
@@ -187,7 +194,7 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     text, _ = source_text.decode(file, raw)
     assert text is not None
     root = values.document.root
-    _refuse_bad(ctx, file, type_, steps, value, _place_of(root, ["parameters", *steps]), is_text)
+    _refuse_bad(ctx, loaded, file, type_, steps, value, _place_of(root, ["parameters", *steps]), is_text)
     try:
         change = edit(
             file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null",
@@ -208,15 +215,15 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
         whole.replace(file, changed)
     except OSError as error:
         raise click.UsageError(f"{file} cannot be written: {(error.strerror or str(error)).lower()}") from None
+    said, was = (values_show.hidden_text(of, named, text) for text in (value, change.was))
     if format_ == "json":
-        terminal.data(dumps({"path": path, "value": value, "was": change.was or None}), json=True)
+        terminal.data(dumps({"path": path, "value": said, "was": was or None}), json=True)
     elif ctx.obj.verbosity >= 0:
-        was = f" (was {change.was})" if change.was else ""
-        terminal.say(f"{path} = {value}{was}")
+        terminal.say(f"{path} = {said}" + (f" (was {was})" if was else ""))
 
 
 def _refuse_bad(
-    ctx: click.Context, file: str, type_: Type, steps: list[Step], value: str, span: Span, is_text: bool
+    ctx: click.Context, loaded: Loaded, file: str, type_: Type, steps: list[Step], value: str, span: Span, is_text: bool
 ) -> None:
     """A value that its type or limits refuse, shown at the place where it was to go."""
     if value == "null":
@@ -228,10 +235,15 @@ def _refuse_bad(
         node, faults = parse(file, value)
     if node is None:
         reason = faults[0].message if faults else "it is empty"
-        _fail(ctx, [file_codes.WRONG_SHAPE.at(span, problem=f"'{value}' is no value: {reason}")], 1)
+        said = f"'{value}'" if not is_secret(type_) else HIDDEN
+        _fail(ctx, _veiled(loaded, [file_codes.WRONG_SHAPE.at(span, problem=f"{said} is no value: {reason}")]), 1)
     found = [replace(fault, span=span) for fault in judge(type_, node, tuple(steps), complete=False)]
     if found:
-        _fail(ctx, found, 1)
+        _fail(ctx, _veiled(loaded, found), 1)
+
+
+def _veiled(loaded: Loaded, found: list[Diagnostic]) -> list[Diagnostic]:
+    return loaded.analysis.veiled(found) if loaded.analysis is not None else found
 
 
 def _place_of(root: Mapping, steps: list[Step]) -> Span:
@@ -250,13 +262,17 @@ def _place_of(root: Mapping, steps: list[Step]) -> Span:
     return span
 
 
-def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...]) -> None:
+def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...], *, reveal: bool) -> None:
+    """Programs get the values as they are; on a terminal secrets are hidden."""
     loaded, values = _effective(ctx, file, include)
     assert loaded.values is not None
+    is_hidden = sys.stdout.isatty() and not reveal
     if form == "toml":
         from robocomp_yaml.emit.toml_text import toml_text
 
-        terminal.data(toml_text(loaded.values, values))
+        shown = replace(values, data=hidden(values.parameters.root, values.data)) if is_hidden else values
+        text = toml_text(loaded.values, shown)
+        terminal.data("".join(hidden_lines(text)) if is_hidden else text)
         return
     from robocomp_yaml.values.properties import properties
     from robocomp_yaml.values.property_text import property_text
@@ -264,6 +280,8 @@ def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...]) -
     sections, _ = properties(loaded.values, values)
     component = loaded.parameters.component
     name = component.component.name if component else "the component"
+    for section in sections if is_hidden else ():
+        section.properties = [made.hidden() for made in section.properties]
     terminal.data(property_text(sections, name, os.path.basename(file)))
 
 

@@ -30,6 +30,8 @@ file = click.argument("file", metavar="[FILE]", default="", callback=_meant)
 format_ = click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
                        help="How to print it.")  # fmt: skip
 
+reveal = click.option("--reveal", is_flag=True, help="Show secrets too.")
+
 
 @click.group(short_help="Values of parameters: check, show, change, export.")
 def command() -> None:
@@ -70,28 +72,32 @@ def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str)
 
 @command.command(short_help="Every effective value, and where it comes from.")
 @file
+@reveal
 @_options.include
 @format_
 @click.pass_context
-def show(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
-    """Print every effective value with the file and line that set it, and what it overrode. References to the
-    environment are shown as such: their values are never read here."""
+def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], format_: str) -> None:
+    """Print every effective value with the file and line that set it, and what it overrode. Secrets are hidden.
+    References to the environment and to files are shown as such: their values are never read here."""
     from robocomp_yaml.commands import _values
 
-    _values.show(ctx, file, include, format_)
+    _values.show(ctx, file, include, format_, reveal=reveal)
 
 
 @command.command(short_help="One effective value.", cls=_FileMayLack)
 @file
 @click.argument("path")
+@reveal
 @_options.include
 @format_
 @click.pass_context
-def get(ctx: click.Context, file: str, path: str, include: tuple[str, ...], format_: str) -> None:
-    """Print the effective value at PATH, such as motors[0].vel."""
+def get(
+    ctx: click.Context, file: str, path: str, reveal: bool, include: tuple[str, ...], format_: str
+) -> None:  # fmt: skip
+    """Print the effective value at PATH, such as motors[0].vel. A secret is hidden."""
     from robocomp_yaml.commands import _values
 
-    _values.get(ctx, file, path, include, format_)
+    _values.get(ctx, file, path, include, format_, reveal=reveal)
 
 
 @command.command("set", short_help="Change one value; all else stays as it is.", cls=_FileMayLack, context_settings={
@@ -107,8 +113,8 @@ def set_(
     ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...], format_: str
 ) -> None:  # fmt: skip
     """Give the parameter at PATH another VALUE in FILE, checked by its type and limits. Text needs no quotes; null
-    returns to the default, and {env: NAME} is what the environment has when the component starts. Comments, order and
-    layout of the document stay, byte for byte."""
+    returns to the default, and {env: NAME} or {file: PATH} is what the environment or a file has when the component
+    starts. Comments, order and layout of the document stay, byte for byte."""
     from robocomp_yaml.commands import _values
 
     _values.set_value(ctx, file, path, value, include, format_)
@@ -117,13 +123,14 @@ def set_(
 @command.command(short_help="The values as Ice properties or TOML.")
 @file
 @click.option("--as", "form", type=click.Choice(["ice", "toml"]), default="ice", help="What to print.")
+@reveal
 @_options.include
 @click.pass_context
-def export(ctx: click.Context, file: str, form: str, include: tuple[str, ...]) -> None:
+def export(ctx: click.Context, file: str, form: str, reveal: bool, include: tuple[str, ...]) -> None:
     """Print all effective values as an Ice property file, from which a component runs that knows nothing of YAML, or as
-    TOML."""
+    TOML. Secrets are hidden on a terminal, and go into a pipe or a file."""
     from robocomp_yaml.commands import _values
 
-    _values.export(ctx, file, form, include)
+    _values.export(ctx, file, form, include, reveal=reveal)
 
 

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml import secrets
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.network.network import ConfigFile, Process, Variable
 from robocomp_yaml.source import properties
-
-_SECRET = re.compile(r"pass(word|wd|phrase)?|secret|token|credential|api_?key|private", re.IGNORECASE)
-HIDDEN = "(hidden)"
 
 _LISTS = ("after", "aliases", "groups", "folders")
 
@@ -39,10 +36,10 @@ def differences(old: Spec, new: Spec) -> list[Difference]:
     before, after = old.process, new.process
     return [
         *_field("host", old.address, new.address),
-        *_field("command", _command(old), _command(new)),
+        *_command_field(old, new),
         *_field("cwd", before.cwd, after.cwd),
-        *_entries("env", _variables(before.env), _variables(after.env)),
-        *_config(before.config, after.config),
+        *_entries("env", _variables(before.env), _variables(after.env), ()),
+        *_config(before.config, after.config, {*before.secrets, *after.secrets}),
         *_files(dict(old.digests), dict(new.digests)),
         *_live(before, after),
     ]
@@ -50,25 +47,31 @@ def differences(old: Spec, new: Spec) -> list[Difference]:
 
 def _field(name: str, old: str, new: str, *, is_live: bool = False) -> Iterator[Difference]:
     if old != new:
-        yield Difference(name, old, new, is_live)
+        yield Difference(name, secrets.masked(old), secrets.masked(new), is_live)
 
 
-def _entries(name: str, old: dict[str, str], new: dict[str, str]) -> Iterator[Difference]:
+def _entries(
+    name: str, old: dict[str, str], new: dict[str, str], hidden: Collection[str]
+) -> Iterator[Difference]:
+    """`hidden` are names of secrets, beside those that say so themselves."""
     for key in [*old, *(key for key in new if key not in old)]:
         before, after = old.get(key), new.get(key)
         if before != after:
-            if _SECRET.search(key):
-                before, after = before and HIDDEN, after and HIDDEN
-            yield Difference(f"{name} {key}", _shown(before), _shown(after))
+            yield Difference(f"{name} {key}", _shown(key, before, hidden), _shown(key, after, hidden))
 
 
-def _shown(value: str | None) -> str:
-    """An empty value is not the same as none."""
-    return "''" if value == "" else value or ""
+def _shown(key: str, value: str | None, hidden: Collection[str]) -> str:
+    """An empty value is not the same as none; secrets are hidden."""
+    return "''" if value == "" else secrets.value(key, value or "", hidden)
+
+
+def _command_field(old: Spec, new: Spec) -> Iterator[Difference]:
+    if old.command != new.command:
+        yield Difference("command", _command(old), _command(new))
 
 
 def _command(spec: Spec) -> str:
-    return " ".join(spec.command)
+    return secrets.command(spec.command, spec.process.secrets)
 
 
 def _variables(variables: tuple[Variable, ...]) -> dict[str, str]:
@@ -76,11 +79,12 @@ def _variables(variables: tuple[Variable, ...]) -> dict[str, str]:
             for variable in variables}  # fmt: skip
 
 
-def _config(old: ConfigFile | None, new: ConfigFile | None) -> Iterator[Difference]:
+def _config(old: ConfigFile | None, new: ConfigFile | None, names: set[str]) -> Iterator[Difference]:
     """By property; a text that differs in nothing else has changed as a whole."""
     before, after = old.text if old else "", new.text if new else ""
     if before != after:
-        found = list(_entries("config", properties.read(before).values, properties.read(after).values))
+        hidden = {*names, *(old.secrets if old else ()), *(new.secrets if new else ())}
+        found = list(_entries("config", properties.read(before).values, properties.read(after).values, hidden))
         yield from found or [Difference("config")]
 
 
@@ -94,7 +98,7 @@ def _files(old: dict[str, str], new: dict[str, str]) -> Iterator[Difference]:
 def _live(before: Process, after: Process) -> Iterator[Difference]:
     """What holds without a restart. Where an endpoint changes what the process does, its configuration changes."""
     if before.endpoints != after.endpoints:
-        served = list(_entries("serves", _served(before), _served(after)))
+        served = list(_entries("serves", _served(before), _served(after), ()))
         yield from (replace(one, is_live=True) for one in served or [Difference("endpoints")])
     for name, old, new in (("ready", _ready(before), _ready(after)), ("restart", _restart(before), _restart(after))):
         for key in old:

@@ -23,7 +23,8 @@ class Related(msgspec.Struct, frozen=True):
 class Diagnostic(msgspec.Struct, frozen=True):
     """`message` says what is wrong in the user's words; `hint`, where there is one, says how to mend it.
 
-    `more` are lines shown under the snippet in text output: a text to paste, for instance.
+    `more` are lines shown under the snippet in text output: a text to paste, for instance. `hidden` are places in the
+    lines shown that hold secrets; None where nobody has looked, and the names in a line say what is hidden.
     """
 
     code: str
@@ -33,6 +34,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
     hint: str = ""
     related: tuple[Related, ...] = ()
     more: str = ""
+    hidden: tuple[Span, ...] | None = None
 
     def as_severity(self, severity: str) -> Diagnostic:
         return replace(self, severity=severity)

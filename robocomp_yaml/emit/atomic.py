@@ -19,6 +19,9 @@ from robocomp_yaml.source.digest import digest
 PATIENCE = 10.0
 """Seconds to wait for another rcyaml that writes into the same root."""
 
+ANYBODY = 0o066
+"""The rights of a file that is nobody's secret."""
+
 _NO_LINKS = (errno.EPERM, errno.EMLINK, errno.ENOSYS, errno.EOPNOTSUPP)
 
 
@@ -33,8 +36,8 @@ class WriteFailed(Exception):
 class Step(msgspec.Struct, frozen=True):
     """One file that changes: from `before` (None: nothing is there) to `after` (None: nothing shall be there).
 
-    `mode` are the permissions, where a file that stands there has some already. `orig` is a name under which what
-    stands there is kept.
+    `mode` are the permissions, where a file that stands there has some already; `rights` are what others than the owner
+    may have at most. `orig` is a name under which what stands there is kept.
     """
 
     path: str
@@ -43,6 +46,7 @@ class Step(msgspec.Struct, frozen=True):
     executable: bool = False
     mode: int | None = None
     orig: str = ""
+    rights: int = ANYBODY
 
 
 class Batch(msgspec.Struct, frozen=True):
@@ -184,17 +188,21 @@ class _Commit(msgspec.Struct):
         for step, mark in zip(self.batch.steps, marks, strict=True):
             self.at = step.path
             if step.after is not None:
-                default = 0o777 if step.executable else 0o666
-                _create(os.path.join(self.root, mark.new), step.after, step.mode, default)
+                default = limited(0o777 if step.executable else 0o666, step.rights)
+                mode = None if step.mode is None else limited(step.mode, step.rights)
+                _create(os.path.join(self.root, mark.new), step.after, mode, default)
             if mark.old:
                 _second_name(os.path.join(self.root, step.path), os.path.join(self.root, mark.old))
 
     def apply(self) -> None:
-        for mark in self.journal.marks:
+        for step, mark in zip(self.batch.steps, self.journal.marks, strict=True):
             self.at = mark.path
             target = os.path.join(self.root, mark.path)
             if mark.orig:
-                _second_name(target, os.path.join(self.root, mark.orig))
+                orig = os.path.join(self.root, mark.orig)
+                _second_name(target, orig)
+                if step.rights != ANYBODY and not os.path.islink(orig):
+                    os.chmod(orig, limited(os.stat(orig).st_mode & 0o7777, step.rights))
             if mark.new:
                 os.replace(os.path.join(self.root, mark.new), target)
             elif mark.old:
@@ -234,8 +242,14 @@ def _mark(step: Step, number: int) -> Mark:
     )
 
 
+def limited(mode: int, rights: int) -> int:
+    """Permissions of which others keep no more than `rights`; who may not read may not run either."""
+    return mode & (0o7700 | rights | (rights & 0o044) >> 2)
+
+
 def _create(path: str, data: bytes, mode: int | None, default: int) -> None:
-    file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, default)
+    first = default if mode is None else mode & 0o700  # never more than it may have in the end
+    file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, first)
     try:
         if mode is not None:
             os.fchmod(file, mode)

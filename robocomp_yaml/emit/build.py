@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
@@ -44,9 +45,10 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
     def slices(modules: Iterable[LinkedModule], folder: str = "") -> Iterator[FilePlan]:
         for linked in modules:
             if id(linked) not in texts:
-                texts[id(linked)] = FilePlan(slice_target.file_name(linked), slice_target.text(linked))
+                text, sources = slice_target.text(linked), (linked.module.path,)
+                texts[id(linked)] = FilePlan(slice_target.file_name(linked), text, sources=sources)
             plain = texts[id(linked)]
-            yield FilePlan(folder + plain.path, plain.text) if folder else plain
+            yield replace(plain, path=folder + plain.path) if folder else plain
 
     def slice_root(linked: LinkedModule) -> str:
         return options.output or _slice_folder(options.workspace_of(linked.module.path))
@@ -71,6 +73,8 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             from robocomp_yaml.emit.component import component_plan, values_of
 
             plan = component_plan(component, options, slices, program)
+            sources = _documents_of(component)
+            plan.files = [replace(file, sources=(*sources, *file.sources)) for file in plan.files]
             if any(document.path in state.faulty for document in values_of(component, program)):
                 # What is wrong has been said; what the values wrote before stays until they are right again.
                 files = [file for file in plan.files if not file.path.startswith("etc/")]
@@ -80,6 +84,12 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             result.left_out.add(real)
     result.left_out |= _unused(program, state, result.left_out)
     return result
+
+
+def _documents_of(linked: LinkedComponent) -> tuple[str, ...]:
+    """The documents that all of a component is made of."""
+    parameters = linked.parameters.document
+    return (linked.component.path, *((parameters.path,) if parameters is not None else ()), *linked.machine_files)
 
 
 def _unused(program: Program, state: _State, left_out: set[str]) -> set[str]:

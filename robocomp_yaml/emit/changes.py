@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml import secrets
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.atomic import Step
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE
@@ -26,22 +27,35 @@ WRITING = (CREATE, UPDATE, ADOPT, EDITED, MERGE, REMOVE)
 
 
 class Change(msgspec.Struct, frozen=True):
-    """What happens to one file. `path` can be opened from the user's folder, `orig` too ('' where nothing is kept)."""
+    """What happens to one file. `path` can be opened from the user's folder, `orig` too ('' where nothing is kept).
+    `secrets` are properties in it that are not to be shown."""
 
     path: str
     action: str
     before: bytes | None = None
     after: bytes | None = None
     orig: str = ""
+    secrets: tuple[str, ...] = ()
 
     def diff(self) -> str:
-        """A unified diff, which `patch` takes: bytes that are no text stay what they are."""
-        return unified(
-            (self.before or b"").decode("utf-8", "surrogateescape"),
-            (self.after or b"").decode("utf-8", "surrogateescape"),
+        """A unified diff, which `patch` takes: bytes that are no text stay what they are. Secrets of property files are
+        hidden."""
+        before, after = ((data or b"").decode("utf-8", "surrogateescape") for data in (self.before, self.after))
+        found = unified(
+            before, after,
             os.devnull if self.before is None else f"a/{self.path}",
             os.devnull if self.after is None else f"b/{self.path}",
         )
+        is_config = os.path.basename(os.path.dirname(self.path)) == "etc"
+        return "".join(map(self._shown, found.splitlines(keepends=True))) if is_config else found
+
+    def _shown(self, line: str) -> str:
+        key, equals, value = line[1:].partition("=")
+        if not equals or line.startswith(("---", "+++", "@@")):
+            return line
+        end = "\n" if line.endswith("\n") else ""
+        said = secrets.value(key.strip(), value.strip(), self.secrets)
+        return line if said == value.strip() else f"{line[0]}{key}={said}{end}"
 
 
 class RootChanges(msgspec.Struct):

@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator
 
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import EnumType, ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.model.parameters import EnumType, ListType, MapType, Member, RecordType, Type, is_secret
+from robocomp_yaml.values.hidden import hidden
 from robocomp_yaml.values.json_schema import in_words, shortened
 from robocomp_yaml.values.prose import prose
 
@@ -90,12 +91,13 @@ def _linked(type_: Type) -> str:
 def _default(member: Member) -> str:
     if member.default is None:
         return "may be left out" if member.optional else "**required**"
-    return _code(shortened(member.default.data)).replace("|", "\\|")
+    return _code(shortened(hidden(member.type, member.default.data))).replace("|", "\\|")
 
 
 def _meaning(member: Member) -> str:
     doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
-    return f"{doc} May change while running.".strip() if member.editable else doc
+    facts = ("May change while running.", member.editable), ("Secret.", is_secret(member.type))
+    return " ".join(part for part in (doc, *(fact for fact, holds in facts if holds)) if part)
 
 
 def _cell(text: str) -> str:

@@ -10,8 +10,10 @@ from robocomp_yaml.model.parameters import (
     Member,
     RecordType,
     Type,
+    is_secret,
     unit_of,
 )
+from robocomp_yaml.values.hidden import hidden
 from robocomp_yaml.values.json_schema import shortened
 
 
@@ -21,11 +23,13 @@ def facts(member: Member) -> str:
     if not found and (unit := unit_of(member.type)):
         found.append(f"in {unit}")
     if member.default is not None:
-        found.append(f"default: {shortened(member.default.data)}")
+        found.append(f"default: {shortened(hidden(member.type, member.default.data))}")
     if member.optional:
         found.append("optional")
     if member.editable and not member.is_group:
         found.append("may change while the component runs")
+    if is_secret(member.type):
+        found.append("secret")
     line = "; ".join(found)
     return f"{line[:1].upper()}{line[1:]}." if line else ""
 

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+from collections.abc import Iterable
+
 import msgspec
+
+from robocomp_yaml.emit.atomic import ANYBODY
 
 ALWAYS, ONCE = "always", "once"
 
@@ -11,12 +17,26 @@ CONFIG = "etc/config"
 
 class FilePlan(msgspec.Struct, frozen=True):
     """One file below an output root. `path` is relative, with '/'. `policy` ALWAYS: ours, rewritten whenever it
-    changes. ONCE: written if it is missing, then the user's."""
+    changes. ONCE: written if it is missing, then the user's. `sources` are documents that it is made of: who cannot
+    read those cannot read it. `secrets` are properties in it that are not to be shown."""
 
     path: str
     text: str
     policy: str = ALWAYS
     executable: bool = False
+    sources: tuple[str, ...] = ()
+    secrets: tuple[str, ...] = ()
+
+
+def rights_of(sources: Iterable[str]) -> int:
+    """What others than the owner may do at most with a file that is made of these: nothing where they cannot read one
+    of them."""
+    rights = ANYBODY
+    for source in sources:
+        with contextlib.suppress(OSError):
+            mode = os.stat(source).st_mode
+            rights &= (0o060 if mode & 0o040 else 0) | (0o006 if mode & 0o004 else 0)
+    return rights
 
 
 class Merge(msgspec.Struct, frozen=True):

@@ -29,17 +29,17 @@ _DATA = ("schemas", "templates", "migrate")
 class Stamp(msgspec.Struct, frozen=True):
     """All paths are as the run used them, relative to its working folder or absolute.
 
-    `inputs`: of each file read, its real path and digest. `absent`: where it looked in vain. `folders`: of each folder
-    asked, what was found below. `names`: of folders, the documents in them. `outputs`: of each file written, its
-    digest and whether it may be run. `present`: files whose contents are the user's. `replay`: what the run had to say,
-    in the caller's form.
+    `inputs`: of each file read, its real path and its digest with who may read it. `absent`: where it looked in vain.
+    `folders`: of each folder asked, what was found below. `names`: of folders, the documents in them. `outputs`: of
+    each file written, its digest and who may read and run it. `present`: files whose contents are the user's.
+    `replay`: what the run had to say, in the caller's form.
     """
 
     tool: str
     inputs: dict[str, tuple[str, str]]
     absent: list[str]
     folders: dict[str, list[str]]
-    outputs: dict[str, tuple[str, bool]]
+    outputs: dict[str, tuple[str, str]]
     present: list[str]
     replay: dict[str, object]
     names: dict[str, list[str]] = {}
@@ -66,10 +66,10 @@ def take(
     try:
         return Stamp(
             tool(),
-            {path: (real.path(path), digest(data)) for path, data in inputs.items()},
+            {path: (real.path(path), f"{digest(data)} {_readers(os.stat(path)):o}") for path, data in inputs.items()},
             sorted(absent),
             {folder: list(found) for folder, found in folders.items()},
-            {path: (digest(data), _may_run(os.lstat(path))) for path, data in outputs.items()},
+            {path: (digest(data), _may(os.lstat(path))) for path, data in outputs.items()},
             sorted(present),
             dict(replay),
             dict(names),
@@ -89,7 +89,7 @@ def is_current(stamp: Stamp, find: Callable[[str], Iterable[str]]) -> bool:
             and all(list(find(folder)) == found for folder, found in stamp.folders.items())
             and all(documents_in(os.listdir(folder)) == found for folder, found in stamp.names.items())
             and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
-            and all(_digest(path) == hash_ for path, (_, hash_) in stamp.inputs.items())
+            and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
             and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
             and stamp.tool == tool()
         )
@@ -143,7 +143,7 @@ def _records(place: str) -> Iterator[str]:
     for name in sorted(os.listdir(place)):
         if name.startswith("rcyaml-") and name.endswith(".dist-info"):
             with contextlib.suppress(OSError):
-                yield f"{name} {_digest(os.path.join(place, name, 'RECORD'))}"
+                yield f"{name} {_state(os.path.join(place, name, 'RECORD'))}"
 
 
 def _states(folder: str, base: int) -> Iterator[str]:
@@ -173,18 +173,23 @@ class _Real:
         return os.path.join(self._folders[folder], name)
 
 
-def _is_as_written(path: str, hash_: str | bool, may_run: str | bool) -> bool:
+def _is_as_written(path: str, hash_: str, may: str) -> bool:
     status = os.lstat(path)
-    return stat.S_ISREG(status.st_mode) and _may_run(status) == may_run and _digest(path) == hash_
+    return stat.S_ISREG(status.st_mode) and _may(status) == may and _state(path).split()[0] == hash_
 
 
-def _may_run(status: os.stat_result) -> bool:
-    return bool(status.st_mode & stat.S_IXUSR)
+def _may(status: os.stat_result) -> str:
+    return f"{_readers(status) | status.st_mode & stat.S_IXUSR:o}"
 
 
-def _digest(path: str) -> str:
+def _readers(status: os.stat_result) -> int:
+    """Whether others than the owner may read it."""
+    return status.st_mode & (stat.S_IRGRP | stat.S_IROTH)
+
+
+def _state(path: str) -> str:
     with open(path, "rb", buffering=0) as file:
-        return digest(file.read())
+        return f"{digest(file.read())} {_readers(os.fstat(file.fileno())):o}"
 
 
 def _file(folder: str, name: str) -> str:

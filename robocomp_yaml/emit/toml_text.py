@@ -18,6 +18,7 @@ from robocomp_yaml.model.parameters import (
 )
 from robocomp_yaml.source.properties import unquoted
 from robocomp_yaml.source.tree import Scalar
+from robocomp_yaml.values import references
 from robocomp_yaml.values.effective import Effective
 from robocomp_yaml.values.properties import Section, legacy_file, properties
 from robocomp_yaml.values.spell_yaml import quoted
@@ -115,7 +116,7 @@ def _literal(type_: Type, data: Any, where: Where) -> str:
 
 def _scalar(type_: BasicType | EnumType, data: Any, where: Where) -> str:
     if isinstance(data, dict):
-        return quoted(f"${{env:{data['env']}}}")
+        return quoted(references.text(data, node_of(where), None))
     if isinstance(data, bool):
         return "true" if data else "false"
     if isinstance(data, str):

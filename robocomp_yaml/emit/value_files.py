@@ -10,7 +10,7 @@ from robocomp_yaml.emit.plan import CONFIG, FilePlan
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.values.effective import effective
-from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties
+from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties, secret_keys
 from robocomp_yaml.values.property_text import property_text
 from robocomp_yaml.values.write import Property
 
@@ -41,12 +41,15 @@ def configs(
         found, _ = effective(values)
         if found is None:
             continue
-        sections, _ = properties(values, found)
+        sections, _ = properties(values, found, beside=True)
         if not legacy_file(values) and dialect(values) == CLASSIC:
             sections = _with_connections(sections, linked, table)
         path = f"etc/{os.path.basename(legacy_file(values))}" if legacy_file(values) else CONFIG
         source = os.path.basename(values.document.path)
-        yield FilePlan(path, property_text(sections, linked.component.name, source))
+        yield FilePlan(
+            path, property_text(sections, linked.component.name, source), secrets=secret_keys(sections),
+            sources=tuple(layer.document.path for layer in values.layers()),
+        )  # fmt: skip
 
 
 def _with_connections(

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterable, Iterator
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -92,7 +93,10 @@ def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Wante
 
 def _want(wanted: WantedRoot, file: FilePlan, owner: str) -> None:
     first = wanted.files.setdefault(file.path, Wanted(file, []))
-    if first.plan != file:
+    sources = tuple(dict.fromkeys((*first.plan.sources, *file.sources)))
+    if sources != first.plan.sources:  # the same text may come from several documents
+        first.plan = replace(first.plan, sources=sources)
+    if first.plan != replace(file, sources=sources):
         wanted.contested.setdefault((first.owners[0], owner), []).append(file.path)
     elif owner not in first.owners:
         first.owners.append(owner)

@@ -16,7 +16,7 @@ from robocomp_yaml.emit.changes import Change, Changes, RootChanges
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, free_name
 from robocomp_yaml.emit.manifest import Entry, Manifest
 from robocomp_yaml.emit.places import Found
-from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan
+from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
 from robocomp_yaml.emit.wanted import WantedRoot, by_root
 from robocomp_yaml.source.digest import digest
 
@@ -150,13 +150,13 @@ class _Root:
             elif found.data == text:
                 # Ours from a run whose manifest was not kept, such as one before a fresh clone.
                 self._own(plan.path, digest(text), once=True)
-                self._keep_base(plan.path, text)
+                self._keep_base(plan, text)
         elif found.problem:
             self._refuse(plan.path, found)
         else:
             self._write(plan, Found(), changes.CREATE)
             self._own(plan.path, digest(text), once=True)
-            self._keep_base(plan.path, text)
+            self._keep_base(plan, text)
 
     def _merge(self, plan: FilePlan, found: Found, merge: Merge, entry: Entry | None) -> None:
         if merge.text == found.data:
@@ -164,7 +164,7 @@ class _Root:
         else:
             self._write(plan, found, changes.MERGE, merge.text)
         self._own(plan.path, ownership.merged(entry, merge), once=True)
-        self._keep_base(plan.path, merge.base)
+        self._keep_base(plan, merge.base)
 
     def _cannot_merge(self) -> bool:
         return self.root.real in self.merges.refused
@@ -177,7 +177,9 @@ class _Root:
         if not found.exists:
             self._write(plan, found, changes.CREATE)
         elif found.data == text:
-            if plan.executable and found.mode and not found.mode & 0o100:
+            rights = rights_of(plan.sources)
+            is_open = bool(found.mode) and found.mode != atomic.limited(found.mode, rights)
+            if is_open or (plan.executable and found.mode and not found.mode & 0o100):
                 self._write(plan, found, changes.UPDATE)
             else:
                 self._note(plan.path, changes.UNCHANGED)
@@ -264,7 +266,8 @@ class _Root:
             mode |= (mode & 0o444) >> 2
         if not self._has_another(plan):
             self.result.steps.append(atomic.Step(
-                plan.path, found.data if found.exists else None, text, plan.executable, mode, orig
+                plan.path, found.data if found.exists else None, text, plan.executable, mode, orig,
+                rights_of(plan.sources),
             ))
         return self._note(plan.path, action, found.data, text, orig)
 
@@ -272,7 +275,9 @@ class _Root:
         self, path: str, action: str, before: bytes | None = None, after: bytes | None = None, orig: str = ""
     ) -> Change:
         shown = self.root.shown
-        change = Change(shown(path), action, before, after, shown(orig) if orig else "")
+        wanted = self.wanted.files.get(path)
+        secrets = wanted.plan.secrets if wanted else ()
+        change = Change(shown(path), action, before, after, shown(orig) if orig else "", secrets)
         self.result.changes.append(change)
         return change
 
@@ -291,9 +296,9 @@ class _Root:
             Span(self.root.shown(path)), path=path, what=what, hint="what is yours belongs in src/ and etc/"
         ))
 
-    def _keep_base(self, path: str, text: bytes) -> None:
+    def _keep_base(self, plan: FilePlan, text: bytes) -> None:
         """The text as generated, which a later merge starts from."""
-        self._remember(f"{manifest.BASE}/{path}", text)
+        self._remember(f"{manifest.BASE}/{plan.path}", text, rights_of(plan.sources))
 
     def _drop_base(self, path: str) -> None:
         self._remember(f"{manifest.BASE}/{path}", None)
@@ -306,11 +311,11 @@ class _Root:
         if text is not None:
             self.result.settled[manifest.PATH] = text
 
-    def _remember(self, path: str, text: bytes | None) -> None:
+    def _remember(self, path: str, text: bytes | None, rights: int = atomic.ANYBODY) -> None:
         """A file of our own, which no report mentions."""
         found = self.root.look(path)
         if found.problem:
             self._refuse(path, found)
         elif found.data != text:
             before = found.data if found.exists else None
-            self.result.steps.append(atomic.Step(path, before, text))
+            self.result.steps.append(atomic.Step(path, before, text, mode=found.mode or None, rights=rights))

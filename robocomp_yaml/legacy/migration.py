@@ -103,7 +103,7 @@ def _plan(
         gap = "\n" if around.head else ""
         root = run.root(file.root)
         text = raw or _modeline(document, home, kind, content) + gap + yaml.text(content, around)
-        output = root.add(os.path.relpath(document, file.root), text, force=force)
+        output = root.add(os.path.relpath(document, file.root), text, force=force, sources=(file.path,))
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
         if home in written and not raw:

@@ -10,10 +10,12 @@ import json
 
 import msgspec
 
+from robocomp_yaml import secrets
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.emit.atomic import Batch, Step, WriteFailed, carry_out, recover
 from robocomp_yaml.emit.changes import unified
 from robocomp_yaml.emit.places import Root
+from robocomp_yaml.emit.plan import rights_of
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.migrated import MEMORY
 
@@ -23,22 +25,25 @@ UPGRADED = "upgraded"
 
 
 class Output(msgspec.Struct):
-    """One file that shall stand at `path` below the root. `state` says what is, or was, to be done about it."""
+    """One file that shall stand at `path` below the root, made of `sources`. `state` says what is, or was, to be done
+    about it."""
 
     path: str
     text: str
     state: str = ""
     before: str = ""
     problem: str = ""
+    sources: tuple[str, ...] = ()
 
     @property
     def differs(self) -> bool:
         return self.state in (CREATED, CHANGED, EDITED, UPGRADED)
 
     def diff(self, shown: str) -> str:
-        """From what stands there to what shall, as a unified diff."""
+        """From what stands there to what shall, as a unified diff; secrets are hidden."""
+        old, new = ("".join(secrets.hidden_lines(text)) for text in (self.before, self.text))
         name = "/dev/null" if self.state == CREATED else shown
-        return unified(self.before, self.text, name, shown)
+        return unified(old, new, name, shown)
 
 
 class OutputRoot(msgspec.Struct):
@@ -72,8 +77,8 @@ class OutputRoot(msgspec.Struct):
         found = self.root.look(path)
         return found.data is not None and self.memory.get(path) == digest(found.data)
 
-    def add(self, path: str, text: str, *, force: bool = False) -> Output:
-        output = Output(path, text)
+    def add(self, path: str, text: str, *, force: bool = False, sources: tuple[str, ...] = ()) -> Output:
+        output = Output(path, text, sources=sources)
         self.outputs.append(output)
         found, new = self.root.look(path), text.encode()
         if found.problem or self.problem:
@@ -102,7 +107,7 @@ class OutputRoot(msgspec.Struct):
         """Writes what is created and changed; a file that cannot be written is marked, and the others go on."""
         while True:
             todo = [output for output in self.outputs if output.state in (CREATED, CHANGED, UPGRADED)]
-            steps = [Step(o.path, self._before(o), o.text.encode()) for o in todo]
+            steps = [self._step(output) for output in todo]
             memory = self._memory()
             if memory is not None and memory != self.remembered:
                 steps.append(Step(MEMORY, self.remembered, memory))
@@ -120,8 +125,11 @@ class OutputRoot(msgspec.Struct):
                     self.problem = failed.reason
                     return
 
-    def _before(self, output: Output) -> bytes | None:
-        return None if output.state == CREATED else self.root.look(output.path).data
+    def _step(self, output: Output) -> Step:
+        found = self.root.look(output.path)
+        before = None if output.state == CREATED else found.data
+        mode = None if output.state == CREATED else found.mode or None
+        return Step(output.path, before, output.text.encode(), mode=mode, rights=rights_of(output.sources))
 
     def _memory(self) -> bytes | None:
         """What is to be remembered; None where there never was anything."""

@@ -45,9 +45,9 @@ def builder(kind: str) -> Callable[[Mapping, str], Model]:
 
 
 class Document(msgspec.Struct):
-    """A document as far as it could be read: `model` is None where it has errors of its own. `real` is its real
-    path, `module` the name of the module it defines, as far as that can be told; `component` is what it says under
-    `component:`, and None where it cannot be read at all."""
+    """A document as far as it could be read: `model` is None where it has errors of its own, `tree` where it is no
+    YAML. `real` is its real path, `module` the name of the module it defines, as far as that can be told;
+    `component` is what it says under `component:`, and None where it cannot be read at all."""
 
     path: str
     real: str
@@ -55,6 +55,7 @@ class Document(msgspec.Struct):
     model: Model | None = None
     module: str = ""
     component: str | None = None
+    tree: Node | None = None
 
 
 class Documents(msgspec.Struct):
@@ -104,6 +105,7 @@ class Documents(msgspec.Struct):
         yield from diagnostics
         if tree is None:
             return
+        document.tree = tree
         yield from (diagnostics := self._fits(document, tree))
         if not has_errors(diagnostics):
             assert isinstance(tree, Mapping)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
+from robocomp_yaml import secrets
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -24,7 +25,9 @@ from robocomp_yaml.model.parameters import (
     Parameters,
     Range,
     RecordType,
+    ScalarType,
     Type,
+    kind_in_words,
 )
 from robocomp_yaml.model.pdsl import Entry, ParameterDocument, Rule, Spec
 from robocomp_yaml.source.tree import Scalar
@@ -155,28 +158,31 @@ class _Resolver:
         return self.named(name)
 
     def members(
-        self, entries: tuple[Entry, ...], editable: bool | None, possible: tuple[str, ...]
+        self, entries: tuple[Entry, ...], editable: bool | None, possible: tuple[str, ...], *, secret: bool = False
     ) -> Iterator[Member]:
-        """Entries with their types; one without a type is left out, having been reported."""
+        """Entries with their types; one without a type is left out, having been reported. `secret`: the name of the
+        group around them says so."""
         what = "parameter" if "group" in possible else "member"
         for entry in entries:
             if not self.has_one_kind(entry.spec, what, entry.name, possible):
                 continue
             own = entry.editable if entry.editable is not None else editable
+            hidden = secret or secrets.is_secret(entry.name)
             type_: Type | None
             if entry.spec.kind == "group":
-                type_ = RecordType("", tuple(self.members(entry.spec.members, own, possible)), entry.doc)
+                type_ = RecordType("", tuple(self.members(entry.spec.members, own, possible, secret=hidden)), entry.doc)
                 self.group(entry, type_)
             else:
                 type_ = self.type(entry.spec, entry.name)
             if type_ is None:
                 continue
+            type_ = self.secret(entry, type_) if entry.secret else _named_so(type_) if hidden else type_
             if entry.optional and entry.default is not None:
                 self.found.append(codes.DEFAULT_AND_OPTIONAL.at(entry.default_span or entry.span, name=entry.name))
             default = None if entry.default is None else Default(entry.default.data, entry.default)
             yield Member(
-                entry.name, type_, entry.doc, default, entry.optional, bool(own), entry.code_name or entry.name,
-                span=entry.span,
+                entry.name, type_, entry.doc, default, entry.optional, bool(own), entry.secret is not None,
+                entry.code_name or entry.name, span=entry.span,
             )
 
     def group(self, entry: Entry, type_: RecordType) -> None:
@@ -186,6 +192,20 @@ class _Resolver:
             self.found.append(codes.LIMIT_MISFIT.at(entry.default_span or entry.span, key="default", problem=problem))
         if entry.optional:
             self.found.append(codes.LIMIT_MISFIT.at(entry.span, key="optional", problem=problem))
+
+    def secret(self, entry: Entry, type_: Type) -> Type:
+        """The type of a parameter that the document calls secret."""
+        assert entry.secret is not None
+        if entry.default is not None:
+            self.found.append(codes.SECRET_DEFAULT.at(entry.default_span or entry.span, name=entry.name, hint=(
+                "leave the default out: values documents give {env: NAME} or {file: PATH}"
+            )))  # fmt: skip
+        if _plain_of(type_) is None:
+            words = "a group" if isinstance(type_, RecordType) and type_.is_group else kind_in_words(type_)
+            words += ", and not of plain values" if isinstance(type_, ListType) else ""
+            self.found.append(codes.SECRET_MISFIT.at(entry.secret, name=entry.name, words=words))
+            return type_
+        return _as_secret(type_)
 
     def constraints(self, rules: tuple[Rule, ...]) -> Iterator[Constraint]:
         if rules:
@@ -200,6 +220,27 @@ class _Resolver:
                 ))
                 continue
             yield Constraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
+
+
+def _plain_of(type_: Type) -> ScalarType | None:
+    """The plain type that lists, at any depth, hold; None where they hold something else."""
+    while isinstance(type_, ListType):
+        type_ = type_.element
+    return type_ if isinstance(type_, BasicType | EnumType) else None
+
+
+def _as_secret(type_: Type) -> Type:
+    if isinstance(type_, ListType | MapType):
+        return replace(type_, element=_as_secret(type_.element))
+    return replace(type_, secret=True) if isinstance(type_, BasicType | EnumType) else type_
+
+
+def _named_so(type_: Type) -> Type:
+    """The type of what is secret by its name: texts and numbers are, and lists and maps of them."""
+    plain = type_
+    while isinstance(plain, ListType | MapType):
+        plain = plain.element
+    return _as_secret(type_) if isinstance(plain, BasicType) and plain.name != "bool" else type_
 
 
 _FOREIGN = {

@@ -53,6 +53,7 @@ def _entry(key: Scalar, node: Node) -> Entry:
     if not isinstance(node, Mapping):
         return Entry(key.lexeme, _spec(node, key), span=key.span)
     default = node.entries.get("default")
+    secret = node.entries.get("secret")
     editable = node.data.get("editable")  # type: ignore[attr-defined]
     return Entry(
         key.lexeme,
@@ -61,6 +62,7 @@ def _entry(key: Scalar, node: Node) -> Entry:
         default_span=default[0].span if default else None,
         optional=node.data.get("optional") is True,  # type: ignore[attr-defined]
         editable=editable if isinstance(editable, bool) else None,
+        secret=secret[0].span if secret is not None and secret[1].data is True else None,
         code_name=text(node, "as"),
         doc=doc(node),
         span=key.span,

@@ -87,13 +87,14 @@ class Size(Located, frozen=True):
 
 
 class BasicType(msgspec.Struct, frozen=True):
-    """`values` are the only ones allowed (none: any)."""
+    """`values` are the only ones allowed (none: any). What is `secret` is never shown."""
 
     name: str
     range: Range | None = None
     values: tuple[Literal, ...] = ()
     pattern: Pattern | None = None
     unit: str = ""
+    secret: bool = False
 
     @property
     def is_number(self) -> bool:
@@ -111,6 +112,7 @@ class EnumType(msgspec.Struct, frozen=True):
     enumerators: tuple[tuple[str, str], ...]  # name and documentation
     allowed: tuple[str, ...]
     doc: str = ""
+    secret: bool = False
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -159,7 +161,8 @@ class Default(Located, frozen=True):
 class Member(Located, frozen=True):
     """A parameter, or a member of a group or struct. `code_name` is the name in code before a language's escaping.
 
-    Required when it has neither a default nor is optional; a group has neither, its members may.
+    Required when it has neither a default nor is optional; a group has neither, its members may. `secret` where the
+    document says so: its type knows it whatever says so.
     """
 
     name: str
@@ -168,6 +171,7 @@ class Member(Located, frozen=True):
     default: Default | None = None
     optional: bool = False
     editable: bool = False
+    secret: bool = False
     code_name: str = ""
     span: Span = Span("")
 
@@ -220,6 +224,13 @@ def unit_of(type_: Type) -> str:
     while isinstance(type_, ListType | MapType):
         type_ = type_.element
     return type_.unit if isinstance(type_, BasicType) else ""
+
+
+def is_secret(type_: Type) -> bool:
+    """Whether a plain value is a secret, or the plain values that a list or map holds are."""
+    while isinstance(type_, ListType | MapType):
+        type_ = type_.element
+    return not isinstance(type_, RecordType) and type_.secret
 
 
 def leaves(record: RecordType, prefix: str = "") -> Iterator[tuple[str, Member]]:

@@ -45,7 +45,8 @@ class Spec(Located, frozen=True):
 
 
 class Entry(Located, frozen=True):
-    """A parameter, or a member of a group or struct. `editable` is None where nothing is said."""
+    """A parameter, or a member of a group or struct. `editable` is None where nothing is said; `secret` is the place of
+    the key where the document says so."""
 
     name: str
     spec: Spec
@@ -53,6 +54,7 @@ class Entry(Located, frozen=True):
     default_span: Span | None = None
     optional: bool = False
     editable: bool | None = None
+    secret: Span | None = None
     code_name: str = ""
     doc: str = ""
     span: Span = Span("")

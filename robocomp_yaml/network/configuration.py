@@ -21,7 +21,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
 from robocomp_yaml.values.effective import document_faults, effective
 from robocomp_yaml.values.layers import Place, data_of, merged
 from robocomp_yaml.values.overlay import overlay
-from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, Section, properties
+from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, Section, properties, secret_keys
 from robocomp_yaml.values.property_text import section_text
 from robocomp_yaml.values.write import Property, Writer
 
@@ -35,6 +35,7 @@ class Configuration(msgspec.Struct):
     draft: Draft
     base: Base
     text: str | None = None
+    secrets: tuple[str, ...] = ()
     diagnostics: list[Diagnostic] = []
 
     def make(self) -> None:
@@ -51,6 +52,7 @@ class Configuration(msgspec.Struct):
         if sections is None or any(fault.severity == "error" for fault in self.diagnostics):
             return
         sections = [section for section in sections if section.properties]
+        self.secrets = secret_keys(sections)
         document = os.path.basename(self.draft.instance.document.path)
         head = f"# Configuration of {self.draft.name}, derived by rcyaml from {document}: change it there.\n"
         if self.base.flat is None:

@@ -59,12 +59,13 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
     for draft in drafts.drafts.values():
         if gates.is_gate(draft):
             text: str | None = gates.program(draft)
+            hidden: tuple[str, ...] = ()
         else:
             configuration = Configuration(draft, base(draft))
             configuration.make()
             diagnostics += configuration.diagnostics
-            text = configuration.text
-        network.processes[draft.name] = processes.of_draft(draft, text, known)
+            text, hidden = configuration.text, configuration.secrets
+        network.processes[draft.name] = processes.of_draft(draft, text, known, hidden)
     diagnostics += length_faults(linked, drafts, network)
     diagnostics += _put_in_order(network, needs)
     return network, diagnostics

@@ -79,10 +79,12 @@ class Restart(msgspec.Struct, frozen=True):
 
 class ConfigFile(msgspec.Struct, frozen=True):
     """A file written for one process in the deployment's own folder, below `config/`; `path` is relative to that
-    folder. It may hold what nobody else should read: its mode is 0600."""
+    folder. It may hold what nobody else should read: its mode is 0600. `secrets` are the properties in it that are not
+    to be shown."""
 
     path: str
     text: str
+    secrets: tuple[str, ...] = ()
 
 
 class Process(Located, frozen=True, forbid_unknown_fields=True):
@@ -112,6 +114,8 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     groups: tuple[str, ...] = ()
     enabled: bool = True
     is_ice: bool = True
+    secrets: tuple[str, ...] = ()
+    """Names that stand for secrets in its arguments, beside those that say so themselves."""
     component: str = ""
     """The component's name in its CDSL, '' for other programs."""
     build: str = ""

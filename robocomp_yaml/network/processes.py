@@ -21,14 +21,17 @@ from robocomp_yaml.network.network import (
     Variable,
 )
 from robocomp_yaml.source.properties import entry_line
+from robocomp_yaml.values.hidden import declared
 
 _CODE = {"src": (".py", ".ui"), "generated": (".py",), "slice": (".ice",)}
 """What a component in Python reads when it starts: the folders, and how the names of the files there end."""
 _DEFAULTS = Restart()
 
 
-def of_draft(draft: Draft, text: str | None, known: dict[str, tuple[str, ...]]) -> Process:
-    """`text` is its configuration; `known` remembers the code of each component's folder."""
+def of_draft(
+    draft: Draft, text: str | None, known: dict[str, tuple[str, ...]], secrets: tuple[str, ...] = ()
+) -> Process:
+    """`text` is its configuration, with `secrets`; `known` remembers the code of each component's folder."""
     instance, entry = draft.instance, draft.instance.entry
     component = instance.component
     program = program_of(draft)
@@ -40,7 +43,7 @@ def of_draft(draft: Draft, text: str | None, known: dict[str, tuple[str, ...]]) 
     return Process(
         draft.name, draft.host.name, command, folder, PROGRAM if component is None else COMPONENT,
         env=tuple(Variable(one.name, one.value, one.source) for one in entry.env),
-        config=ConfigFile(f"config/{draft.name}", text) if text is not None and is_told else None,
+        config=ConfigFile(f"config/{draft.name}", text, secrets) if text is not None and is_told else None,
         endpoints=tuple(adapter.resolved() for adapter in draft.adapters),
         ready=_ready(draft),
         restart=_restart(entry.restart),
@@ -49,6 +52,7 @@ def of_draft(draft: Draft, text: str | None, known: dict[str, tuple[str, ...]]) 
         groups=tuple(group.name for group in instance.groups),
         enabled=entry.enabled,
         is_ice=component is not None or bool(draft.offers or entry.config_as or entry.connect),
+        secrets=tuple(sorted(set(declared(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
         extra=(*entry.extra, *_of_aliases(draft)),

@@ -25,6 +25,7 @@ from robocomp_yaml.model.expression import (
     Unary,
 )
 from robocomp_yaml.model.parameters import ListType, MapType, RecordType, Type
+from robocomp_yaml.values.references import is_reference
 
 UNKNOWN: Any = type("Unknown", (), {"__repr__": lambda self: "UNKNOWN"})()
 
@@ -71,8 +72,8 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
 
 
 def _known(data: Any) -> Any:
-    """A reference to the environment is not known yet."""
-    return UNKNOWN if data is None or (isinstance(data, dict) and data.keys() == {"env"}) else data
+    """What a reference stands for is not known yet."""
+    return UNKNOWN if data is None or is_reference(data) else data
 
 
 def _entry(owner: Any, index: Any) -> Any:

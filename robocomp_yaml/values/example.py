@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import islice
 from typing import Any
@@ -16,15 +17,27 @@ from robocomp_yaml.model.parameters import (
     ScalarType,
     Size,
     Type,
+    is_secret,
 )
 from robocomp_yaml.values.example_text import example_texts
+from robocomp_yaml.values.hidden import hidden
 
 _MOST = 16  # different values that are thought of
 _LARGEST = 1024  # entries of an example
 
 
 def example(member: Member) -> object:
-    return member.default.data if member.default is not None else example_of(member.type)
+    if isinstance(member.type, BasicType | EnumType) and member.type.secret:
+        return {"env": _variable(member.name)}
+    if member.default is not None and not is_secret(member.type):
+        return hidden(member.type, member.default.data)
+    return example_of(member.type)
+
+
+def _variable(name: str) -> str:
+    """A variable of the environment for what has this name."""
+    made = re.sub(r"[^A-Z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", name).upper()).strip("_")
+    return made if made[:1].isalpha() else f"SECRET_{made}".rstrip("_")
 
 
 def example_of(type_: Type) -> object:
@@ -54,7 +67,9 @@ def _different(element: Type, count: int) -> list[object]:
 
 def simplest(type_: ScalarType) -> Iterator[object]:
     """Values that fit, all different, the simplest first; at least one."""
-    if isinstance(type_, EnumType):
+    if type_.secret:
+        yield from ({"env": f"SECRET{number}" if number > 1 else "SECRET"} for number in range(1, _MOST + 1))
+    elif isinstance(type_, EnumType):
         yield from type_.allowed
     elif type_.values:
         is_text = type_.name == "string"

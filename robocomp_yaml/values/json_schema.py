@@ -26,11 +26,13 @@ from robocomp_yaml.model.parameters import (
     ScalarType,
     Size,
     Type,
+    is_secret,
     kind_in_words,
     unit_of,
 )
 from robocomp_yaml.source.schema import new_schema
 from robocomp_yaml.values.example import example, example_of
+from robocomp_yaml.values.hidden import hidden, holds_secret
 from robocomp_yaml.values.prose import prose
 from robocomp_yaml.values.spell_yaml import flow
 
@@ -38,21 +40,29 @@ Schema = dict[str, Any]
 DOCUMENT, EFFECTIVE, COMPLETE = "document", "effective", "complete"
 _REFERENCE: Schema = {
     "title": "Reference",
-    "description": "The value of an environment variable, taken when the component starts.",
+    "description": "The value of an environment variable, or the text of a file, taken when the component starts.",
     "type": "object",
-    "required": ["env"],
+    "minProperties": 1,
+    "maxProperties": 1,
+    "errorMessage": "a value is referred to by {env: NAME} or by {file: PATH}",
     "properties": {
         "env": {
             "title": "Variable", "description": "The name of the environment variable.", "type": "string",
             "pattern": "^[A-Za-z_][A-Za-z0-9_]*$(?!\\n)",
             "errorMessage": "env: is the name of an environment variable: letters, digits and underscores",
-        }
+        },
+        "file": {
+            "title": "File", "description": "The path of a file, from the folder of this document. One line end at the "
+            "end of its text does not count.", "type": "string",
+            "pattern": "^[^\\r\\n\\x00]*[^ \\t/\\r\\n\\x00]$(?!\\n)", "errorMessage": "file: is the path of a file",
+        },
     },
     "additionalProperties": False,
 }
-_REFERENCE_CHOICE = {"type": "object", "defaultSnippets": [{
-    "label": "from the environment", "description": "taken when the component starts", "body": {"env": "${1:NAME}"}
-}]}
+_REFERENCE_CHOICE = {"type": "object", "defaultSnippets": [
+    {"label": "from the environment", "description": "taken when the component starts", "body": {"env": "${1:NAME}"}},
+    {"label": "from a file", "description": "read when the component starts", "body": {"file": "${1:secrets/name}"}},
+]}
 
 
 def values_schema(parameters: Parameters, mode: str) -> Schema:
@@ -116,7 +126,7 @@ class _Maker(msgspec.Struct):
     """Makes schemas in one mode; structs go to `definitions`."""
 
     mode: str
-    definitions: dict[str, Schema] = msgspec.field(default_factory=lambda: {"env": _REFERENCE})
+    definitions: dict[str, Schema] = msgspec.field(default_factory=lambda: {"reference": _REFERENCE})
     # Types in words, and what is told of members: both are said in several places and modes, and made once.
     words: dict[int, str] = {}
     facts: dict[int, _Facts] = {}
@@ -181,7 +191,7 @@ class _Maker(msgspec.Struct):
             otherwise = {"if": {"type": kind}, "then": outside, "else": {"type": _types(kind, nullable), **said}}
         else:
             otherwise = {"type": _types(kind, nullable), **limits, **said}
-        made: Schema = {"if": {"type": "object"}, "then": {"$ref": "#/definitions/env"}, "else": otherwise}
+        made: Schema = {"if": {"type": "object"}, "then": {"$ref": "#/definitions/reference"}, "else": otherwise}
         if self.for_editors:
             made["anyOf"] = [{"enum": limits["enum"]} if "enum" in limits else {"type": kind},
                              _REFERENCE_CHOICE, {}]
@@ -245,7 +255,7 @@ class _Maker(msgspec.Struct):
         if facts is None:
             facts = self.facts[id(member)] = _facts(member, self.in_words(member.type))
         made: Schema = {"title": facts.title, "description": facts.description}
-        can_be_shown = not self.for_editors or _is_simple(example(member))
+        can_be_shown = (not self.for_editors or _is_simple(example(member))) and not holds_secret(member.type)
         if member.default is not None and can_be_shown:
             made["default"] = member.default.data
         if self.for_editors:
@@ -299,13 +309,15 @@ def _facts(member: Member, kind: str) -> _Facts:
     doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
     facts = [kind[0].upper() + kind[1:]] if not member.is_group else []
     if member.default is not None:
-        facts.append(f"default: {shortened(member.default.data)}")
+        facts.append(f"default: {shortened(hidden(member.type, member.default.data))}")
     elif member.optional:
         facts.append("may be left out")
     elif not member.is_group:
         facts.append("required")
     if member.editable and not member.is_group:
         facts.append("may change while running")
+    if is_secret(member.type):
+        facts.append("secret: give it as {env: NAME} or {file: PATH}")
     text = "; ".join(facts) + ("." if facts else "")
     if isinstance(member.type, EnumType):
         text += "".join(f"\n- `{name}`: {said}" for name, said in member.type.enumerators if said)

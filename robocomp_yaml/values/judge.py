@@ -21,14 +21,16 @@ from robocomp_yaml.model.parameters import (
     RecordType,
     ScalarType,
     Type,
+    is_secret,
     kind_in_words,
 )
+from robocomp_yaml.secrets import HIDDEN, url
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.values import references
 from robocomp_yaml.values.paths import Step, in_words
 
 Path = tuple[Step, ...]
 _TRUTHS = {"yes": "true", "on": "true", "y": "true", "no": "false", "off": "false", "n": "false"}  # in YAML 1.1
-_ENV_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 
 
 def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | None = None) -> Iterator[Diagnostic]:
@@ -45,13 +47,8 @@ def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | 
             yield from _record(type_, node, path, complete, key)
 
 
-def is_reference(node: Node) -> bool:
-    """`{env: NAME}`, where a plain value stands."""
-    return isinstance(node, Mapping) and "env" in node.entries
-
-
-def shown(node: Node) -> str:
-    """A value for messages, shortened."""
+def shown(node: Node, type_: Type) -> str:
+    """A value for messages, shortened; a secret is not shown."""
     if isinstance(node, Mapping):
         return "a mapping"
     if isinstance(node, Sequence):
@@ -59,10 +56,13 @@ def shown(node: Node) -> str:
     assert isinstance(node, Scalar)
     if node.data is None:
         return "empty"
+    if is_secret(type_):
+        return f"the text {HIDDEN}" if isinstance(node.data, str) else HIDDEN
     return f"the text '{_short(node.lexeme)}'" if isinstance(node.data, str) else _short(node.lexeme)
 
 
 def _short(text: str) -> str:
+    text = url(text)
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 
@@ -76,7 +76,9 @@ def _at(code: Code, node: Node, key: Scalar | None, *, hint: str = "", **facts: 
 
 def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
     hint = ""
-    if isinstance(node, Scalar) and isinstance(node.data, str) and isinstance(type_, BasicType):
+    if is_secret(type_):
+        pass  # a hint would say it
+    elif isinstance(node, Scalar) and isinstance(node.data, str) and isinstance(type_, BasicType):
         bare = node.lexeme.strip()
         if node.quoted and (type_.is_number and re.fullmatch(r"[-+]?[0-9.]+", bare) or (
             type_.name == "bool" and bare in ("true", "false", "True", "False")
@@ -87,7 +89,7 @@ def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diag
     elif isinstance(type_, BasicType) and type_.name == "string" and isinstance(node, Scalar) and node.lexeme:
         hint = f'text needs quotes here: "{node.lexeme}"'
     wanted = f"{kind_in_words(type_)}{_unit(type_)}"
-    return _at(codes.WRONG_TYPE, node, key, path=in_words(path), wanted=wanted, found=shown(node), hint=hint)
+    return _at(codes.WRONG_TYPE, node, key, path=in_words(path), wanted=wanted, found=shown(node, type_), hint=hint)
 
 
 def _unit(type_: Type) -> str:
@@ -95,7 +97,7 @@ def _unit(type_: Type) -> str:
 
 
 def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
-    if is_reference(node):
+    if references.node_is_reference(node):
         yield from _reference(node, path)
     elif isinstance(node, Mapping | Sequence) or node.data is None:
         yield _wrong_type(type_, node, path, key)
@@ -107,15 +109,23 @@ def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> It
 
 def _reference(node: Node, path: Path) -> Iterator[Diagnostic]:
     assert isinstance(node, Mapping)
-    name = node.entries["env"][1]
+    kind = next(kind for kind in references.KINDS if kind in node.entries)
+    key, name = node.entries[kind]
     for other, _ in node.items():
-        if other.lexeme != "env":
-            yield codes.BAD_REFERENCE.at(other.span, path=in_words(path), problem=f"has '{other.lexeme}' beside 'env'")
-    if not (isinstance(name.data, str) and _ENV_NAME.match(name.data)):
+        if other.lexeme != kind:
+            problem = f"has '{other.lexeme}' beside '{kind}'"
+            yield codes.BAD_REFERENCE.at(other.span, path=in_words(path), problem=problem)
+    if problem := references.problem(kind, name.data):
+        is_empty = isinstance(name, Scalar) and not name.lexeme and not name.quoted
         yield codes.BAD_REFERENCE.at(
-            name.span, path=in_words(path), problem="names no variable of the environment",
-            hint="a variable's name has letters, digits and underscores, and starts with no digit",
+            key.span if is_empty else name.span, path=in_words(path), problem=problem, hint=_REFERENCE_HINTS[kind]
         )
+
+
+_REFERENCE_HINTS = {
+    references.ENV: "a variable's name has letters, digits and underscores, and starts with no digit",
+    references.FILE: "file: is the path of a file that is read when the component starts",
+}
 
 
 def _enumerated(type_: EnumType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
@@ -124,9 +134,10 @@ def _enumerated(type_: EnumType, node: Node, path: Path, key: Scalar | None) -> 
     if not isinstance(node.data, str):
         yield _wrong_type(type_, node, path, key)
         return
-    meant = suggest(node.data, type_.allowed)
+    meant = None if type_.secret else suggest(node.data, type_.allowed)
+    value = HIDDEN if type_.secret else f"'{node.data}'"
     yield _at(
-        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"'{node.data}'", wanted=kind_in_words(type_),
+        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=kind_in_words(type_),
         hint=f"did you mean '{meant}'?" if meant else "",
     )
 
@@ -142,9 +153,8 @@ def _basic(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Iter
         elif type_.values and all(value != allowed.value for allowed in type_.values):
             yield _not_allowed(type_, node, path, key)
         elif type_.pattern and not type_.pattern.matches(value):
-            yield _at(
-                codes.NO_MATCH, node, key, path=in_words(path), value=_short(value), pattern=type_.pattern.text
-            )
+            said = HIDDEN if type_.secret else f"'{_short(value)}'"
+            yield _at(codes.NO_MATCH, node, key, path=in_words(path), value=said, pattern=type_.pattern.text)
     elif isinstance(value, bool) or not isinstance(value, int | float):
         yield _wrong_type(type_, node, path, key)
     elif not isfinite(value) if isinstance(value, float) else False:
@@ -170,7 +180,7 @@ def _number(
     elif not least <= value <= most:
         wanted = f"from {least} to {most} ({type_.name})"
     if wanted:
-        lexeme = node.lexeme if isinstance(node, Scalar) else str(value)
+        lexeme = HIDDEN if type_.secret else node.lexeme if isinstance(node, Scalar) else str(value)
         yield _at(
             codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{_short(lexeme)}{unit}", wanted=wanted
         )
@@ -179,11 +189,12 @@ def _number(
 def _not_allowed(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
     allowed = [value.lexeme for value in type_.values]
     unit = f" {type_.unit}" if type_.unit else ""
-    meant = suggest(str(node.data), allowed) if type_.name == "string" else None
-    found = _short(node.lexeme) if isinstance(node, Scalar) else ""
+    meant = suggest(str(node.data), allowed) if type_.name == "string" and not type_.secret else None
+    found = HIDDEN if type_.secret else _short(node.lexeme) if isinstance(node, Scalar) else ""
+    value = f"{found!r}" if type_.name == "string" and not type_.secret else f"{found}{unit}"
     return _at(
-        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{found!r}" if type_.name == "string" else
-        f"{found}{unit}", wanted=f"one of {', '.join(allowed)}{unit}", hint=f"did you mean '{meant}'?" if meant else "",
+        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=f"one of {', '.join(allowed)}{unit}",
+        hint=f"did you mean '{meant}'?" if meant else "",
     )
 
 
@@ -198,7 +209,7 @@ def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar |
         if type_.unique:
             known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
             if known in seen:
-                yield codes.NOT_UNIQUE.at(item.span, path=in_words(path), value=shown(item))
+                yield codes.NOT_UNIQUE.at(item.span, path=in_words(path), value=shown(item, type_.element))
             seen.add(known)
 
 

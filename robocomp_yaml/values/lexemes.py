@@ -15,7 +15,6 @@ TRUTHS = {"true": True, "True": True, "TRUE": True, "1": True, "false": False, "
           "0": False}
 _WHOLE = r"[-+]?[0-9]{1,40}(?:\.0*)?\Z"
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z"
-_REFERENCE = r"\$\{env:([A-Za-z_][A-Za-z0-9_]*)\}\Z"
 
 
 def read(type_: ScalarType, text: str) -> bool | int | float | str:
@@ -34,12 +33,6 @@ def read(type_: ScalarType, text: str) -> bool | int | float | str:
     if not re.match(_NUMBER, bare) or not isfinite(float(bare)):
         raise ValueError(f"'{text}' is no number")
     return float(bare)
-
-
-def reference(text: str) -> str | None:
-    """The variable of the environment that the text is a reference to."""
-    found = re.match(_REFERENCE, text) if text.startswith("$") else None
-    return found[1] if found else None
 
 
 def spelled(data: object) -> str:

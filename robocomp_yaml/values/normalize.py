@@ -21,6 +21,7 @@ from robocomp_yaml.model.parameters import (
     RecordType,
     Type,
 )
+from robocomp_yaml.values import references
 from robocomp_yaml.values.defaults import defaults
 from robocomp_yaml.values.json_schema import (
     COMPLETE,
@@ -140,15 +141,14 @@ _NOTHING = object()  # for null, which Cerberus would take for a wish for the de
 
 
 def with_references(type_: Type, data: Any) -> Any:
-    """`{env: NAME}`, where a plain value stands, as an object of its own, so that Cerberus takes it for one."""
+    """A reference, where a plain value stands, as an object of its own, so that Cerberus takes it for one."""
     from robocomp_yaml.values.rules import Reference
 
     if data is None:
         return _NOTHING
     match type_:
         case BasicType() | EnumType():
-            is_reference = isinstance(data, dict) and data.keys() == {"env"} and _is_variable(data["env"])
-            return Reference(data["env"]) if is_reference else data
+            return Reference(dict(data)) if references.is_sound(data) else data
         case ListType(element=element) if isinstance(data, list):
             return [with_references(element, item) for item in data]
         case MapType(element=element) if isinstance(data, dict):
@@ -160,16 +160,12 @@ def with_references(type_: Type, data: Any) -> Any:
             return data
 
 
-def _is_variable(name: object) -> bool:
-    return isinstance(name, str) and name.isascii() and name.isidentifier()
-
-
 def as_data(type_: Type, data: Any) -> Any:
-    """What Cerberus made as plain data: references as `{"env": NAME}`, members in the order of their type."""
+    """What Cerberus made as plain data: references as `{"env": NAME}`, say; members in the order of their type."""
     from robocomp_yaml.values.rules import Reference
 
     if isinstance(data, Reference):
-        return {"env": data.name}
+        return dict(data.data)
     match type_:
         case ListType(element=element) if isinstance(data, list):
             return [as_data(element, item) for item in data]

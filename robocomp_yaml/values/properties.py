@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 
@@ -44,10 +45,10 @@ def legacy_file(values: LinkedValues) -> str:
 
 
 def properties(
-    values: LinkedValues, effective: Effective, *, quoted: bool = False
+    values: LinkedValues, effective: Effective, *, quoted: bool = False, beside: bool = False
 ) -> tuple[list[Section], list[Diagnostic]]:
     """The properties of a document and its layers, and what of it no property can hold. `quoted`: text stands in
-    quotes, as it does in flat TOML anyway."""
+    quotes, as it does in flat TOML anyway. `beside`: they are for a file in the document's folder."""
     form = dialect(values)
     root = values.document.root
     entry = root.entries.get("parameters") or root.entries.get("component")
@@ -61,7 +62,8 @@ def properties(
         Section("Others", [_property(key, node, False) for key, node in given(values, "properties")]),
     ]
     unquotes = _seems_toml(effective.parameters, sections)
-    writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote, unquotes)
+    folder = os.path.dirname(values.document.path) if beside else None
+    writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote, unquotes, folder)
     sections.insert(3, Section("Parameters", writer.write(effective.data, effective.place)))
     faults = list(writer.faults)
     exact = {key: node.lexeme for key, node in given(values, "legacy", "exact") if isinstance(node, Scalar)}
@@ -88,6 +90,11 @@ def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:
     own = [f"{member.name}." for member in parameters.root.members]
     others = [made.key for section in sections for made in section.properties]
     return any(_OF_TOML.match(key) for key in (*spelled, *own, *others))
+
+
+def secret_keys(sections: list[Section]) -> tuple[str, ...]:
+    """The properties that are not to be shown."""
+    return tuple(sorted(made.key for section in sections for made in section.properties if made.secret))
 
 
 def as_dict(sections: list[Section]) -> dict[str, str]:

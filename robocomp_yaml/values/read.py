@@ -23,7 +23,7 @@ from robocomp_yaml.model.parameters import (
 )
 from robocomp_yaml.model.pdsl import Spelling
 from robocomp_yaml.source.properties import unquoted
-from robocomp_yaml.values import lexemes, rows
+from robocomp_yaml.values import references, rows
 from robocomp_yaml.values.normalize import as_data
 from robocomp_yaml.values.paths import unescaped
 from robocomp_yaml.values.rules import ParameterValidator, Reference, rules_of
@@ -35,8 +35,8 @@ def properties_to_values(
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """The values that a property set gives, and Cerberus's errors by parameter (none: all is well).
 
-    `quoted`: text stands in double quotes, as in flat TOML. `resolve`: references take their values from the
-    environment; else they stay references.
+    `quoted`: text stands in double quotes, as in flat TOML. `resolve`: references are followed; else they stay
+    references.
     """
     texts = _Reader(properties, parameters, quoted, resolve).record(parameters.root, "", "", top=True)
     validator = ParameterValidator(rules_of(parameters.root, from_text=True))
@@ -117,10 +117,10 @@ class _Reader:
         is_text = isinstance(type_, EnumType) or type_.name == "string"
         if self.quoted and is_text:
             text = unquoted(text)
-        variable = lexemes.reference(text)
-        if variable is None:
+        found = references.read(text)
+        if found is None:
             return text
-        return os.environ.get(variable) if self.resolve else Reference(variable)
+        return _resolved(found) if self.resolve else Reference(found)
 
     def spelled(self, spelling: Spelling, type_: Type) -> Any:
         if isinstance(type_, BasicType | EnumType):
@@ -190,6 +190,18 @@ class _Reader:
                     row |= dict(zip(template.holes, in_key.groups(), strict=True))
                 found.append((tuple(map(_by_number, in_key.groups())), row))
         return [row for _, row in sorted(found, key=lambda pair: pair[0])] if found else None
+
+
+def _resolved(reference: dict[str, str]) -> str | None:
+    """What a reference stands for, here and now; None where nothing does."""
+    if references.ENV in reference:
+        return os.environ.get(reference[references.ENV])
+    try:
+        with open(os.path.expanduser(reference[references.FILE]), encoding="utf-8", newline="") as file:
+            text = file.read()
+    except (OSError, ValueError):
+        return None
+    return text.removesuffix("\n").removesuffix("\r") if text.endswith("\n") else text
 
 
 def _is_digits(text: str) -> bool:

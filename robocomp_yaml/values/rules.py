@@ -30,18 +30,18 @@ Rules = dict[str, Any]
 
 
 class Reference:
-    """`{env: NAME}`: a value that is known only when the component starts."""
+    """`{env: NAME}` or `{file: PATH}`: a value that is known only when the component starts."""
 
-    __slots__ = ("name",)
+    __slots__ = ("data",)
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, data: dict[str, str]) -> None:
+        self.data = data
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Reference) and other.name == self.name
+        return isinstance(other, Reference) and other.data == self.data
 
     def __hash__(self) -> int:
-        return hash(self.name)
+        return hash(tuple(self.data.items()))
 
 
 class ParameterValidator(Validator):  # type: ignore[misc]  # cerberus has no types

@@ -6,8 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import msgspec
+from msgspec.structs import replace
 
+from robocomp_yaml import secrets
 from robocomp_yaml.model.parameters import (
+    BasicType,
     ListType,
     MapType,
     Member,
@@ -15,8 +18,10 @@ from robocomp_yaml.model.parameters import (
     Type,
     unit_of,
 )
-from robocomp_yaml.source.tree import Node, Scalar
+from robocomp_yaml.secrets import HIDDEN
+from robocomp_yaml.source.tree import Node, Scalar, parse
 from robocomp_yaml.values.effective import Effective
+from robocomp_yaml.values.hidden import hidden, holds_secret
 from robocomp_yaml.values.layers import Place, child
 from robocomp_yaml.values.paths import Step, in_words
 from robocomp_yaml.values.spell_yaml import flow
@@ -35,10 +40,47 @@ class Shown(msgspec.Struct, frozen=True):
     node: Node | None
     default: Node | None
     overrode: tuple[Node, ...]
+    type: Type = RecordType("", ())
+    steps: Path = ()
+    reveal: bool = True
+
+    def hide(self, data: Any) -> Any:
+        """What was given in another layer, as it may be shown."""
+        return data if self.reveal else _hidden(self.type, self.steps, data)
 
 
-def shown(effective: Effective) -> Iterator[Shown]:
-    yield from _record(effective.parameters.root, effective.data, effective.place, None, (), False)
+def shown(effective: Effective, *, reveal: bool) -> Iterator[Shown]:
+    """Secrets are hidden unless `reveal` says otherwise."""
+    for row in _record(effective.parameters.root, effective.data, effective.place, None, (), False):
+        data = row.data if reveal else _hidden(row.type, row.steps, row.data)
+        text = row.text if data == row.data else flow(data) if data != HIDDEN else HIDDEN
+        yield replace(row, data=data, text=text, reveal=reveal)
+
+
+def _hidden(type_: Type, steps: Path, data: Any) -> Any:
+    """Data at a path, as it may be shown: what stands in a map can be secret by its name."""
+    name = steps[-1] if steps else 0
+    named = isinstance(data, str) and data != "" and isinstance(name, str) and secrets.is_secret(name)
+    return HIDDEN if named and isinstance(type_, BasicType) else hidden(type_, data)
+
+
+def hidden_at(root: RecordType, steps: list[str], data: Any) -> Any:
+    type_ = type_at(root, steps)
+    return data if type_ is None else _hidden(type_, tuple(steps), data)
+
+
+def hidden_text(root: RecordType, steps: list[str], text: str) -> str:
+    """A value as it is written in a document, as it may be shown."""
+    type_ = type_at(root, steps)
+    if type_ is None or not text or text == "null":
+        return text
+    node, _ = parse("", text)
+    if node is None:
+        return HIDDEN if holds_secret(type_) or secrets.is_secret(steps[-1]) else secrets.url(text)
+    data = hidden_at(root, steps, node.data)
+    if data == node.data:
+        return text
+    return HIDDEN if data == HIDDEN else flow(data)
 
 
 def _record(
@@ -71,7 +113,7 @@ def _value(
         as_spelled = isinstance(spelled, Scalar) and spelled.data == data and not isinstance(data, str)
         text = spelled.lexeme if as_spelled else flow(data)  # type: ignore[union-attr]
         overrode = tuple(where.overrode) if isinstance(where, Place) else ()
-        yield Shown(in_words(path), data, text, unit_of(type_), editable, node, default, overrode)
+        yield Shown(in_words(path), data, text, unit_of(type_), editable, node, default, overrode, type_, path)
 
 
 def _below(where: Where, name: Step) -> Where:

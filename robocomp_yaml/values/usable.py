@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.model.parameters import RecordType, Type, leaves
-from robocomp_yaml.source.tree import Mapping, Node, Sequence
+from robocomp_yaml.source.tree import Node
 from robocomp_yaml.values.judge import judge
+from robocomp_yaml.values.references import has_reference
 from robocomp_yaml.values.spelling import fault
 
 
@@ -38,10 +39,4 @@ def _defaults_fit(record: RecordType) -> bool:
 
 
 def _fits(type_: Type, node: Node) -> bool:
-    return not _has_reference(node) and not any(judge(type_, node, (), complete=True))
-
-
-def _has_reference(node: Node) -> bool:
-    if isinstance(node, Mapping):
-        return node.entries.keys() == {"env"} or any(_has_reference(value) for _, value in node.items())
-    return isinstance(node, Sequence) and any(map(_has_reference, node.items))
+    return not has_reference(node) and not any(judge(type_, node, (), complete=True))

@@ -9,7 +9,9 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import msgspec
+from msgspec.structs import replace
 
+from robocomp_yaml import secrets
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -25,10 +27,12 @@ from robocomp_yaml.model.parameters import (
     Type,
 )
 from robocomp_yaml.model.pdsl import Spelling
+from robocomp_yaml.secrets import HIDDEN
 from robocomp_yaml.source.properties import unquoted, unwritable
 from robocomp_yaml.source.tree import Node, Scalar
-from robocomp_yaml.values import lexemes, rows
+from robocomp_yaml.values import lexemes, references, rows
 from robocomp_yaml.values.defaults import with_defaults
+from robocomp_yaml.values.hidden import holds_secret
 from robocomp_yaml.values.layers import Place, child
 from robocomp_yaml.values.paths import Step, escaped, in_words
 from robocomp_yaml.values.spelling import Template
@@ -40,24 +44,30 @@ _EMPTY_OPTIONAL = "an optional one that is empty cannot be told from one that is
 
 class Property(msgspec.Struct, frozen=True):
     """One line of a property file. `read` gives what a text in its place would mean (None for texts that mean just
-    themselves), so that another spelling of the same value can stand there."""
+    themselves), so that another spelling of the same value can stand there. `secret`: its value is not to be shown."""
 
     key: str
     value: str
     span: Span | None = None
     read: Callable[[str], Any] | None = None
+    secret: bool = False
+
+    def hidden(self) -> Property:
+        """The line as it may be shown."""
+        return replace(self, value=HIDDEN if self.secret else secrets.value(self.key, self.value))
 
 
 class Writer(msgspec.Struct):
     """Writes the parameters. `only_given`: defaults are left out. `quote`: text stands in double quotes, as in flat
     TOML. `unquotes`: whoever reads the file takes such quotes away. `head` is where faults are shown that have no line
-    of their own."""
+    of their own; `folder` is that of the file to be, None where it may be put anywhere."""
 
     parameters: Parameters
     head: Span
     only_given: bool = False
     quote: bool = False
     unquotes: bool = False
+    folder: str | None = None
     faults: list[Diagnostic] = []
 
     def write(self, data: dict[str, Any], place: Place | None) -> list[Property]:
@@ -128,7 +138,8 @@ class Writer(msgspec.Struct):
         read: Callable[[str], Any] | None = None if is_text else lambda other: lexemes.read(type_, other)
         if self.quote and is_text and '"' not in text:
             text, read = f'"{text}"', unquoted
-        yield from self.checked(Property(key, text, span_of(where), read), where, path)
+        is_secret = type_.secret and not references.is_reference(data)
+        yield from self.checked(Property(key, text, span_of(where), read, is_secret), where, path)
 
     def checked(self, made: Property, where: Where, path: Path) -> Iterator[Property]:
         if problem := unwritable(made.key, made.value):
@@ -139,13 +150,14 @@ class Writer(msgspec.Struct):
     def text(self, type_: ScalarType, data: Any, where: Where, path: Path) -> str | None:
         """The text of a plain value; None where none can be."""
         if isinstance(data, dict):
-            return f"${{env:{data['env']}}}"
+            return references.text(data, node_of(where), self.folder)
         if isinstance(data, str):
             if any(char in data for char in "\r\n\0"):
                 self.fault(where, path, "it holds a line end")
                 return None
-            if lexemes.reference(data):
-                self.fault(where, path, "it would be read as a reference to the environment")
+            if references.read(data):
+                what = "a file" if references.FILE in references.read(data) else "the environment"
+                self.fault(where, path, f"it would be read as a reference to {what}")
                 return None
             if (self.quote or self.unquotes) and unquoted(data) != data:
                 self.fault(where, path, "in quotes, it would be read without them")
@@ -221,12 +233,13 @@ class Writer(msgspec.Struct):
             del filled[-1]  # what is optional at the end of a row may be left out
         text = spelling.separator.join(filled)
         if not self.reads_back(rows.read_row(record, spelling.columns, text, spelling.separator), texts, record):
-            self.fault(where, path, f"its row, '{text}', would be read differently")
+            said = "" if holds_secret(record) else f", '{text}',"
+            self.fault(where, path, f"its row{said} would be read differently")
             return
         if text:
             yield from self.checked(Property(
                 key, text, span_of(where), lambda other: self.meaning(record, rows.read_row(
-                    record, spelling.columns, other, spelling.separator))
+                    record, spelling.columns, other, spelling.separator)), holds_secret(record),
             ), where, path)
 
     def columns(
@@ -298,11 +311,12 @@ class Writer(msgspec.Struct):
             return
         text = rows.join_parts(texts, spelling)
         if rows.read_parts(type_, text, spelling) != self.as_read(spelling, type_, texts):
-            self.fault(where, path, f"its separators cannot say '{text}'")
+            said = "it" if holds_secret(type_) else f"'{text}'"
+            self.fault(where, path, f"its separators cannot say {said}")
         elif text:
             yield from self.checked(Property(
                 spelling.key, text, span_of(where),
-                lambda other: self.typed(type_, rows.read_parts(type_, other, spelling)),
+                lambda other: self.typed(type_, rows.read_parts(type_, other, spelling)), holds_secret(type_),
             ), where, path)
 
     def texts(self, spelling: Spelling, type_: Type, data: Any, where: Where, path: Path) -> Any:

@@ -12,9 +12,10 @@ from robocomp_yaml.emit.parameter_files import SCHEMA, schemas
 from robocomp_yaml.pipeline import analyse
 
 P = "parameters:\n"
-FORMS = ["number", "choice", "text", "list", "map"]
+FORMS = ["number", "choice", "text", "secret", "list", "map"]
 BASIC = ["bool", "int", "long", "float", "double", "string"]
-IN_MEMBER = ["doc", "type", "list", "map", "range", "values", "pattern", "size", "unique", "unit", "default", "optional", "as"]
+IN_MEMBER = ["doc", "type", "list", "map", "range", "values", "pattern", "size", "unique", "unit", "default", "optional",
+             "secret", "as"]  # fmt: skip
 COMPLETIONS = [
     ("|", ["parameters document", "types: …", "parameters: …", "constraints: …", "legacy: …", "component", "doc",
            "types", "parameters", "constraints", "legacy"]),
@@ -28,6 +29,7 @@ COMPLETIONS = [
     (P + "  a: {list: int, size: |}", ["least and most", "exactly", "at least", "at most"]),
     (P + "  a: {type: int, values: |}", ["list of values"]),
     (P + "  a: {type: bool, editable: |}", ["true", "false"]),
+    (P + "  a: {type: string, secret: |}", ["true", "false"]),
     ("types: |", ["struct", "enum", "limited type"]),
     ("types:\n  A: |", ["a struct", "an enum", "a limited type", "a list"]),
     ("types:\n  A: {enum: |}", ["names", "documented names"]),
@@ -81,8 +83,8 @@ def modeline(editor: Workbench, tmp_path_factory: pytest.TempPathFactory) -> str
 VALUES = "parameters:\n"
 VALUE_COMPLETIONS = [
     (VALUES + "  |", ["mode", "volume", "on", "motors", "Yolo", "period"]),
-    (VALUES + "  mode: |", ["slow", "fast", "from the environment"]),
-    (VALUES + "  on: |", ["true", "from the environment", "false"]),
+    (VALUES + "  mode: |", ["slow", "fast", "from the environment", "from a file"]),
+    (VALUES + "  on: |", ["true", "from the environment", "from a file", "false"]),
     (VALUES + "  motors:\n    - {n|}", ["name", "vel"]),
     (VALUES + "  Yolo: {u|}", ["use_gpu"]),
 ]
@@ -91,6 +93,8 @@ VALUE_MESSAGES = [
     ("  volume: 101", ["2:11 this is a whole number from 0 to 100 (percent)"]),
     ("  volume: true", ["2:11 this is a whole number from 0 to 100 (percent)"]),
     ("  volume: {env: SPEECH_VOLUME}", []),
+    ("  volume: {file: volume.txt}", []),
+    ("  volume: {file: volume/}", ["2:18 file: is the path of a file"]),
     ("  volume: {env: 7}", ["2:17 env: is the name of an environment variable: letters, digits and underscores"]),
     ("  volum: 1", ["2:3 Property volum is not allowed."]),
     ("  motors: []", ["2:11 there must be from 1 to 2 entries"]),

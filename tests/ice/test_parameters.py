@@ -34,6 +34,10 @@ parameters:
   offsets: {map: float, default: {}, editable: true}
   motors: {list: Motor, size: [1, 4], editable: true}
   Yolo: {group: {useGpu: {type: bool, default: true, editable: true}}}
+  pin: {type: int, range: [1000, 9999], secret: true, optional: true, editable: true}
+  locks: {list: string, unique: true, secret: true, optional: true, editable: true}
+  password: {type: string, pattern: "[a-z0-9]+", optional: true, editable: true}
+  server: {type: string, optional: true, editable: true}
 constraints:
   - {that: "all(m.min < m.max for m in motors)", else: a motor's min must be below its max}
 legacy:
@@ -78,6 +82,8 @@ class SpecificWorker(GenericWorker):
         paths = ",".join(change.paths) if change else "-"
         print(f"[{paths}]", now.mode, now.device, now.basicPeriod, now.token, len(now.gains), motors,
               f"{sum(now.offsets.values()):g}", int(now.Yolo.useGpu), now.period.compute, flush=True)
+        if now.device == "/dev/safe":
+            print("safe:", now.pin, *now.locks, now.password, now.server, flush=True)
         if now.basicPeriod == 7:
             try:
                 now.change({"basicPeriod": 8, "motors[0].vel": 9})
@@ -162,6 +168,15 @@ void show(Parameters& parameters, const runtime::Change& change)
         sum += value;
     }
     std::cout << " " << sum << " " << parameters.Yolo()->useGpu << " " << now->period.compute << std::endl;
+    if (parameters.device() == "/dev/safe")
+    {
+        std::cout << "safe: " << parameters.pin().value_or(0);
+        for (const auto& lock : now->locks.value_or(std::vector<std::string>{}))
+        {
+            std::cout << " " << lock;
+        }
+        std::cout << " " << now->password.value_or("None") << " " << now->server.value_or("None") << std::endl;
+    }
     if (now->basicPeriod == 7)
     {
         try
@@ -421,6 +436,118 @@ def test_reading_the_config_again(component: Component, start: Start, behavior: 
     asked.reloadConfig()
     until(lambda: running.output.count("reloadConfig refused") == 3, "the third refusal")
     assert asked.getParameterList()["basicPeriod"].value == "77"
+
+
+SAFE = {"Arm_Device": "/dev/safe", "pin": "4711", "locks_0": "oak", "locks_1": "elm", "password": "hunter2",
+        "server": "http://bob:beech@there/x", "Mail_Password": "birch", "Mail_Url": "imap://bob:larch@there"}  # fmt: skip
+SECRETS = ("4711", "oak", "elm", "hunter2", "beech", "birch", "larch")
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--pin=17",), "pin is ***, and must be from 1000 to 9999"),
+        (("--pin=hunter2",), "pin must be a whole number, and is ***"),
+        (("--locks.0=hunter2", "--locks.1=hunter2"), "locks holds *** twice"),
+        (("--password=HUNTER2",), "password is ***, and must match [a-z0-9]+"),
+        (("--pin=${file:/nowhere/pin}",), "comes from the file /nowhere/pin, which cannot be read: No such file or directory"),
+        (("--mode=${file:/}",), "mode is '${file:/}', and must be one of slow, fast"),
+        (("--mode=${file:/etc}",), "mode comes from the file /etc, which is no regular file"),
+        (("--mode=${file:/dev/zero}",), "mode comes from the file /dev/zero, which is no regular file"),
+    ],
+)
+def test_a_secret_that_is_wrong_is_not_shown(
+    component: Component, start: Start, options: tuple[str, ...], said: str
+) -> None:
+    running = component.run(start, *options)
+    assert running.exit_code() == 1
+    assert said in running.output
+    assert "unter2" not in running.output and "17," not in running.output and "HUNTER2" not in running.output
+
+
+def test_secrets_are_hidden_in_the_list(component: Component, start: Start, behavior: Ask) -> None:
+    component.write(**SAFE)
+    component.run(start).wait_for("ParaComp is running")
+    listed = {key: entry.value for key, entry in behavior(component.port).getParameterList().items()}
+    hidden = ("pin", "locks.0", "locks.1", "password", "Mail.Password")
+    assert [listed[key] for key in hidden] == ["***"] * 5
+    assert (listed["locks.size"], listed["server"]) == ("2", "http://bob:***@there/x")
+    assert listed["Mail.Url"] == "imap://bob:***@there"
+    assert not [key for key, value in listed.items() for secret in SECRETS if secret in value]
+
+
+def test_what_is_hidden_stays_when_it_comes_back(component: Component, start: Start, behavior: Ask) -> None:
+    component.write(**SAFE)
+    running = component.run(start).wait_for("safe: 4711 oak elm hunter2 http://bob:beech@there/x").wait_for("is running")
+    asked = behavior(component.port)
+    asked.setParameterList(changed(asked, basicPeriod="50"))
+    running.wait_for("[basicPeriod] ").wait_for("parameters changed by setParameterList: basicPeriod\n")
+    until(lambda: running.output.count("safe: 4711 oak elm hunter2 http://bob:beech@there/x\n") == 2, "all as before")
+    asked.setParameterList(changed(asked, pin="8000"))
+    running.wait_for("parameters changed by setParameterList: pin\n")
+    asked.setParameterList(changed(asked, locks_1="ash"))
+    running.wait_for("safe: 8000 oak ash hunter2 http://bob:beech@there/x\n")
+    running.wait_for("parameters changed by setParameterList: locks.1\n")
+    for key, value in (("locks_2", "***"), ("server", "http://bob:***@elsewhere")):
+        asked.setParameterList(changed(asked, locks_size="3" if key == "locks_2" else "2", **{key: value}))
+        running.wait_for(f"refused: {key.replace('_', '.')} is to hold ***, which stands for what is not shown")
+    told = [line for line in running.output.splitlines() if not line.startswith("safe:")]
+    assert not [line for line in told for secret in (*SECRETS, "ash", "8000") if secret in line]
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [(b"s3cret", "s3cret"), (b"s3cret\n", "s3cret"), (b"s3cret\r\n", "s3cret"), ("schön".encode(), "schön"), (b"", "")],
+)
+def test_a_value_from_a_file(component: Component, start: Start, content: bytes, told: str) -> None:
+    (component.folder / "a b").mkdir()
+    (component.folder / "a b" / "key").write_bytes(content)
+    component.write(token="${file:a b/key}")
+    component.run(start).wait_for(f"[-] slow /dev/usb 220 {told} 1 a:0.5")
+
+
+def test_any_plain_value_can_come_from_a_file(component: Component, start: Start, behavior: Ask) -> None:
+    (component.folder / "period").write_text("77\n")
+    (component.folder / "vel").write_text("1.25")
+    component.write(basicPeriod="${file:period}", Arm_M1="b,0,1,${file:./vel}")
+    running = component.run(start).wait_for("[-] slow /dev/usb 77 s3cret#1 1 a:0.5 b:1.25").wait_for("is running")
+    asked = behavior(component.port)
+    assert asked.getParameterList()["basicPeriod"].value == "${file:period}"
+    (component.folder / "vel").unlink()
+    asked.setParameterList(changed(asked, mode="fast"))  # what was read is not read again
+    running.wait_for("[mode] fast /dev/usb 77")
+    (component.folder / "vel").write_text("0.25")
+    (component.folder / "period").write_text("88")
+    asked.reloadConfig()
+    running.wait_for("[mode,basicPeriod,motors[1].vel] slow /dev/usb 88 s3cret#1 1 a:0.5 b:0.25")
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"a\0b", "which holds a NUL"),
+        (b"x" * ((1 << 20) + 1), "which is larger than 1 MiB"),
+        (b"\xff\xfe", "which is not in UTF-8"),
+        (b"\xed\xa0\x80", "which is not in UTF-8"),
+        (None, "which cannot be read: No such file or directory"),
+    ],
+)
+def test_a_file_that_gives_no_value(component: Component, start: Start, content: bytes | None, said: str) -> None:
+    if content is not None:
+        (component.folder / "key").write_bytes(content)
+    component.write(token="${file:key}")
+    running = component.run(start)
+    assert running.exit_code() == 1
+    assert f"ParaComp: {component.config}: token comes from the file {component.folder / 'key'}, {said}\n" in running.output
+
+
+def test_a_value_in_a_file_is_judged_and_not_shown(component: Component, start: Start) -> None:
+    (component.folder / "period").write_text("2000\n")
+    component.write(basicPeriod="${file:period}")
+    running = component.run(start)
+    assert running.exit_code() == 1
+    assert "basicPeriod is ${file:period} ms, and must be from 1 to 1000 ms" in running.output
+    assert "2000" not in running.output
 
 
 PAPER = ROOT / "examples" / "jointmotor"

@@ -16,6 +16,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Sequence
 from robocomp_yaml.values import evaluate
 from robocomp_yaml.values.defaults import defaults
 from robocomp_yaml.values.judge import Path, judge
+from robocomp_yaml.values.references import is_reference
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -50,15 +51,15 @@ def _default(member: Member, node: Node, path: Path) -> Iterator[Diagnostic]:
             problem = f"{member.name} gives a value to something else: {problem}"
         yield codes.BAD_DEFAULT.at(fault.span, problem=problem, hint=fault.hint)
     for reference in _references(node):
+        source = "a file" if "file" in reference.entries else "the environment"
         yield codes.BAD_DEFAULT.at(
-            reference.span, problem=f"{member.name} comes from the environment",
-            hint="references stand in values documents",
+            reference.span, problem=f"{member.name} comes from {source}", hint="references stand in values documents"
         )
 
 
-def _references(node: Node) -> Iterator[Node]:
+def _references(node: Node) -> Iterator[Mapping]:
     if isinstance(node, Mapping):
-        if node.entries.keys() == {"env"}:
+        if is_reference(node.data):
             yield node
         for _, value in node.items():
             yield from _references(value)

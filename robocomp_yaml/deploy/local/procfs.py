@@ -10,6 +10,8 @@ import time
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import NamedTuple
 
+from robocomp_yaml import secrets
+
 MARK = "RCYAML_PROCESS"
 """The variable by which everything that a process of a deployment started is known: `FOLDER:NAME`."""
 
@@ -165,8 +167,8 @@ def command(pid: int) -> list[str]:
 
 
 def command_line(pid: int) -> str:
-    """A process's command as one would type it; '' for one that is gone."""
-    return " ".join(command(pid))
+    """A process's command as one would type it, without secrets; '' for one that is gone."""
+    return secrets.command(command(pid))
 
 
 def _open_files(pid: int) -> Iterator[str]:

@@ -262,6 +262,24 @@ BAD_SPELLING = Code(
         "the legacy spelling of '{path}' is for rows, and the parameter is one plain value",
     ),
 )
+SECRET_DEFAULT = Code(
+    "RC3125",
+    ERROR,
+    "'{name}' is secret, and has a default",
+    "A default stands in a document that many read, and in generated code. What is `secret` is given where it is "
+    "known: as `{{env: NAME}}` or `{{file: PATH}}`, or in a values document that only its owner can read.",
+    _pdsl("parameters:\n  pin: {type: int, secret: true, default: 4711}\n"),
+    _pdsl("parameters:\n  pin: {type: int, secret: true, optional: true}\n"),
+)
+SECRET_MISFIT = Code(
+    "RC3126",
+    ERROR,
+    "'{name}' cannot be secret as a whole: it is {words}",
+    "`secret: true` is for plain values, and for lists of them, whose entries are all secret then. In a group or a "
+    "struct each member says it for itself.",
+    _pdsl("parameters:\n  mail: {group: {user: string, key: string}, secret: true}\n"),
+    _pdsl("parameters:\n  mail: {group: {user: string, key: {type: string, secret: true}}}\n"),
+)
 NO_COMPONENT = Code(
     "RC3201",
     ERROR,

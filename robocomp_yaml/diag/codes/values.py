@@ -56,7 +56,7 @@ OUT_OF_RANGE = Code(
 NO_MATCH = Code(
     "RC3304",
     ERROR,
-    "{path} is '{value}', and must match {pattern}",
+    "{path} is {value}, and must match {pattern}",
     "The whole text must match the pattern that the PDSL gives.",
     _values("parameters:\n  device: ttyUSB0\n"),
     _values("parameters:\n  device: /dev/ttyUSB0\n"),
@@ -98,8 +98,8 @@ BAD_REFERENCE = Code(
     "RC3309",
     ERROR,
     "{path} {problem}",
-    "`{{env: NAME}}` takes a value from the environment when the component starts. It can stand where one number, text "
-    "or truth value stands.",
+    "`{{env: NAME}}` takes a value from the environment when the component starts, and `{{file: PATH}}` from a file. "
+    "They can stand where one number, text or truth value stands.",
     _values("parameters:\n  volume: {env: 7UP}\n"),
     _values("parameters:\n  volume: {env: SPEECH_VOLUME}\n"),
     says=(
@@ -120,6 +120,19 @@ NOT_FOR_ICE = Code(
         "{path} cannot be a property of Ice: its row would be empty",
         "{path} cannot be a property of Ice: another value is this property already",
     ),
+)
+_SECRET = "component: speech.cdsl.yaml\nparameters: {password: string}\n"
+OPEN_SECRET = Code(
+    "RC3311",
+    WARNING,
+    "this is secret, and others can read {file}",
+    "A password or a token that stands in a document is read by whoever can read the document, and often goes into a "
+    "repository with it. Give the value where it is used: `{{env: NAME}}` takes it from the environment when the "
+    "component starts, and `{{file: PATH}}` from a file. Or let nobody but the owner read the document: then what is "
+    "made of it is for the owner alone, too. Parameters are secret that say `secret: true`, or whose names say so; in "
+    "a URL the password is.",
+    _values("parameters:\n  password: hunter2\n", _SECRET),
+    _values("parameters:\n  password: {env: PASSWORD}\n", _SECRET),
 )
 NO_LAYER = Code(
     "RC3321",

@@ -12,11 +12,17 @@ import os
 from collections.abc import Sequence
 
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic
+from robocomp_yaml.diag.hidden import hide, parts
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import Shown, columns, line, paint, shown
+from robocomp_yaml.secrets import Part, parts_of_lines
 
 WIDEST = 160  # a longer line is cut around its fault
 MOST_READ = 1 << 25  # bytes of a file in which lines to show are looked for
+_CODE = (
+    ".py", ".cpp", ".cc", ".h", ".hpp", ".ice", ".cmake", ".scxml", ".ui", "idsl.yaml", "cdsl.yaml", "pdsl.yaml",
+    ".idsl", ".cdsl", ".smdsl", ".jcdsl",
+)  # fmt: skip
 _COLORS = {ERROR: "31", WARNING: "33", NOTE: "36"}
 
 
@@ -47,15 +53,18 @@ def _one(diagnostic: Diagnostic, lines: _Lines, color: bool) -> list[Shown]:
     head = paint(f"{diagnostic.severity}[{diagnostic.code}]", f"1;{tint}", color)
     out = [line(head, ": ", paint(diagnostic.message, "1", color))]
     width = len(str(diagnostic.span.line))
-    out += _snippet(diagnostic.span, diagnostic.hint, width, tint, lines, color)
+    hidden = diagnostic.hidden
+    out += _snippet(diagnostic.span, diagnostic.hint, width, tint, lines, color, hidden)
     for related in diagnostic.related:
         width = len(str(related.span.line))
-        out += _snippet(related.span, related.message, width, _COLORS[NOTE], lines, color)
+        out += _snippet(related.span, related.message, width, _COLORS[NOTE], lines, color, hidden)
     more = diagnostic.more.split("\n") if diagnostic.more else []
     return out + [shown(f"    {one}" if one else "", tabs=True) for one in more]
 
 
-def _snippet(span: Span, label: str, width: int, tint: str, lines: _Lines, color: bool) -> list[Shown]:
+def _snippet(
+    span: Span, label: str, width: int, tint: str, lines: _Lines, color: bool, hidden: tuple[Span, ...] | None
+) -> list[Shown]:
     pad = " " * width
     rail, corner = paint("│", "34", color), paint("┌─", "34", color)
     text = lines.get(span.file, span.line)
@@ -64,7 +73,9 @@ def _snippet(span: Span, label: str, width: int, tint: str, lines: _Lines, color
         return [*out, line(pad, " ", paint("=", "34", color), " ", label)] if label else out
     start = span.column - 1
     end = span.end_column - 1 if span.end_line == span.line else len(text.rstrip())
-    text, start, end = _cut(text, start, max(start + 1, min(end, len(text))))
+    secret = lines.secrets(span) if hidden is None else parts(span.line, len(text), _of_file(hidden, span.file))
+    text, start, end = hide(text, secret, start, max(start + 1, min(end, len(text))))
+    text, start, end = _cut(text, start, end)
     marks = paint("^" * max(1, columns(_visible(text[start:end]))), f"1;{tint}", color)
     return [
         line(pad, " ", corner, " ", span.file, f":{span.line}:{span.column}"),
@@ -90,6 +101,10 @@ def _visible(text: str) -> Shown:
     return shown(text.replace("\t", "    "))
 
 
+def _of_file(places: tuple[Span, ...], file: str) -> list[Span]:
+    return [place for place in places if place.file == file]
+
+
 class _Lines:
     """The lines of the files that diagnostics point at, each file read once."""
 
@@ -101,6 +116,12 @@ class _Lines:
             self._files[file] = _read(file)
         lines = self._files[file]
         return lines[line - 1] if lines and line <= len(lines) else None
+
+    def secrets(self, span: Span) -> list[Part]:
+        """What is hidden of a line by the names in it; in code and in types, names stand for other things."""
+        if span.file.endswith(_CODE):
+            return []
+        return parts_of_lines(self._files[span.file] or []).get(span.line - 1, [])
 
 
 def _read(file: str) -> list[str] | None:

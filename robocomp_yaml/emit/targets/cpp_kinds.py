@@ -23,7 +23,7 @@ def kind(type_: Type, functions: Mapping[str, str], group: str | None = None) ->
         case BasicType():
             return _plain(type_)
         case EnumType(name=name, allowed=allowed):
-            return f"runtime::choice({text(name)}, {{{', '.join(map(text, allowed))}}})"
+            return f"runtime::choice({text(name)}, {{{', '.join(map(text, allowed))}}}){'.secret()' * type_.secret}"
         case ListType(element=element, size=size, unique=unique):
             made = f"runtime::list({kind(element, functions)}){_size(size)}"
             return f"{made}.unique()" if unique else made
@@ -40,7 +40,7 @@ def _plain(type_: BasicType) -> str:
         made = "runtime::text()"
     else:
         made = f"runtime::{'whole' if type_.is_integer else 'decimal'}({text(type_.name)})"
-    return made + "".join(f".{limit}" for limit in _limits(type_))
+    return made + "".join(f".{limit}" for limit in _limits(type_)) + ".secret()" * type_.secret
 
 
 def _limits(type_: BasicType) -> Iterator[str]:

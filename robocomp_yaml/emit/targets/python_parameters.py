@@ -182,9 +182,9 @@ class _Types:
     def kind(self, type_: Type, group: str | None) -> str:
         match type_:
             case BasicType():
-                return _plain(type_)
+                return _secret(type_, _plain(type_))
             case EnumType(name=name, allowed=allowed):
-                return f"plain.choice({', '.join(map(literal, (name, *allowed)))})"
+                return _secret(type_, f"plain.choice({', '.join(map(literal, (name, *allowed)))})")
             case ListType(element=element, size=size, unique=unique):
                 words = [self.kind(element, None), *_size(size), *(["unique=True"] if unique else [])]
                 return f"composite.listing({', '.join(words)})"
@@ -197,6 +197,10 @@ class _Types:
 
 def _group_class(path: str) -> str:
     return "".join(part[:1].upper() + part[1:] for part in path[1:].split(".")) + "Group"
+
+
+def _secret(type_: BasicType | EnumType, made: str) -> str:
+    return f"plain.secret({made})" if type_.secret else made
 
 
 def _plain(type_: BasicType) -> str:

@@ -11,6 +11,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import CLASSIC, TOML, Leaf, Setting, Settings
 from robocomp_yaml.legacy.settings.headers import free
+from robocomp_yaml.values import references
 
 MAX_DEPTH = 20
 """So many parts may a parameter's key have; nobody writes half as many."""
@@ -137,7 +138,7 @@ def _rest(found: Sorted, setting: Setting, ports: Ports, rules: Rules) -> None:
         what = rules.repairs["suspicious"].format(text=setting.key)
         found.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
         found.keep(setting)
-    elif rules.sections["service"].match(setting.key) or ports.takes(setting.key) or "${env:" in setting.text:
+    elif rules.sections["service"].match(setting.key) or ports.takes(setting.key) or references.in_text(setting.text):
         found.keep(setting)
     elif len(setting.path) > MAX_DEPTH:
         found.keep(setting)

@@ -3,6 +3,7 @@
 
 #include "configuration.h"
 #include "log.h"
+#include "secrecy.h"
 #include "worker.h"
 
 #include <Ice/Communicator.h>
@@ -124,7 +125,8 @@ void CommonBehavior::setParameterList(ParameterList parameters, const Ice::Curre
     for (const auto& [key, entry] : store_.entries())
     {
         const auto old = before.find(key);
-        if (old == before.end() || old->second.text != entry.text)
+        const bool isHidden = entry.text.find(hidden) != std::string::npos && changes.count(key) != 0;
+        if (old == before.end() || old->second.text != entry.text || isHidden)
         {
             changed += (changed.empty() ? "" : ", ") + key;
         }

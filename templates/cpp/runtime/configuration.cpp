@@ -14,7 +14,7 @@ namespace
 std::set<std::string> messages(const Store& store, const Settings& settings)
 {
     std::set<std::string> found;
-    for (const auto& problem : store.problems(settings.parameters(), settings.overrides()))
+    for (const auto& problem : store.problems(settings.parameters(), settings.overrides(), settings.folder()))
     {
         found.insert(problem.message);
     }
@@ -56,7 +56,7 @@ void loadParameters(Store& store, const Settings& settings)
 {
     try
     {
-        store.load(settings.parameters(), settings.overrides());
+        store.load(settings.parameters(), settings.overrides(), settings.folder());
     }
     catch (const ParameterError& error)
     {

@@ -40,7 +40,10 @@ struct Entry
 };
 
 /// Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them.
-/// `references` stand where the environment gave a value.
+/// Secrets are hidden; of what was given by reference, the reference stands there.
 std::map<std::string, Entry> flat(const Kind& kind, const Value& value, const Texts& references);
+
+/// Each plain value itself, by its dotted path.
+std::map<std::string, Value> plainValues(const Kind& kind, const Value& value);
 
 }

@@ -15,8 +15,8 @@
 namespace runtime
 {
 
-/// Values being taken. `isText`: plain values are legacy texts. `references` are the paths that the environment gave a
-/// value, with the reference.
+/// Values being taken. `isText`: plain values are legacy texts. `references` are the paths of values that were given by
+/// reference, with the reference.
 struct Taking
 {
     bool isText = false;
@@ -61,6 +61,7 @@ public:
     Kind&& matching(std::function<bool(const std::string&)> pattern, std::string shownAs) &&;
     Kind&& size(std::size_t least, std::optional<std::size_t> most = {}) &&;
     Kind&& unique() &&;
+    Kind&& secret() &&;
 
     /// The value that `raw` stands for, with defaults; a problem goes to `taking` where there is none.
     Value take(const Value& raw, const Path& path, Taking& taking) const;
@@ -87,6 +88,7 @@ public:
     Form form;
     std::string name;
     std::string unit;
+    bool isSecret = false; ///< its values are never shown
     std::shared_ptr<const Kind> element;
     std::vector<Member> members;
 
@@ -101,6 +103,7 @@ private:
     Value read(const std::string& text) const;
     std::string words() const;
     std::string limit(const Value& value) const;
+    std::string shown(const Value& raw) const;
     std::string range() const;
 
     Value::List values_;

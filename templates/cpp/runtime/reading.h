@@ -27,11 +27,14 @@ struct Spelling
     std::string count;
 };
 
-/// Properties to the values of parameters, all still text: by their paths, or as a table spells them.
+/// Properties to the values of parameters, all still text: by their paths, or as a table spells them. Relative paths
+/// are from `folder`; `known` are plain values by their paths, which are taken as they are.
 class Reader
 {
 public:
-    Reader(const Texts& properties, const std::map<std::string, Spelling>& spellings);
+    Reader(
+        const Texts& properties, const std::map<std::string, Spelling>& spellings, std::string folder = "",
+        std::map<std::string, Value> known = {});
 
     Value read(const Kind& kind);
 
@@ -58,6 +61,8 @@ private:
 
     const Texts& properties_;
     const std::map<std::string, Spelling>& spellings_;
+    const std::string folder_;
+    const std::map<std::string, Value> known_;
     bool isQuoted_ = false;
     std::set<std::string> used_;
 };

@@ -36,7 +36,7 @@ std::map<std::string, std::string> read(const std::vector<std::string>& options)
         const auto key = trimmed(option.substr(2, equals - 2));
         if (key.empty())
         {
-            throw StartError(option + " names no property");
+            throw StartError(option.substr(0, equals) + "= names no property");
         }
         found[key] = equals < option.size() ? option.substr(equals + 1) : "1";
     }
@@ -168,6 +168,11 @@ std::string Settings::where() const
         result += (result.empty() ? "" : " or ") + shown(file);
     }
     return result;
+}
+
+std::string Settings::folder() const
+{
+    return files_.empty() ? "" : files_.front().parent_path().string();
 }
 
 std::string Settings::source(const std::string& key) const

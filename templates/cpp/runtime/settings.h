@@ -45,6 +45,9 @@ public:
     /// The config file, for messages.
     std::string where() const;
 
+    /// Where the config file stands.
+    std::string folder() const;
+
     /// Where a property comes from, for messages.
     std::string source(const std::string& key) const;
 

@@ -2,6 +2,8 @@
 #include "store.h"
 
 #include "log.h"
+#include "references.h"
+#include "secrecy.h"
 
 #include <algorithm>
 #include <exception>
@@ -39,11 +41,11 @@ Store::Store(Table table) : table_(std::move(table))
 {
 }
 
-void Store::load(const Texts& properties, const Texts& overrides)
+void Store::load(const Texts& properties, const Texts& overrides, const std::string& folder)
 {
     {
         const std::lock_guard lock(mutex_);
-        auto found = read(properties, overrides);
+        auto found = read(properties, overrides, folder);
         replace(std::move(found.values), std::move(found.taking));
         isLoaded_ = true;
         others_ = std::move(found.others);
@@ -51,13 +53,14 @@ void Store::load(const Texts& properties, const Texts& overrides)
     tell();
 }
 
-std::vector<Problem> Store::problems(const Texts& properties, const Texts& overrides) const
+std::vector<Problem> Store::problems(
+    const Texts& properties, const Texts& overrides, const std::string& folder) const
 {
-    const auto found = read(properties, overrides);
+    const auto found = read(properties, overrides, folder);
     return found.taking.problems.empty() ? broken(found.values) : found.taking.problems;
 }
 
-Store::Found Store::read(Texts properties, const Texts& overrides) const
+Store::Found Store::read(Texts properties, const Texts& overrides, const std::string& folder) const
 {
     auto known = properties;
     const auto robocomp = properties.find("Period.Compute"); // RoboComp's own spelling
@@ -65,7 +68,7 @@ Store::Found Store::read(Texts properties, const Texts& overrides) const
     {
         known.emplace("period.compute", robocomp->second);
     }
-    Reader reader(known, table_.spellings);
+    Reader reader(known, table_.spellings, folder);
     auto read = reader.read(table_.kind);
     std::set<std::string> used = reader.used();
     for (const auto& [key, text] : overrides)
@@ -123,13 +126,19 @@ void Store::changeTexts(const Texts& changes)
 {
     {
         const std::lock_guard lock(mutex_);
+        const auto now = flat(table_.kind, values_, references_);
         auto texts = changes;
-        for (const auto& [key, entry] : flat(table_.kind, values_, references_))
+        for (const auto& [key, entry] : now)
         {
             texts.emplace(key, entry.text);
         }
+        auto standing = known();
+        for (const auto& [key, text] : changes)
+        {
+            standing.erase(key);
+        }
         const std::map<std::string, Spelling> none;
-        Reader reader(texts, none);
+        Reader reader(texts, none, "", std::move(standing));
         Taking taking;
         taking.isText = true;
         const auto read = reader.read(table_.kind);
@@ -138,6 +147,17 @@ void Store::changeTexts(const Texts& changes)
             if (reader.used().count(key) == 0)
             {
                 taking.refuse({}, "there is no parameter '" + key + "'");
+            }
+        }
+        for (const auto& [key, text] : changes)
+        {
+            const auto* kind = kindAt(table_.kind, parsePath(key));
+            const auto listed = now.find(key);
+            const bool isHidden = (kind != nullptr && kind->isSecret) ||
+                (listed != now.end() && listed->second.text.find(hidden) != std::string::npos);
+            if (isHidden && reader.used().count(key) != 0 && text.find(hidden) != std::string::npos)
+            {
+                taking.refuse({}, key + " is to hold " + hidden + ", which stands for what is not shown");
             }
         }
         auto made = table_.kind.take(read, {}, taking);
@@ -167,7 +187,27 @@ std::map<std::string, Entry> Store::entries() const
 Texts Store::others() const
 {
     const std::lock_guard lock(mutex_);
-    return others_;
+    Texts listed;
+    for (const auto& [key, text] : others_)
+    {
+        listed[key] = shown(key, text);
+    }
+    return listed;
+}
+
+/// The plain values by their dotted paths, as they are now: a reference is not followed again.
+std::map<std::string, Value> Store::known() const
+{
+    auto found = plainValues(table_.kind, values_);
+    for (auto& [key, value] : found)
+    {
+        const auto reference = references_.find(key);
+        if (reference != references_.end())
+        {
+            value = Referred{reference->second, spelled(value), ""};
+        }
+    }
+    return found;
 }
 
 Texts Store::misspelled(const std::set<std::string>& ports) const

@@ -53,11 +53,12 @@ public:
     explicit Store(Table table);
 
     /// Takes the values from properties, at the start or once more. `overrides` are of the command line; they are
-    /// paths, whatever the table says. Throws ParameterError.
-    void load(const Texts& properties, const Texts& overrides);
+    /// paths, whatever the table says. Relative paths in properties are from `folder`. Throws ParameterError.
+    void load(const Texts& properties, const Texts& overrides, const std::string& folder = "");
 
     /// What is wrong with values that a component would start with.
-    std::vector<Problem> problems(const Texts& properties, const Texts& overrides) const;
+    std::vector<Problem> problems(
+        const Texts& properties, const Texts& overrides, const std::string& folder = "") const;
 
     /// Sets several values by their paths: all of them, or none and ParameterError.
     void change(const std::map<std::string, Value>& values);
@@ -73,10 +74,10 @@ public:
     /// Calls `publish` with new values, in the place of the old ones, before anyone is told of them.
     void publishTo(std::function<void(const Value&)> publish);
 
-    /// Each plain value as text, by its dotted path; references to the environment as they stand in the config.
+    /// Each plain value as text, by its dotted path; references as they stand in the config, secrets hidden.
     std::map<std::string, Entry> entries() const;
 
-    /// The properties that are no parameter's.
+    /// The properties that are no parameter's; what is secret by its name is hidden.
     Texts others() const;
 
     /// Those of them below a parameter, or called almost as one, which they then lead to.
@@ -93,7 +94,8 @@ private:
         Texts others;
     };
 
-    Found read(Texts properties, const Texts& overrides) const;
+    Found read(Texts properties, const Texts& overrides, const std::string& folder) const;
+    std::map<std::string, Value> known() const;
     void replace(Value made, Taking taking);
     std::vector<Problem> broken(const Value& made) const;
     void tell();

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -40,31 +39,6 @@ bool isPlainName(const std::string& name)
         }
     }
     return !name.empty();
-}
-
-bool isVariable(const std::string& name)
-{
-    for (const char c : name)
-    {
-        if (!isWord(c))
-        {
-            return false;
-        }
-    }
-    return !name.empty() && (name[0] < '0' || name[0] > '9');
-}
-
-Value variable(const std::string& name)
-{
-    Referred made;
-    made.reference = "${env:" + name + "}";
-    made.variable = name;
-    if (const char* found = std::getenv(name.c_str()); found != nullptr)
-    {
-        made.text = found;
-        made.isSet = true;
-    }
-    return made;
 }
 
 /// The index behind the digits that stand at `at`.
@@ -356,27 +330,6 @@ Value readNumber(const std::string& text)
     }
     const double value = parsed(bare);
     return std::isfinite(value) ? Value(value) : Value();
-}
-
-Value resolved(const std::string& text)
-{
-    const std::string head = "${env:";
-    if (text.size() > head.size() && text.compare(0, head.size(), head) == 0 && text.back() == '}')
-    {
-        const auto name = text.substr(head.size(), text.size() - head.size() - 1);
-        if (isVariable(name))
-        {
-            return variable(name);
-        }
-    }
-    return text;
-}
-
-Value referred(const Value& data)
-{
-    const auto* map = data.as<Value::Map>();
-    const auto* name = map != nullptr && map->size() == 1 ? data["env"].as<std::string>() : nullptr;
-    return name != nullptr && isVariable(*name) ? variable(*name) : data;
 }
 
 bool alike(const std::string& one, const std::string& other)

@@ -51,11 +51,6 @@ std::string shortest(double value);
 /// The number that a float stands for, as a person would write it: 3.15f is 3.15.
 double widened(float value);
 
-/// The text itself, or what the reference `${env:NAME}` stands for.
-Value resolved(const std::string& text);
-/// The same for the data `{"env": NAME}`.
-Value referred(const Value& data);
-
 /// Whether two names differ by a slip: in case, or in one character that is wrong, missing, too many, or changed places
 /// with the next.
 bool alike(const std::string& one, const std::string& other);

@@ -11,17 +11,16 @@
 namespace runtime
 {
 
-/// A text that an environment variable gave, or was to give: what is shown of it is the reference alone.
+/// A text that a reference gave, or was to give: what is shown of it is the reference alone.
 struct Referred
 {
-    std::string reference; ///< `${env:NAME}`
-    std::string variable;
+    std::string reference; ///< `${env:NAME}`, `${file:PATH}`
     std::string text;
-    bool isSet = false;
+    std::string missing; ///< where it comes from and what is wrong there, or empty
 
     bool operator==(const Referred& other) const
     {
-        return reference == other.reference && text == other.text && isSet == other.isSet;
+        return reference == other.reference && text == other.text && missing == other.missing;
     }
 };
 

@@ -15,6 +15,7 @@ from generated.runtime.parameters import Store
 from generated.runtime.ports import Component
 from generated.runtime.problems import ParameterError
 from generated.runtime.schedule import Schedule
+from generated.runtime.secrecy import HIDDEN
 from generated.runtime.settings import Settings
 from generated.runtime.stopping import Stopping
 
@@ -57,18 +58,19 @@ class Behavior:
         self._stopping.request()
 
     def getParameterList(self, current: Ice.Current) -> dict[str, Any]:
-        """The parameters by their dotted paths; and the other properties, which nobody can change."""
+        """The parameters by their dotted paths; and the other properties, which nobody can change. What is secret is
+        hidden."""
         parameter = self._component.behavior.Parameter
-        listed = {key: parameter(False, text, "string") for key, text in sorted(self._store.unread.items())}
+        listed = {key: parameter(False, text, "string") for key, text in self._store.others().items()}
         for key, entry in self._store.entries().items():
             listed[key] = parameter(entry.is_editable, entry.text, entry.type)
         return listed | {key: parameter(False, text, "string") for key, text in _live(current).items()}
 
     def setParameterList(self, parameters: dict[str, Any], current: Ice.Current) -> None:
-        """All of them, or none: then the log says why."""
+        """All of them, or none: then the log says why. What comes back as it was listed, hidden or not, stays."""
         live = _live(current)
         before = self._store.entries()
-        known = {**self._store.unread, **{key: entry.text for key, entry in before.items()}}
+        known = {**self._store.others(), **{key: entry.text for key, entry in before.items()}}
         given = {key: parameter.value for key, parameter in parameters.items() if key not in live}
         changes = {key: value for key, value in given.items() if known.get(key) != value}
         try:
@@ -76,7 +78,11 @@ class Behavior:
         except ParameterError as error:
             self._log.warning("setParameterList refused: %s", error)
         else:
-            changed = [key for key, entry in self._store.entries().items() if before.get(key) != entry]
+            hidden = {key for key, entry in before.items() if HIDDEN in entry.text}
+            changed = [
+                key for key, entry in self._store.entries().items()
+                if before.get(key) != entry or key in hidden & changes.keys()
+            ]  # fmt: skip
             self._log.info("parameters changed by setParameterList: %s", ", ".join(changed) or "none")
 
     def reloadConfig(self, current: Ice.Current) -> None:

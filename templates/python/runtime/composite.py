@@ -12,6 +12,7 @@ from typing import Any, Optional, Union
 
 from generated.runtime.paths import in_words
 from generated.runtime.plain import Path, Plain, Taking, shown
+from generated.runtime.secrecy import HIDDEN
 
 Kind = Union[Plain, "Listing", "Naming", "Recording"]
 
@@ -50,7 +51,8 @@ class Listing(_Sized):
         known = [item for item in items if item is not None]
         if self._unique and len(set(known)) < len(known):
             twice = next(item for place, item in enumerate(known) if item in known[:place])
-            taking.refuse(path, f"holds {shown(twice)} twice", shown(twice), "entries that all differ")
+            said = self.element.shown(twice) if isinstance(self.element, Plain) else shown(twice)
+            taking.refuse(path, f"holds {said} twice", said, "entries that all differ")
         return items
 
 
@@ -121,8 +123,16 @@ class Record:
         )
 
     def __repr__(self) -> str:
-        names = [member.attribute for member in self.__members__]
-        return f"{type(self).__name__}({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
+        pairs = ((member, getattr(self, member.attribute)) for member in self.__members__)
+        said = (f"{m.attribute}={HIDDEN if _hides(m.kind) and value else repr(value)}" for m, value in pairs)
+        return f"{type(self).__name__}({', '.join(said)})"
+
+
+def _hides(kind: Kind) -> bool:
+    """Whether plain values of a type, or those that it holds, are secret."""
+    while isinstance(kind, _Sized):
+        kind = kind.element
+    return isinstance(kind, Plain) and kind.is_secret
 
 
 class Recording:

@@ -28,13 +28,13 @@ def load(table: Table, settings: Settings) -> Store:
 def reload(store: Store, settings: Settings) -> None:
     """Raises StartError, and changes nothing then."""
     try:
-        store.reload(settings.parameters(), settings.overrides)
+        store.reload(settings.parameters(), settings.overrides, settings.folder)
     except ParameterError as error:
         raise StartError(_in_words(error, store.table, settings)) from None
 
 
 def _store(table: Table, settings: Settings) -> Store:
-    return Store(table, settings.parameters(), settings.overrides)
+    return Store(table, settings.parameters(), settings.overrides, settings.folder)
 
 
 def _in_words(error: ParameterError, table: Table, settings: Settings) -> str:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from generated.runtime import texts
+from generated.runtime import secrecy, texts
 from generated.runtime.composite import Kind, Listing, Naming, Recording
 from generated.runtime.paths import dotted, escaped
 from generated.runtime.plain import Path, Plain
@@ -95,7 +95,8 @@ def _is_editable(member: Any) -> bool:
 def flat(
     kind: Kind, value: Any, references: Mapping[Path, str], path: Path = (), editable: bool = False
 ) -> Iterator[tuple[str, Entry]]:
-    """Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them."""
+    """Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them.
+    Secrets are hidden; of what was given by reference, the reference stands there."""
     if value is None:
         return
     if isinstance(kind, Recording):
@@ -112,4 +113,29 @@ def flat(
         for name, item in value.items():
             yield from flat(kind.element, item, references, (*path, name), editable)
     else:
-        yield dotted(path), Entry(references.get(path) or texts.spelled(value), kind.name, editable)
+        yield dotted(path), Entry(references.get(path) or _shown(kind, value, path), kind.name, editable)
+
+
+def _shown(kind: Plain, value: Any, path: Path) -> str:
+    text = texts.spelled(value)
+    if kind.is_secret:
+        return secrecy.HIDDEN if text else text
+    name = path[-1]
+    return secrecy.shown(name if isinstance(name, str) else "", text) if isinstance(value, str) else text
+
+
+def plain_values(kind: Kind, value: Any, path: Path = ()) -> Iterator[tuple[Path, Any]]:
+    """Each plain value with its path."""
+    if value is None:
+        return
+    if isinstance(kind, Recording):
+        for member in kind.members.values():
+            yield from plain_values(member.kind, getattr(value, member.attribute), (*path, member.key))
+    elif isinstance(kind, Listing):
+        for place, item in enumerate(value):
+            yield from plain_values(kind.element, item, (*path, place))
+    elif isinstance(kind, Naming):
+        for name, item in value.items():
+            yield from plain_values(kind.element, item, (*path, name))
+    else:
+        yield path, value

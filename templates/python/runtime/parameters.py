@@ -13,11 +13,13 @@ from typing import Any, Callable
 from generated.runtime import texts
 from generated.runtime.composite import Record, Recording, data
 from generated.runtime.constraints import Constraint
-from generated.runtime.editing import Entry, at, differences, flat, put
-from generated.runtime.paths import in_words, parse
+from generated.runtime.editing import Entry, at, differences, flat, plain_values, put
+from generated.runtime.paths import dotted, in_words, parse
 from generated.runtime.plain import Path, Plain, Taking
 from generated.runtime.problems import ParameterError, Problem
 from generated.runtime.reading import Reader, Spelling
+from generated.runtime.references import referring, resolved
+from generated.runtime.secrecy import HIDDEN, shown
 
 
 @dataclass(frozen=True)
@@ -86,9 +88,12 @@ class Live:
 
 
 class Store:
-    """The values, and what happens to them. Raises ParameterError where the first ones cannot be."""
+    """The values, and what happens to them. Raises ParameterError where the first ones cannot be. `folder` is that of
+    the config: relative paths in it are from there."""
 
-    def __init__(self, table: Table, properties: Mapping[str, str], overrides: Mapping[str, str]) -> None:
+    def __init__(
+        self, table: Table, properties: Mapping[str, str], overrides: Mapping[str, str], folder: str = ""
+    ) -> None:
         self.kind = Recording(table.values)
         self.table = table
         self._lock = threading.Lock()
@@ -96,7 +101,7 @@ class Store:
         self._news: deque[Change] = deque()
         self._telling = threading.Lock()
         self._shown: Any = None
-        self.values, self._references, self.unread = self._read(properties, overrides)
+        self.values, self._references, self.unread = self._read(properties, overrides, folder)
 
     def shows_in(self, live: Live) -> None:
         self._shown = live
@@ -133,18 +138,29 @@ class Store:
         """As `change`, with the keys and texts of `entries()`."""
         with self._lock:
             now = {key: entry.text for key, entry in self.entries().items()}
-            reader = Reader({**now, **changes}, {})
+            known = {key: value for key, value in self._known().items() if key not in changes}
+            reader = Reader({**now, **changes}, {}, known=known)
             taking = Taking(is_text=True)
             read = reader.read(self.kind)
             for key in sorted(changes.keys() - reader.used):
                 taking.refuse((), f"there is no parameter '{key}'")
+            for key in sorted(key for key in changes.keys() & reader.used if HIDDEN in changes[key]):
+                if HIDDEN in now.get(key, "") or getattr(at(self.kind, _steps(key)), "is_secret", False):
+                    taking.refuse((), f"{key} is to hold {HIDDEN}, which stands for what is not shown")
             self._replace(self.kind.take(read, (), taking), taking)
         self._tell()
 
-    def reload(self, properties: Mapping[str, str], overrides: Mapping[str, str]) -> None:
+    def _known(self) -> dict[str, Any]:
+        """The plain values by their dotted paths, as they are now: a reference is not followed again."""
+        return {
+            dotted(path): referring(texts.spelled(value), self._references[path]) if path in self._references else value
+            for path, value in plain_values(self.kind, self.values)
+        }
+
+    def reload(self, properties: Mapping[str, str], overrides: Mapping[str, str], folder: str = "") -> None:
         """Takes the values from properties once more."""
         with self._lock:
-            made, references, unread = self._read(properties, overrides)
+            made, references, unread = self._read(properties, overrides, folder)
             self._replace(made, Taking(references=references))
             self.unread = unread
         self._tell()
@@ -153,23 +169,27 @@ class Store:
         self._listeners.append(listener)
 
     def entries(self) -> dict[str, Entry]:
-        """Each plain value as text, by its dotted path; references to the environment as they stand in the config."""
+        """Each plain value as text, by its dotted path; references as they stand in the config, secrets hidden."""
         return dict(flat(self.kind, self.values, self._references))
 
+    def others(self) -> dict[str, str]:
+        """The properties that are no parameter's; what is secret by its name is hidden."""
+        return {key: shown(key, text) for key, text in sorted(self.unread.items())}
+
     def _read(
-        self, properties: Mapping[str, str], overrides: Mapping[str, str]
+        self, properties: Mapping[str, str], overrides: Mapping[str, str], folder: str
     ) -> tuple[Any, dict[Path, str], Mapping[str, str]]:
         """Values, references, and the properties that are nobody's. `overrides` are of the command line; they are
         paths, whatever the table says."""
         known = {**properties}
         if "Period.Compute" in properties:  # RoboComp's own spelling
             known.setdefault("period.compute", properties["Period.Compute"])
-        reader = Reader(known, self.table.spellings)
+        reader = Reader(known, self.table.spellings, folder)
         read = reader.read(self.kind)
         for key, text in overrides.items():
             steps = _steps(key)
             if key not in reader.used and isinstance(at(self.kind, steps), Plain):
-                put(self.kind, read, steps, texts.resolved(text))
+                put(self.kind, read, steps, resolved(text))
                 reader.used.add(key)
         taking = Taking(is_text=True)
         made = self.kind.take(read, (), taking)

@@ -10,9 +10,10 @@ from math import isfinite
 from numbers import Integral, Real
 from typing import Any, Optional, Union
 
-from generated.runtime import texts
+from generated.runtime import references, texts
 from generated.runtime.paths import Step, in_words
 from generated.runtime.problems import Problem
+from generated.runtime.secrecy import HIDDEN, url
 
 Number = Union[int, float]
 Path = tuple[Step, ...]
@@ -21,8 +22,8 @@ LARGEST_FLOAT, LARGEST_DOUBLE = 3.4028234663852886e38, 1.7976931348623157e308
 
 @dataclass
 class Taking:
-    """Values being taken. `is_text`: plain values are legacy texts. `references` are the paths that the environment
-    gave a value, with the reference."""
+    """Values being taken. `is_text`: plain values are legacy texts. `references` are the paths of values that were
+    given by reference, with the reference."""
 
     is_text: bool = False
     problems: list[Problem] = field(default_factory=list)
@@ -35,10 +36,11 @@ class Taking:
 
 class Plain:
     """A type of plain values. `name` is the type's, `unit` that of its numbers;
-    `takes_any_text`: a text is a value as it stands."""
+    `takes_any_text`: a text is a value as it stands; `is_secret`: it is never shown."""
 
     unit = ""
     takes_any_text = False
+    is_secret = False
 
     def __init__(self, name: str, words: str) -> None:
         self.name = name
@@ -46,23 +48,29 @@ class Plain:
 
     def take(self, raw: Any, path: Path, taking: Taking) -> Any:
         """The value that `raw` stands for; a problem goes to `taking` where there is none."""
-        raw = texts.referred(raw)
-        if isinstance(raw, texts.Unset):
-            taking.refuse(path, f"comes from the environment variable {raw.name}, which is not set")
+        raw = references.referred(raw)
+        if isinstance(raw, references.Missing):
+            taking.refuse(path, raw.why)
             return None
-        if isinstance(raw, texts.Referred):
+        if isinstance(raw, references.Referred):
             taking.references[path] = raw.reference
-        is_text = isinstance(raw, texts.Referred) or (taking.is_text and isinstance(raw, str))
+        is_text = isinstance(raw, references.Referred) or (taking.is_text and isinstance(raw, str))
         value = self.read(raw) if is_text else self.of(raw)
         if value is None:
             unit = f" ({self.unit})" if self.unit else ""
             wanted = f"{self.words}{unit}"
-            taking.refuse(path, f"must be {wanted}, and is {shown(raw)}", shown(raw), wanted, self.unit)
+            said = self.shown(raw)
+            taking.refuse(path, f"must be {wanted}, and is {said}", said, wanted, self.unit)
         elif wanted := self.limit(value):
             unit = f" {self.unit}" if self.unit else ""
-            said = shown(raw) if self.takes_any_text else shown(raw).strip("'")
+            said = self.shown(raw) if self.takes_any_text else self.shown(raw).strip("'")
             taking.refuse(path, f"is {said}{unit}, and must {wanted}", said, wanted, self.unit)
         return value
+
+    def shown(self, raw: Any) -> str:
+        """A value of this type, or what was to be one, for messages."""
+        is_hidden = self.is_secret and isinstance(raw, (str, Real)) and not isinstance(raw, references.Referred)
+        return HIDDEN if is_hidden else shown(raw)
 
     def of(self, raw: Any) -> Any:
         """The value of data of the right type, else None."""
@@ -78,10 +86,10 @@ class Plain:
 
 
 def shown(raw: Any) -> str:
-    """A value for messages: shortened, and no secret."""
-    if isinstance(raw, texts.Referred):
+    """A value for messages, shortened."""
+    if isinstance(raw, references.Referred):
         return raw.reference
-    text = repr(raw) if isinstance(raw, str) else texts.spelled(raw)
+    text = repr(url(raw)) if isinstance(raw, str) else texts.spelled(raw)
     if raw is None or isinstance(raw, (list, tuple)) or hasattr(raw, "keys"):
         text = "nothing" if raw is None else "a mapping" if hasattr(raw, "keys") else "a list"
     return text if len(text) <= 60 else f"{text[:59]}…"
@@ -236,3 +244,9 @@ def text(**limits: Any) -> Plain:
 
 def choice(name: str, *names: str) -> Plain:
     return Choice(name, names)
+
+
+def secret(kind: Plain) -> Plain:
+    """The same type, of values that are never shown."""
+    kind.is_secret = True
+    return kind

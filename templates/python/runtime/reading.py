@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Optional
 
-from generated.runtime import texts
+from generated.runtime import references, texts
 from generated.runtime.composite import Kind, Listing, Naming, Recording
 from generated.runtime.paths import unescaped
 from generated.runtime.plain import Plain, Text
@@ -36,11 +36,17 @@ class Spelling:
 
 
 class Reader:
-    """Reads a set of properties; `used` are the keys that it has come upon."""
+    """Reads a set of properties; `used` are the keys that it has come upon. Relative paths are from `folder`; `known`
+    are plain values by their paths, which are taken as they are."""
 
-    def __init__(self, properties: Mapping[str, str], spellings: Mapping[str, Spelling]) -> None:
+    def __init__(
+        self, properties: Mapping[str, str], spellings: Mapping[str, Spelling], folder: str = "",
+        known: Mapping[str, Any] = {},
+    ) -> None:  # fmt: skip
         self._properties = properties
         self._spellings = spellings
+        self._folder = folder
+        self._known = known
         self._quoted = any(_TOML.match(key) for key in properties)  # the files that have these keys quote their texts
         self.used: set[str] = set()
         self._stems: set[str] = set()  # every beginning of a key, so that "is there anything below" is one look-up
@@ -79,6 +85,8 @@ class Reader:
         """What stands under a path; None where nothing does."""
         if isinstance(kind, Plain):
             text = self._get(key)
+            if text is not None and key in self._known:
+                return self._known[key]
             return None if text is None else self._text(kind, text)
         if isinstance(kind, Listing):
             return self._list(kind, key)
@@ -113,7 +121,7 @@ class Reader:
 
     def _text(self, kind: Plain, text: str) -> Any:
         quoted = self._quoted and kind.takes_any_text
-        return texts.resolved(texts.unquoted(text) if quoted else text)
+        return references.resolved(texts.unquoted(text) if quoted else text, self._folder)
 
     def _spelled(self, spelling: Spelling, kind: Kind) -> Any:
         if isinstance(kind, Listing) and not spelling.separators:

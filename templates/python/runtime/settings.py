@@ -46,6 +46,11 @@ class Settings:
         """The config file, for messages."""
         return " or ".join(shown(file) for file in self._files)
 
+    @property
+    def folder(self) -> str:
+        """Where the config file stands."""
+        return str(self._files[0].parent) if self._files else ""
+
     def source(self, key: str) -> str:
         """Where a property comes from, for messages."""
         return on_the_command_line([key]) if key in self.overrides else self.where
@@ -104,7 +109,7 @@ def _option(argument: str) -> tuple[str, str]:
     """`--KEY=VALUE`, taken as it stands: Ice's own reader would end the value at a `#`."""
     key, equals, value = argument[2:].partition("=")
     if not key.strip():
-        raise StartError(f"{argument} names no property")
+        raise StartError(f"{argument.partition('=')[0]}= names no property")
     return key.strip(), value if equals else "1"
 
 

@@ -14,42 +14,7 @@ TRUTHS = {
 }  # fmt: skip
 _WHOLE = re.compile(r"[-+]?[0-9]{1,40}(?:\.0*)?\Z")
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z")
-_REFERENCE = re.compile(r"\$\{env:([A-Za-z_][A-Za-z0-9_]*)\}\Z")
-_VARIABLE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _BLANKS = " \t"
-
-
-class Referred(str):
-    """A text that an environment variable gave; what is shown of it is the reference alone."""
-
-    reference: str
-
-
-class Unset:
-    """What stands for the value of an environment variable that is not set."""
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-
-
-def resolved(text: str) -> Any:
-    """The text itself, or what the reference `${env:NAME}` stands for."""
-    found = _REFERENCE.match(text)
-    if found is None:
-        return text
-    value = os.environ.get(found[1])
-    if value is None:
-        return Unset(found[1])
-    referred = Referred(value)
-    referred.reference = text
-    return referred
-
-
-def referred(raw: Any) -> Any:
-    """What the data `{"env": NAME}` stands for; other data as it is."""
-    if not isinstance(raw, dict) or raw.keys() != {"env"} or not isinstance(raw["env"], str):
-        return raw
-    return resolved(f"${{env:{raw['env']}}}") if _VARIABLE.match(raw["env"]) else raw
 
 
 def alike(one: str, other: str) -> bool:

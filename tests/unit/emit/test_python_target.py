@@ -140,8 +140,8 @@ def test_the_run_time_needs_ice_alone() -> None:
 
 # Of Python 3.9.
 STANDARD = set(
-    "__future__ collections contextlib dataclasses json logging math numbers operator os pathlib re signal subprocess "
-    "sys tempfile threading time types typing".split()
+    "__future__ collections contextlib dataclasses json logging math numbers operator os pathlib re signal stat "
+    "subprocess sys tempfile threading time types typing".split()
 )  # fmt: skip
 
 

@@ -101,8 +101,8 @@ class Values(composite.Record):
     )
     """From 1 to 1000 ms; default: 220; may change while the component runs."""
 
-    token: Optional[str] = composite.member(plain.text(), optional=True, editable=True)
-    """Optional; may change while the component runs."""
+    token: Optional[str] = composite.member(plain.secret(plain.text()), optional=True, editable=True)
+    """Optional; may change while the component runs; secret."""
 
     threshold: float = composite.member(plain.decimal("double", at_least=0, below=1), default=0, editable=True)
     """At least 0 and below 1; default: 0; may change while the component runs."""

@@ -50,6 +50,8 @@ foreach(file IN ITEMS
     runtime/log.cpp
     runtime/program.cpp
     runtime/reading.cpp
+    runtime/references.cpp
+    runtime/secrecy.cpp
     runtime/services.cpp
     runtime/settings.cpp
     runtime/shutdown.cpp

@@ -1,0 +1,243 @@
+"""The secrets that documents hold: where they stand, so that nothing shows them, and which of them others can read.
+
+A values document is looked at by the types of its parameters, a deployment by what its keys mean. Of a document with
+errors of its own the names count, and of one that is no YAML the lines.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from collections.abc import Collection, Iterable, Iterator
+from pathlib import Path
+
+import msgspec
+
+from robocomp_yaml import secrets
+from robocomp_yaml.diag.codes import networks as network_codes
+from robocomp_yaml.diag.codes import values as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.hidden import Hidden
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.link.documents import Document
+from robocomp_yaml.link.program import LinkedParameters, Program
+from robocomp_yaml.model.parameters import RecordType
+from robocomp_yaml.source.text import decode
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
+from robocomp_yaml.values.hidden import declared, named_nodes, nodes, plain_below
+
+_PROPERTIES = ("properties", "ice", "endpoints", "proxies", "topics")
+
+
+class Secret(msgspec.Struct, frozen=True):
+    """A plain value that a document holds itself. `part` is what of a longer text is secret; `is_sure` is False where
+    nobody can tell, for what it is given to is not known."""
+
+    node: Scalar
+    part: str = ""
+    is_sure: bool = True
+
+
+def check(program: Program, documents: Iterable[Document], contents: dict[str, bytes]) -> Iterator[Diagnostic]:
+    """Warnings about secrets that stand where others can read them."""
+    finder = _Finder(program)
+    for document in documents:
+        if document.kind in _KINDS and document.model is not None and finder.may_hold(document, contents):
+            if _others_can_read(document.path):
+                yield from (_warning(document, secret) for secret in finder.secrets(document) if secret.is_sure)
+
+
+def hidden(program: Program, documents: Iterable[Document], contents: dict[str, bytes], files: set[str]) -> Hidden:
+    """What is not to be shown of these files."""
+    found, finder = Hidden(), _Finder(program)
+    for document in documents:
+        if document.path not in files:
+            continue
+        found.files.add(document.path)
+        if document.kind not in _KINDS:
+            continue
+        if document.tree is None:
+            _add_lines(found, document, contents, finder.names)
+        elif finder.may_hold(document, contents):
+            for secret in finder.secrets(document):
+                found.add(secret.node.span, secret.part or secret.node.lexeme)
+    return found
+
+
+_KINDS = ("config", "ddsl", "pdsl")
+
+
+def _others_can_read(path: str) -> bool:
+    try:
+        return bool(os.stat(path).st_mode & 0o044)
+    except OSError:
+        return False
+
+
+def _warning(document: Document, secret: Secret) -> Diagnostic:
+    mode = f"`chmod 600 {shlex.quote(document.path)}`"
+    code = network_codes.OPEN_SECRET if document.kind == "ddsl" else codes.OPEN_SECRET
+    hint = {
+        "config": f"{mode}, or give {{env: NAME}} or {{file: PATH}}",
+        "ddsl": f"{mode}, or leave it to the environment: {{env: NAME}}",
+        "pdsl": "leave the default out, and give the value as {env: NAME} or {file: PATH}",
+    }[document.kind]
+    return code.at(secret.node.span, file=os.path.basename(document.path), hint=hint)
+
+
+class _Finder:
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        linked = [*program.parameters.values(), *(one.parameters for one in program.components.values())]
+        self.names = {name for one in linked for name in declared(one.parameters.root)}
+
+    def may_hold(self, document: Document, contents: dict[str, bytes]) -> bool:
+        """Most documents hold none, which is soon seen."""
+        text = contents.get(document.path, b"").decode("utf-8", "replace")
+        is_alone = document.kind != "pdsl" and document.real not in self.program.values  # what it gives is not known
+        return is_alone or secrets.may_hold(text) or any(name in text for name in self.names)
+
+    def secrets(self, document: Document) -> Iterator[Secret]:
+        tree = document.tree
+        if not isinstance(tree, Mapping):
+            return
+        seen: set[int] = set()
+        for secret in self._of_kind(document, tree):
+            if id(secret.node) not in seen:
+                seen.add(id(secret.node))
+                yield secret
+        for node in _texts(tree):
+            if id(node) not in seen and secrets.url(node.lexeme) != node.lexeme:
+                yield Secret(node, _password_of_url(node.lexeme))
+
+    def _of_kind(self, document: Document, tree: Mapping) -> Iterator[Secret]:
+        if document.kind == "config":
+            yield from map(Secret, self._of_values(document, tree))
+        elif document.kind == "ddsl":
+            yield from self._of_deployment(document, tree)
+        else:
+            yield from map(Secret, self._of_parameters(document))
+
+    def _of_values(self, document: Document, tree: Mapping) -> Iterator[Scalar]:
+        values = self.program.values.get(document.real)
+        linked = values.parameters if values is not None else None
+        given = tree.get("parameters")
+        if linked is None:
+            yield from named_nodes(tree, {*self.names, *_names_nearby(document.path)})
+            return
+        if given is not None:
+            yield from nodes(linked.parameters.root, given)
+        for section in _PROPERTIES:
+            if (node := tree.get(section)) is not None:
+                yield from named_nodes(node)
+
+    def _of_parameters(self, document: Document) -> Iterator[Scalar]:
+        """Defaults of what is secret."""
+        for linked in self.program.parameter_documents():
+            if linked.document is not None and linked.document.path == document.path:
+                records = [linked.parameters.root, *linked.parameters.types]
+                for record in records:
+                    yield from _defaults(record) if isinstance(record, RecordType) else ()
+
+    def _of_deployment(self, document: Document, tree: Mapping) -> Iterator[Secret]:
+        linked = self.program.deployments.get(document.real)
+        owners: dict[str, LinkedParameters] = {}
+        for instance in linked.instances.values() if linked is not None else ():
+            if instance.component is not None and instance.entry.settings is not None:
+                owners[str(instance.entry.settings.span)] = instance.component.parameters
+        components = tree.get("components")
+        for _, entry in components.items() if isinstance(components, Mapping) else ():
+            if not isinstance(entry, Mapping):
+                continue
+            if (env := entry.get("env")) is not None:
+                yield from map(Secret, named_nodes(env))
+            for key in ("args", "ready"):
+                yield from _words(entry.get(key), self.names)
+            given = entry.get("set")
+            linked_to = owners.get(str(given.span)) if given is not None else None
+            if given is not None and linked_to is not None:
+                yield from map(Secret, nodes(linked_to.parameters.root, given))
+            elif given is not None:
+                yield from map(Secret, named_nodes(given, self.names))
+                yield from _unsure(given) if "component" in entry.entries else ()
+
+
+def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
+    """Arguments that are secrets, or hold one."""
+    if isinstance(node, Mapping):
+        node = node.get("command")
+    if not isinstance(node, Sequence):
+        return
+    for item in node.items:
+        yield from map(Secret, named_nodes(item))
+    words = [item for item in node.items if isinstance(item, Scalar)]
+    for item, shown in zip(words, secrets.words((item.lexeme for item in words), names), strict=True):
+        if shown != item.lexeme:
+            head, _, tail = shown.partition(secrets.HIDDEN)
+            yield Secret(item, item.lexeme[len(head) : len(item.lexeme) - len(tail) or None])
+
+
+def _unsure(node: Node) -> Iterator[Secret]:
+    return (Secret(found, is_sure=False) for found in plain_below(node))
+
+
+def _texts(node: Node) -> Iterator[Scalar]:
+    """Every text that holds a URL."""
+    if isinstance(node, Mapping):
+        for _, value in node.items():
+            yield from _texts(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _texts(item)
+    elif isinstance(node, Scalar) and "@" in node.lexeme:
+        yield node
+
+
+def _password_of_url(text: str) -> str:
+    head, _, tail = secrets.url(text).partition(secrets.HIDDEN)
+    return text[len(head) : len(text) - len(tail)] if secrets.HIDDEN not in tail else text
+
+
+def _defaults(record: RecordType) -> Iterator[Scalar]:
+    for member in record.members:
+        if member.default is not None and member.default.node is not None:
+            yield from nodes(member.type, member.default.node)
+        elif isinstance(member.type, RecordType) and member.is_group:
+            yield from _defaults(member.type)
+
+
+def _add_lines(found: Hidden, document: Document, contents: dict[str, bytes], names: Collection[str]) -> None:
+    """What is hidden of the lines of a document that is no YAML."""
+    text = contents.get(document.path, b"").decode("utf-8-sig", "replace")
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    known = {*names, *_names_nearby(document.path)} if document.kind == "config" else names
+    for number, parts in secrets.parts_of_lines(lines, known).items():
+        for start, end in parts:
+            span = Span(document.path, number + 1, start + 1, number + 1, end + 1)
+            part = lines[number][start:end]
+            for text in (part.strip("\"' "), *re.findall(r"[^\s\"'!&*@{}\[\],]{4,}", part)):
+                found.add(span, text)
+
+
+def _names_nearby(path: str) -> Iterator[str]:
+    """What the documents of parameters beside a document, and one folder up, call secret."""
+    folder = os.path.dirname(path) or "."
+    for where in (folder, os.path.join(folder, os.pardir)):
+        try:
+            names = [name for name in sorted(os.listdir(where)) if name.endswith("pdsl.yaml")]
+            found = [Path(where, name).read_bytes() for name in names[:20]]
+        except OSError:
+            continue
+        for raw in found:
+            text, _ = decode(path, raw)
+            tree, _ = parse(path, text) if text is not None else (None, [])
+            yield from _called_secret(tree)
+
+
+def _called_secret(node: Node | None) -> Iterator[str]:
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            if isinstance(value, Mapping) and value.data.get("secret") is True:  # type: ignore[attr-defined]
+                yield key.lexeme
+            yield from _called_secret(value)

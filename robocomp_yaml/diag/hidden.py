@@ -1,0 +1,112 @@
+"""What diagnostics do not show: the secrets of the documents that they are about, in their words and in their lines."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable
+
+import msgspec
+from msgspec.structs import replace
+
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.secrets import HIDDEN, Part, url
+
+_LONG = 12  # so much of a text is enough to know it, where a message shortens it
+
+
+class Hidden(msgspec.Struct):
+    """Secrets by the file that they stand in: their places, and what they are. `files` are those that were looked
+    at."""
+
+    files: set[str] = set()
+    places: dict[str, list[Span]] = {}
+    texts: dict[str, set[str]] = {}
+
+    def add(self, span: Span, text: str) -> None:
+        self.places.setdefault(span.file, []).append(span)
+        self.texts.setdefault(span.file, set()).add(text.strip())
+
+    def veiled(self, diagnostic: Diagnostic) -> Diagnostic:
+        """The diagnostic without the secrets of the files that it is about. A hint that would repeat one is left out:
+        it may say in other words what it is."""
+        spans = [diagnostic.span, *(related.span for related in diagnostic.related)]
+        texts = {text for span in spans for text in self.texts.get(span.file, ())}
+        shown = {(span.file, span.line) for span in spans}
+        hidden = tuple(
+            place for file in dict.fromkeys(span.file for span in spans) for place in self.places.get(file, ())
+            if any((file, line) in shown for line in range(place.line, place.end_line + 1))
+        )  # fmt: skip
+        is_known = hidden or all(span.file in self.files for span in spans)
+        related = tuple(Related(without(one.message, texts), one.span) for one in diagnostic.related)
+        hint = without(diagnostic.hint, texts)
+        return replace(
+            diagnostic, message=without(diagnostic.message, texts), hint=hint if hint == url(diagnostic.hint) else "",
+            more=without(diagnostic.more, texts), related=related, hidden=hidden if is_known else None,
+        )  # fmt: skip
+
+    def without(self, text: str) -> str:
+        """A text about anything without any of the secrets."""
+        return without(text, {secret for texts in self.texts.values() for secret in texts})
+
+
+def without(text: str, secrets: Iterable[str]) -> str:
+    """A text in which these secrets are hidden, however it spells them."""
+    text = url(text)
+    for secret in sorted((secret for secret in secrets if secret), key=len, reverse=True):
+        for spelled in dict.fromkeys((secret, repr(secret)[1:-1], json.dumps(secret)[1:-1], secret.partition("\n")[0])):
+            text = _without_one(text, spelled)
+    return text
+
+
+def _without_one(text: str, secret: str) -> str:
+    if len(secret) > _LONG and secret[:_LONG] in text:
+        return re.sub(f"{re.escape(secret[:_LONG])}{_rest(secret[_LONG:])}(?:…|\\.\\.\\.)?", HIDDEN, text)
+    if secret not in text:
+        return text
+    if len(secret) > 3:
+        return re.sub(rf"(?<!\w){re.escape(secret)}(?!\w)", HIDDEN, text)
+    # A short text is in many words: it is hidden where a message quotes a value.
+    return re.sub(rf"(?<=')({re.escape(secret)})(?=')|(?<=a number, ){re.escape(secret)}\b", HIDDEN, text)
+
+
+def _rest(text: str) -> str:
+    """Matches as much of a text as stands there."""
+    made = ""
+    for char in reversed(text[:200]):
+        made = f"(?:{re.escape(char)}{made})?"
+    return made
+
+
+def parts(span_line: int, width: int, places: Iterable[Span]) -> list[Part]:
+    """What of a line, as wide as that, is hidden: from, to."""
+    found = []
+    for place in places:
+        if place.line <= span_line <= place.end_line:
+            start = place.column - 1 if place.line == span_line else 0
+            end = place.end_column - 1 if place.end_line == span_line else width
+            if start < min(end, width):
+                found.append((start, min(end, width)))
+    return found
+
+
+def hide(text: str, hidden: Iterable[Part], start: int, end: int) -> tuple[str, int, int]:
+    """A line without what is hidden of it, and where a part of it is then."""
+    made, at, first, last = "", 0, start, end
+    for begin, finish in sorted(hidden):
+        if finish <= at:
+            continue
+        begin = max(begin, at)
+        made += text[at:begin] + HIDDEN
+        shift = len(made) - finish  # of what comes behind
+        if start >= finish:
+            first = start + shift
+        elif start >= begin:
+            first = len(made) - len(HIDDEN)
+        if end >= finish:
+            last = end + shift
+        elif end > begin:
+            last = len(made)
+        at = finish
+    return made + text[at:], first, max(first, last)

@@ -1,0 +1,183 @@
+"""What is secret: names that say so, and texts with what nobody should read taken out.
+
+Whatever is shown of a document, a command or a state asks here. Parameters may also say it themselves (`secret: true`):
+then their types know it. The run times of components have the rule for names once more, and a test compares them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Iterator, Sequence
+
+HIDDEN = "***"
+"""What is shown instead of a secret."""
+
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z\x80-\U0010ffff]+|[0-9]+")
+_STEMS = (
+    "password", "passwd", "passphrase", "passcode", "secret", "credential", "contrase",
+    "apikey", "accesskey", "privatekey", "authkey", "bearer", "authorization",
+)  # fmt: skip
+_WORDS = frozenset(("pass", "pwd", "token", "tokens"))
+_ENDS = ("token", "tokens", "pwd", "dbpass", "userpass", "rootpass", "adminpass", "wifipass", "mypass", "keypass")
+_ABOUT = frozenset((
+    "file", "path", "dir", "directory", "folder", "length", "len", "size", "required", "enabled", "count", "policy",
+    "prompt", "timeout", "rate", "attempts", "tries", "retries", "limit", "min", "max", "age", "ttl", "lifetime",
+    "expiry", "period", "interval", "filter", "band", "through", "type",
+))  # fmt: skip
+"""Words that end the name of something about a secret, which is none itself."""
+_HOW = frozenset((
+    "max", "min", "num", "number", "count", "use", "has", "no", "allow", "require", "requires", "show", "hide",
+    "enable", "is", "with", "ask", "low", "high", "band", "all", "by", "over", "under", "two", "single", "first",
+    "second", "multi",
+))  # fmt: skip
+"""Words that begin such a name."""
+
+
+def is_secret(name: str) -> bool:
+    """Whether what has this name is to be kept secret: a variable, an option, a parameter, a property."""
+    words = [word.lower() for word in _WORD.findall(name)]
+    if not words or words[-1] in _ABOUT or words[0] in _HOW or words in (["pwd"], ["oldpwd"]):
+        return False
+    joined = "".join(words)
+    if words[-1] == "private" or any(stem in joined for stem in _STEMS):
+        return True
+    return any(word in _WORDS or word.endswith(_ENDS) for word in words)
+
+
+_USER_INFO = re.compile(r"([A-Za-z][A-Za-z0-9+.-]{0,30}://[^\s/?#:@'\"<>]*):([^\s/?#'\"<>]+)@")
+_ASSIGNMENT = re.compile(
+    r"(?P<name>(?<![\w.])[A-Za-z_\x80-\U0010ffff][\w.\-]{0,60})"
+    r"(?P<sign>(?P<close>[\"']?)[ \t]*=[ \t]*|[\"']?[ \t]*:[ \t]+|[\"']:)"
+    r"(?P<value>\"(?:[^\"\\]|\\.)*\"?|'[^']*'?|(?:(?:Bearer|Basic|Digest)[ \t]+)?[^\s\"'&;,)}\]]+)"
+)
+_OPTION = re.compile(
+    r"(?P<name>(?<![\w-])--?[A-Za-z][\w.\-]{0,60})(?P<sign>[ \t]+)"
+    r"(?P<value>\"[^\"]*\"?|'[^']*'?|[^\s\"'&;-][^\s\"'&;]*)"
+)
+_IS_OPTION = re.compile(r"--?[A-Za-z][\w.\-]*\Z")
+_WHOLE = re.compile(r"((?:--?)?[A-Za-z_\x80-\U0010ffff][\w.\-]*)([=:])(?!//)(.+)\Z", re.DOTALL)
+_REFERENCE = re.compile(r"\$?\{ *(?:env|file) *:|\$\{?[A-Za-z_]")
+
+
+def masked(text: str) -> str:
+    """A text of any kind without the secrets that its own words tell: `user:password@` of URLs, `password=…`,
+    `"token": "…"`, `--api-key …`. References to the environment and to files are no secrets."""
+    text = url(text)
+    if "=" in text or ":" in text:
+        text = _ASSIGNMENT.sub(_without_value, text)
+    return _OPTION.sub(_without_value, text) if "-" in text else text
+
+
+def _without_value(found: re.Match[str]) -> str:
+    value = found["value"]
+    if not is_secret(found["name"]) or _REFERENCE.match(value.strip("\"'")):
+        return found[0]
+    quote = value[0] if value[0] in "\"'" else ""
+    return f"{found['name']}{found['sign']}{quote}{HIDDEN}{quote}"
+
+
+def url(text: str) -> str:
+    """A text without the passwords in its URLs."""
+    return _USER_INFO.sub(lambda found: f"{found[1]}:{HIDDEN}@", text) if "@" in text else text
+
+
+def is_one_of(name: str, names: Collection[str]) -> bool:
+    """Whether a name, or a part of a dotted one, says that it is secret or is one of these."""
+    return is_secret(name) or (bool(names) and not {name, *name.lstrip("-").split(".")}.isdisjoint(names))
+
+
+def value(name: str, text: str, names: Collection[str] = ()) -> str:
+    """The value of something by its name."""
+    if text and is_one_of(name, names) and not _REFERENCE.match(text):
+        return HIDDEN
+    return masked(text)
+
+
+def words(command: Iterable[str], names: Collection[str] = ()) -> Iterator[str]:
+    """The words of a command: the value of an option may be the next word."""
+    is_value = False
+    for word in command:
+        option = _IS_OPTION.match(word)
+        if is_value and not option:
+            yield word if _REFERENCE.match(word) else HIDDEN
+            is_value = False
+            continue
+        is_value = option is not None and is_one_of(word, names)
+        found = _WHOLE.match(word)
+        if found and is_one_of(found[1], names) and not _REFERENCE.match(found[3]):
+            yield f"{found[1]}{found[2]}{HIDDEN}"
+        else:
+            yield masked(word)
+
+
+def command(words_: Iterable[str], names: Collection[str] = ()) -> str:
+    """A command on one line, for people."""
+    return " ".join(words(words_, names))
+
+
+_SUSPECT = re.compile(
+    r"pass|secret|credential|contrase|key|token|pwd|private|bearer|authorization|://[^\s/]*@", re.IGNORECASE
+)
+
+
+def may_hold(text: str) -> bool:
+    """Whether a look for secrets is worth its time."""
+    return _SUSPECT.search(text) is not None
+
+
+Part = tuple[int, int]
+def hidden_lines(text: str) -> list[str]:
+    """The lines of a document or a property file, with their ends, as they may be shown."""
+    lines = text.splitlines(keepends=True)
+    for number, parts in parts_of_lines([line.rstrip("\r\n") for line in lines]).items():
+        for start, end in sorted(parts, reverse=True):
+            lines[number] = f"{lines[number][:start]}{HIDDEN}{lines[number][end:]}"
+    return lines
+
+
+_KEY = re.compile(r"[\"']?(?P<name>(?<![\w.])[A-Za-z_\x80-\U0010ffff][\w.\-\[\]]{0,60})[\"']?[ \t]*(?P<sign>[:=])")
+_FLOW_VALUE = re.compile(r"[ \t]*(?:\"(?:[^\"\\]|\\.)*\"?|'(?:[^']|'')*'?|[^,}\]]*)")
+_LISTED = re.compile(
+    r"(?P<name>(?<![\w-])--?[A-Za-z][\w.\-]{0,60})[\"']?,[ \t]*(?P<value>\"[^\"]*\"?|'[^']*'?|[^\s,\]]+)"
+)
+_INDENT = re.compile(r"[ \t]*(?:-[ \t]+)*")
+
+
+def parts_of_lines(lines: Sequence[str], names: Collection[str] = ()) -> dict[int, list[Part]]:
+    """What is hidden of each line (from 0) of a text that nobody could read as what it is to be: whatever stands behind
+    a name that says so, or is one of `names`, and below it."""
+    found: dict[int, list[Part]] = {}
+    below: int | None = None  # the indentation of the key whose value goes on
+    for number, line in enumerate(lines):
+        start = len(line) - len(line.lstrip())
+        goes_on = below is not None and (start > below or (start == below and not _KEY.search(line)))
+        if goes_on or (below is not None and (not line.strip() or line.lstrip().startswith("- "))):
+            if line.strip():
+                found[number] = [(start, len(line.rstrip()))]
+            continue
+        parts, below = _parts_of_line(line, names)
+        if parts:
+            found[number] = parts
+    return found
+
+
+def _parts_of_line(line: str, names: Collection[str]) -> tuple[list[Part], int | None]:
+    """Also the indentation of a key whose value goes on in the next line."""
+    parts = [found.span(2) for found in _USER_INFO.finditer(line)]
+    for options in (_OPTION, _LISTED):
+        parts += [found.span("value") for found in options.finditer(line) if is_secret(found["name"])]
+    first, at = _INDENT.match(line), 0
+    while key := _KEY.search(line, at):
+        at = key.end()
+        last = re.split(r"[.\[\]]", key["name"].rstrip("]."))[-1]
+        if not is_secret(key["name"]) and last not in names and key["name"] not in names:
+            continue
+        is_first = first is not None and key.start() == first.end()
+        end = len(line.rstrip()) if is_first else _FLOW_VALUE.match(line, at).end()  # type: ignore[union-attr]
+        begin = at + len(line[at:end]) - len(line[at:end].lstrip())
+        if is_first and (begin == end or line[begin] in "|>\"'&!"):
+            return [*parts, (begin, end)] if begin < end else parts, key.start()
+        if begin < end and not _REFERENCE.match(line[begin:]):
+            parts.append((begin, end))
+        at = max(at, end)
+    return parts, None
