@@ -28,16 +28,16 @@ _LARGEST = 1024  # entries of an example
 
 def example(member: Member) -> object:
     if isinstance(member.type, BasicType | EnumType) and member.type.secret:
-        return {"env": _variable(member.name)}
+        return reference(member.name)
     if member.default is not None and not is_secret(member.type):
         return hidden(member.type, member.default.data)
     return example_of(member.type)
 
 
-def _variable(name: str) -> str:
-    """A variable of the environment for what has this name."""
+def reference(name: str) -> dict[str, str]:
+    """A secret is not written down: it stands in the variable of the environment that has its name."""
     made = re.sub(r"[^A-Z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", name).upper()).strip("_")
-    return made if made[:1].isalpha() else f"SECRET_{made}".rstrip("_")
+    return {"env": made if made[:1].isalpha() else f"SECRET_{made}".rstrip("_")}
 
 
 def example_of(type_: Type) -> object:

@@ -27,7 +27,7 @@ from robocomp_yaml.model.parameters import (
 )
 from robocomp_yaml.values import evaluate
 from robocomp_yaml.values.defaults import defaults, with_defaults
-from robocomp_yaml.values.example import count_of, fits, simplest
+from robocomp_yaml.values.example import count_of, example, fits, reference, simplest
 from robocomp_yaml.values.normalize import as_data
 
 _STEPS = 3000  # of one search
@@ -73,9 +73,8 @@ def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> 
         found.given = {**carried_, **chosen}
     together = dict(found.given)
     for path in (path for path in optional if path not in found.given):
-        default = members[path].default
-        if default is not None:
-            found.possible[path] = default.data
+        if members[path].default is not None:
+            found.possible[path] = example(members[path])
             continue
         search.base = together
         fit = search.solve([path], both=found.given)
@@ -251,6 +250,9 @@ class _Search:
     def _values(self, place: _Place) -> list[Any]:
         """What a place may hold, the simplest first."""
         type_ = place.type
+        if type_.secret:
+            named = max(at for at, step in enumerate(place.steps) if isinstance(step, str))
+            return [reference("_".join(map(str, place.steps[named:])))]
         found = [*place.first, *islice(simplest(type_), _VALUES)]
         if isinstance(type_, BasicType) and type_.is_number:
             near = list(simplest(type_))

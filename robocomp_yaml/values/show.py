@@ -74,7 +74,7 @@ def hidden_text(root: RecordType, steps: list[str], text: str) -> str:
     type_ = type_at(root, steps)
     if type_ is None or not text or text == "null":
         return text
-    node, _ = parse("", text)
+    node = parse("", text)[0] if text.isprintable() else None
     if node is None:
         return HIDDEN if holds_secret(type_) or secrets.is_secret(steps[-1]) else secrets.url(text)
     data = hidden_at(root, steps, node.data)

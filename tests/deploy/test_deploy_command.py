@@ -20,7 +20,7 @@ from processes import Ports, until
 from robocomp_yaml import resources
 from robocomp_yaml.deploy.local import procfs
 from small_networks import Place
-from terminals import foreign, on_terminal
+from terminals import foreign
 
 ROBOT = """\
 deployment: Robot

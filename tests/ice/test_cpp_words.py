@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import random
 import re
-import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import pytest
 from cpp_macros import FAMILIES, found, headers
 from cpp_programs import needs_cpp
 

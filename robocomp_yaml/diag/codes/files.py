@@ -259,6 +259,7 @@ BAD_ICE_TEXT = Code(
      "a.cdsl.yaml": "component: A\nlanguage: python\n"},
     {"etc/config.yaml": "component: ../a.cdsl.yaml\nendpoints: {CommonBehavior: tcp -p 10001}\n",
      "a.cdsl.yaml": "component: A\nlanguage: python\n"},
+    says=("'{text}' is no endpoint of Ice: {reason}", "'{text}' is no proxy of Ice: {reason}"),
 )
 WORKSPACE_SETTING = Code(
     "RC0301",

@@ -147,6 +147,14 @@ TOPIC_MISMATCH = Code(
     ),
     _CHECK,
 )
+_OF_ENDPOINTS = (
+    "there is no protocol '{protocol}'",
+    "'{option}' is no option of {protocol}; {protocol} takes {options}",
+    "'{option}' needs a value",
+    "'{option}' takes no value, and has '{value}'",
+    "an endpoint is missing behind the colon",
+    "a quote is not closed",
+)
 BAD_ENDPOINT = Code(
     "RC4301",
     "error",
@@ -157,6 +165,10 @@ BAD_ENDPOINT = Code(
     deployed(_BOTH + "  laser: {program: sh, endpoints: {Laser: tcp}}\n"),
     deployed(_BOTH + "  laser: {program: sh, endpoints: {Laser: tcp -p 10003}}\n"),
     _CHECK,
+    says=tuple(
+        f"{{name}} cannot be served at '{{text}}': {reason}"
+        for reason in (*_OF_ENDPOINTS, "it holds no endpoint", "it has no fixed port")
+    ),
 )
 BAD_PROXY = Code(
     "RC4015",
@@ -169,6 +181,15 @@ BAD_PROXY = Code(
     deployed("components:\n" + _SPEAKS.replace("h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -q 10002"}}')),
     deployed("components:\n" + _SPEAKS.replace("h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -p 10002"}}')),
     _CHECK,
+    says=tuple(
+        f"'{{text}}' is no proxy: {reason}"
+        for reason in (
+            "it is empty", "the identity is missing", "an identity is CATEGORY/NAME, with one slash",
+            "a proxy has no option '{option}'; it takes {options}",
+            "'{option}' stands where an option, a colon or @ is expected", "the adapter is missing behind the @",
+            "nothing can follow the adapter", *_OF_ENDPOINTS,
+        )
+    ),
 )
 PASSED_OVER = Code(
     "RC4016",
@@ -183,6 +204,7 @@ PASSED_OVER = Code(
         "h}", 'h, connect: {Mouth: "mouth:tcp -h 10.0.0.9 -p 10002:tcp -h 10.0.0.8 -p 10002"}}'
     )),
     _CHECK,
+    says=("Ice passes over this endpoint: there is no protocol '{protocol}'",),
 )
 NOT_IN_THIS_FORM = Code(
     "RC4018",
@@ -217,6 +239,10 @@ PATH_TOO_LONG = Code(
     deployed(_BOTH + f"  laser: {{program: sleep, args: [1], cwd: {'c' * 300}}}\n"),
     deployed(_BOTH + "  laser: {program: sleep, args: [1], cwd: mouth}\n"),
     _CHECK,
+    says=(
+        "no file can have the path '{path}': it has {size} bytes, and {limit} are the most",
+        "no file can have the path '{path}': a name in it has {size} bytes, and {limit} are the most",
+    ),
 )
 PORT_TOO_HIGH = Code(
     "RC4302",

@@ -67,7 +67,7 @@ def test_a_port_in_a_config_is_taken() -> None:
     ("udp -p 10:tcp -p 11", IceEndpoint(10, "udp")), ("tcp -h * -p 10", IceEndpoint(10)), ("tcp -p 0", None), ("tcp", None),
     ("tcp -p x", None), ("tcp -p 70000", None), ("", None), ("tcp -p ²", None), ("tcpx -p 1", None),
 ])
-def test_endpoints(value: str, expected: Endpoint | None) -> None:
+def test_endpoints(value: str, expected: IceEndpoint | None) -> None:
     assert ports.parse_endpoint(value) == expected
 
 
