@@ -4,6 +4,7 @@ VENV ?= .venv
 # Ice comes as a module for Debian's own python3 (3.11); another one cannot load it.
 PYTHON ?= $(shell test -x /usr/bin/python3 && echo /usr/bin/python3 || echo python3)
 JOBS ?= 2
+FUZZ_MINUTES ?= 10
 ICE := zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 python3-zeroc-ice \
   zeroc-icegrid zeroc-ice-utils
 QT := qt6-base-dev
@@ -11,12 +12,13 @@ TOOLS := python3-venv cmake g++ make ninja-build nodejs npm git openssl iproute2
 # More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server, and systemd.
 MORE ?=
 
-.PHONY: help demo test fast lint bench clean
+.PHONY: help demo test fast fuzz lint bench clean
 
 help:
 	@echo "make demo   install into $(VENV) and run the example: migrate, check, compile, run"
 	@echo "make test   install what the tests need, and run them all"
 	@echo "make fast   the tests that need neither C++ builds nor an editor"
+	@echo "make fuzz   look for new failing examples, for FUZZ_MINUTES=10 minutes"
 	@echo "make bench  the benchmarks, as ratios"
 	@echo "make clean  remove $(VENV) and what the demo made"
 
@@ -59,6 +61,9 @@ test: system $(VENV)/tests
 
 fast: $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) -q -m 'not slow' --ignore tests/editor --ignore tests/ice
+
+fuzz: $(VENV)/tests
+	@$(VENV)/bin/python tests/fuzz/run.py --minutes $(FUZZ_MINUTES) --jobs $(JOBS)
 
 lint: $(VENV)/tests
 	@$(VENV)/bin/lint-imports
