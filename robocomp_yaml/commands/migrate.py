@@ -49,7 +49,7 @@ def command(
     edited is overwritten, and the sources stay as they are.
     """
     from robocomp_yaml.legacy.ledger import as_json
-    from robocomp_yaml.legacy.migration import migrate
+    from robocomp_yaml.legacy.migration import look_back, migrate
     from robocomp_yaml.legacy.settings.corrections import Wrong, corrections
     from robocomp_yaml.pipeline import search_folders
 
@@ -67,6 +67,7 @@ def command(
         click.echo(change.diff(path), nl=False, err=format_ != "text" or report == "-")
     if not dry_run:
         run.write()
+        look_back(run, include)
     lost = sum(entry.lines()["lost"] for entry in run.entries)
     _print(ctx, run, format_, dry_run, err=report == "-")
     if report is not None:
