@@ -25,6 +25,7 @@ from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import text as source_text
+from robocomp_yaml.source import whole_file
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values import paths
 from robocomp_yaml.values import show as values_show
@@ -202,7 +203,7 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     if worse:
         _fail(ctx, worse, after.documents)
     try:
-        _replace(os.path.realpath(file), changed)
+        whole_file.replace(file, changed)
     except OSError as error:
         raise click.UsageError(f"{file} cannot be written: {(error.strerror or str(error)).lower()}") from None
     if format_ == "json":
@@ -210,15 +211,6 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     elif ctx.obj.verbosity >= 0:
         was = f" (was {change.was})" if change.was else ""
         click.echo(f"{path} = {value}{was}")
-
-
-def _replace(file: str, content: bytes) -> None:
-    """Another content for a file, all at once, with the same permissions."""
-    part = f"{file}.part"
-    with open(part, "wb") as opened:
-        opened.write(content)
-        os.fchmod(opened.fileno(), os.stat(file).st_mode & 0o7777)
-    os.replace(part, file)
 
 
 def _refuse_bad(
@@ -290,8 +282,7 @@ def write_new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
 
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        with target.open("x", encoding="utf-8") as opened:
-            opened.write(first_values(linked, component, str(target)))
+        whole_file.create(target, first_values(linked, component, str(target)))
     except OSError as error:
         raise click.UsageError(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
     if ctx.obj.verbosity >= 0:

@@ -15,13 +15,12 @@ class WorkspaceView(msgspec.Struct, frozen=True):
 
 def make(ctx: click.Context, folder: Path) -> None:
     """Writes what a workspace consists of, besides documents; raises OSError where that cannot be."""
-    from robocomp_yaml.source import workspace_files
+    from robocomp_yaml.source import whole_file, workspace_files
 
     for path, text in _files(folder):
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            with path.open("x", encoding="utf-8") as file:
-                file.write(text)
+            whole_file.create(path, text)
             tell(ctx, "wrote", path)
         except FileExistsError:
             tell(ctx, "kept", path)

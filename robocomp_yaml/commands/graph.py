@@ -82,8 +82,9 @@ def _is_included(path: str, analysis: Analysis) -> bool:
 
 
 def _save(path: str, text: str) -> None:
+    from robocomp_yaml.source import whole_file
+
     try:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
+        whole_file.replace(path, text.encode("utf-8", "surrogateescape"))
     except OSError as error:
         raise click.ClickException(f"{path} cannot be written: {(error.strerror or str(error)).lower()}") from error

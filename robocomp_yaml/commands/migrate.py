@@ -99,9 +99,13 @@ def _refuse_to_overwrite(path: str) -> None:
 
 
 def _save(path: str, text: str) -> None:
+    from robocomp_yaml.source import whole_file
+
     try:
-        with click.open_file(path, "w", encoding="utf-8", errors="backslashreplace") as file:
-            file.write(text)
+        if path == "-":
+            click.echo(text, nl=False)
+        else:
+            whole_file.replace(path, text.encode("utf-8", "backslashreplace"))
     except OSError as error:
         raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
 

@@ -159,9 +159,10 @@ def component_document(
 
 def write(ctx: click.Context, document: NewDocument) -> None:
     """Writes a document where nothing stands yet."""
+    from robocomp_yaml.source import whole_file
+
     document.path.parent.mkdir(parents=True, exist_ok=True)
-    with document.path.open("x", encoding="utf-8") as file:
-        file.write(document.text)
+    whole_file.create(document.path, document.text)
     _workspace.tell(ctx, "wrote", document.path)
 
 

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from robocomp_yaml import resources
+from robocomp_yaml.source import whole_file
 from robocomp_yaml.source.json_comments import Unreadable, with_members
 
 FOLDER = ".rcyaml/schemas"
@@ -81,10 +82,5 @@ def _write(path: Path, text: str) -> bool:
             return False
     except FileNotFoundError:
         path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        part.write_bytes(data)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+    whole_file.replace(path, data)
     return True

@@ -27,16 +27,18 @@ def examples(count: int) -> settings:
 
 @contextmanager
 def standing_in(files: Tree) -> Iterator[Path]:
-    """A new folder that holds these files, and is the current one."""
+    """A new folder, always called alike, that holds these files and is the current one."""
     before = os.getcwd()
-    folder = Path(tempfile.mkdtemp(prefix="fuzz-")).resolve()
+    outer = Path(tempfile.mkdtemp(prefix="fuzz-")).resolve()
+    folder = outer / "robot"
     try:
+        folder.mkdir()
         write_tree(folder, files)
         os.chdir(folder)
         yield folder
     finally:
         os.chdir(before)
-        shutil.rmtree(folder, ignore_errors=True)
+        shutil.rmtree(outer, ignore_errors=True)
 
 
 def run(*args: str) -> Result:

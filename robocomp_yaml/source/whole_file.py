@@ -1,0 +1,68 @@
+"""One file written whole or not at all, even where the disk is full or the process is killed in the middle.
+
+What many files have to do together is `emit.atomic`'s.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import stat
+from collections.abc import Iterator
+
+_NO_LINKS = (errno.EPERM, errno.EMLINK, errno.ENOSYS, errno.EOPNOTSUPP)
+
+
+def create(path: str | os.PathLike[str], text: str) -> None:
+    """A new file. Raises FileExistsError where something stands, which stays as it is, and OSError."""
+    target = os.fspath(path)
+    with _part(target, text.encode("utf-8", "surrogateescape")) as part:
+        try:
+            os.link(part, target)
+        except OSError as error:
+            if error.errno not in _NO_LINKS:
+                raise
+            if os.path.lexists(target):  # a disk without hard links
+                raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), target) from None
+            os.rename(part, target)
+
+
+def replace(path: str | os.PathLike[str], content: bytes) -> None:
+    """Another content for a file, which keeps its permissions, or a first one. What is no file, such as a pipe, just
+    gets it. Raises OSError."""
+    target = os.path.realpath(path)
+    mode = os.stat(target).st_mode if os.path.exists(target) else None
+    if mode is not None and not stat.S_ISREG(mode):
+        with open(target, "wb") as file:
+            file.write(content)
+        return
+    with _part(target, content, None if mode is None else stat.S_IMODE(mode)) as part:
+        os.replace(part, target)
+
+
+@contextlib.contextmanager
+def _part(target: str, content: bytes, mode: int | None = None) -> Iterator[str]:
+    """The content in a file beside the target, which is gone afterwards."""
+    folder, name = os.path.split(target)
+    _clean_up(folder, name)
+    part = os.path.join(folder, f".{name}.{os.getpid()}.part")
+    opened = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666)
+    try:
+        with os.fdopen(opened, "wb") as file:
+            file.write(content)
+            if mode is not None:
+                os.fchmod(file.fileno(), mode)
+        yield part
+    finally:
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(part)
+
+
+def _clean_up(folder: str, name: str) -> None:
+    """Takes away what a process left that was killed."""
+    with contextlib.suppress(OSError):
+        for other in os.listdir(folder or "."):
+            pid = other.removeprefix(f".{name}.").removesuffix(".part")
+            if other == f".{name}.{pid}.part" and pid.isdigit() and not os.path.exists(f"/proc/{pid}"):
+                os.unlink(os.path.join(folder, other))
