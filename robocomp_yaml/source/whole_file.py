@@ -11,21 +11,31 @@ import os
 import stat
 from collections.abc import Iterator
 
-_NO_LINKS = (errno.EPERM, errno.EMLINK, errno.ENOSYS, errno.EOPNOTSUPP)
+_NOT_HERE = (errno.EISDIR, errno.EOPNOTSUPP, errno.EINVAL, errno.ENOENT, errno.EXDEV, errno.EPERM, errno.ENOSYS, errno.EMLINK)
 
 
 def create(path: str | os.PathLike[str], text: str) -> None:
     """A new file. Raises FileExistsError where something stands, which stays as it is, and OSError."""
-    target = os.fspath(path)
-    with _part(target, text.encode("utf-8", "surrogateescape")) as part:
-        try:
-            os.link(part, target)
-        except OSError as error:
-            if error.errno not in _NO_LINKS:
-                raise
-            if os.path.lexists(target):  # a disk without hard links
+    target, content = os.fspath(path), text.encode("utf-8", "surrogateescape")
+    try:
+        _create_from_nameless(target, content)
+    except OSError as error:
+        if error.errno not in _NOT_HERE:
+            error.filename, error.filename2 = target, None
+            raise
+        with _part(target, content) as part:
+            if os.path.lexists(target):
                 raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), target) from None
             os.rename(part, target)
+
+
+def _create_from_nameless(target: str, content: bytes) -> None:
+    """The file has no name until it is whole, so that nothing is left of it where it does not come to that."""
+    opened = os.open(os.path.dirname(target) or ".", os.O_WRONLY | os.O_TMPFILE, 0o666)
+    with os.fdopen(opened, "wb") as file:
+        file.write(content)
+        file.flush()
+        os.link(f"/proc/self/fd/{opened}", target, src_dir_fd=opened, follow_symlinks=True)
 
 
 def replace(path: str | os.PathLike[str], content: bytes) -> None:

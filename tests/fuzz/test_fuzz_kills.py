@@ -43,7 +43,7 @@ COMMANDS: dict[str, tuple[Tree, tuple[str, ...]]] = {
     "migrate": (LEGACY, ("migrate", ".")),
     "config set": (VALUES, ("config", "set", "etc/config.yaml", "volume", "7")),
     "config new": (COMPONENT, ("config", "new", "speech.cdsl.yaml")),
-    "new": (COMPONENT, ("new", "interface", "Mouth")),
+    "new": ({**COMPONENT, "rcyaml.yaml": "interfaces: [.]\n", ".gitignore": ""}, ("new", "interface", "Mouth")),
     "graph -o": (COMPONENT, ("graph", "-o", "picture.dot", "--as", "dot")),
 }
 Then = Callable[[int, str], None]  # told the number and the name of what is about to happen
@@ -59,7 +59,7 @@ def touches(folder: Path, then: Then) -> None:
     def hook(event: str, args: tuple[Any, ...]) -> None:
         nonlocal count
         is_open = event == "open" and isinstance(args[2], int) and args[2] & WRITES
-        if (is_open or event in TOUCHES) and os.path.abspath(os.fsdecode(args[0])).startswith(str(folder)):
+        if (is_open or event in TOUCHES) and not isinstance(args[0], int) and os.path.abspath(os.fsdecode(args[0])).startswith(str(folder)):
             count += 1
             then(count, event)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
+from robocomp_yaml.source import whole_file
 from conftest import read_tree, write_tree
 
 Run = Callable[..., Result]
@@ -87,7 +88,7 @@ def test_what_cannot_be_written_is_said(rcyaml: Run, tmp_path: Path, monkeypatch
     def refuse(path: Path, *_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr(Path, "open", refuse)
+    monkeypatch.setattr(whole_file, "create", refuse)
     said = rcyaml("init")
     assert (said.exit_code, said.stderr) == (1, "Error: cannot write rcyaml.yaml: Permission denied\n")
 
