@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from robocomp_yaml.source import whole_file
 from conftest import read_tree, write_tree
+from robocomp_yaml.source import whole_file
 
 Run = Callable[..., Result]
 OWN_FILES = {
