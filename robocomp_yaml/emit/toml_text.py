@@ -34,7 +34,8 @@ def toml_text(values: LinkedValues, effective: Effective) -> str:
     table: Table = {}
     sections = properties(values, effective, quoted=True)[0]
     connections = [section for section in sections if section.title != "Parameters"]
-    for key, literal in [*_connections(connections, dialect(values) != CLASSIC), *_parameters(effective, bool(legacy_file(values)))]:
+    others = _connections(connections, dialect(values) != CLASSIC)
+    for key, literal in [*others, *_parameters(effective, bool(legacy_file(values)))]:
         _put(table, key, literal)
     top = {key: value for key, value in table.items() if not isinstance(value, dict)}
     blocks = ["".join(f"{_key(key)} = {value}\n" for key, value in top.items())] if top else []

@@ -11,7 +11,9 @@ import os
 import stat
 from collections.abc import Iterator
 
-_NOT_HERE = (errno.EISDIR, errno.EOPNOTSUPP, errno.EINVAL, errno.ENOENT, errno.EXDEV, errno.EPERM, errno.ENOSYS, errno.EMLINK)
+_NOT_HERE = (
+    errno.EISDIR, errno.EOPNOTSUPP, errno.EINVAL, errno.ENOENT, errno.EXDEV, errno.EPERM, errno.ENOSYS, errno.EMLINK,
+)  # fmt: skip
 
 
 def create(path: str | os.PathLike[str], text: str) -> None:

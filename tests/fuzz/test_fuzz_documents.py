@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from conftest import Tree
@@ -93,6 +93,10 @@ def look(files: Tree, pick: int) -> None:
                 assert "0 files written" in run("compile").output
 
 
+# Each kept as it was found, or smaller.
+@example({"c.cdsl.yaml": "\u2028component: C\nlanguage: python\nimports: [M]\nrequires: [M, M]\n"}, 0)
+@example({"etc/config.yaml": b"extends: [robot.config.yaml]", "c.cdsl.yaml": "component: C\nlanguage: python\n",
+          "etc/robot.config.yaml": "parameters: {}\n"}, 0)  # fmt: skip
 @given(changed_texts(), st.integers(0, 59))
 @examples(150)
 def test_texts(files: Tree, pick: int) -> None:

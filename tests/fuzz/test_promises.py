@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -12,7 +13,12 @@ from typing import Any
 
 import pytest
 
-from conftest import Tree, read_tree, write_tree
+from conftest import ROOT, Tree, read_tree, write_tree
+from robocomp_yaml.diag.codes import table
+from robocomp_yaml.legacy import grammar, reading
+from robocomp_yaml.link import deployment_sizes, parameters
+from robocomp_yaml.model import expression, pattern
+from robocomp_yaml.source import syntax, text, tree, xml
 
 SPEECH = "module: RoboCompSpeech\ninterfaces: {Speech: {methods: {say: {in: {text: string}}}}}\n"
 COMPONENT = "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n"
@@ -86,22 +92,22 @@ HOSTILE: dict[str, Tree] = {
         ".rcyaml/migrated.json": "-> ../../victim/settings.json",
     },
 }  # fmt: skip
-COMMANDS = (("check", "."), ("migrate", "."), ("compile", "."), ("compile", ".", "--merge"), ("check", "."))
+COMMANDS = ("check .", "migrate .", "compile .", "graph . --as svg", "compile .")
 
 
-def watched(args: tuple[str, ...], robot: Path) -> dict[str, Any]:
-    """What a run of rcyaml did, in the folder of somebody's robot, with an environment that has everything there."""
+def watched(lines: tuple[str, ...], robot: Path) -> dict[str, Any]:
+    """What runs of rcyaml did, in the folder of somebody's robot, with an environment that has everything there."""
     report = robot.parent / "report.json"
     environment = {
         **os.environ, "HOME": str(robot.parent / "home"), "XDG_CACHE_HOME": str(robot.parent / "cache"), "WATCHED": str(report),
         "PYTHONDONTWRITEBYTECODE": "1", "TMPDIR": str(robot.parent / "tmp"),
     }  # fmt: skip
     script = str(Path(__file__).with_name("watched.py"))
-    done = subprocess.run([sys.executable, script, *args], cwd=robot, env=environment, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, script, *lines], cwd=robot, env=environment, capture_output=True, text=True, timeout=120)
     assert report.is_file(), done.stderr
     found: dict[str, Any] = json.loads(report.read_text())
     report.unlink()
-    assert found["code"] in (0, 1, 2, None), done.stderr
+    assert set(found["codes"]) <= {0, 1, 2, None} and len(found["codes"]) == len(lines), done.stderr
     return found
 
 
@@ -114,23 +120,38 @@ def test_nothing_is_run_and_nothing_is_written_outside(name: str, tmp_path: Path
     robot.mkdir()
     write_tree(robot, {path: text.replace("VICTIM", str(victim)) if isinstance(text, str) else text
                        for path, text in HOSTILE[name].items()})  # fmt: skip
-    mine = [str(robot), str(tmp_path / "cache" / "rcyaml"), str(tmp_path / "tmp")]
-    for args in COMMANDS:
-        did = watched(args, robot)
-        merges = [start for start in did["started"] if "--merge" in args and "git" in start]
-        assert [start for start in did["started"] if start not in merges] == [], args
-        outside = [path for path in did["written"] if not any(path == own or path.startswith(f"{own}/") for own in mine)]
-        assert [path for path in outside if path != str(tmp_path / "cache")] == [], args
-        assert [path for path in did["modules"] if path.startswith(str(tmp_path))] == [], args
+    mine = [str(robot), str(tmp_path / "cache" / "rcyaml")]
+    did = watched(COMMANDS, robot)
+    assert did["started"] == []
+    outside = [path for path in did["written"] if not any(path == own or path.startswith(f"{own}/") for own in mine)]
+    assert outside == []
+    assert [path for path in did["modules"] if path.startswith(str(tmp_path))] == []
     assert read_tree(victim) == VICTIM
     assert not list(tmp_path.rglob("EXECUTED"))
-    assert not any((tmp_path / folder).iterdir() for folder in ("home", "tmp"))
+    assert [*(tmp_path / "home").iterdir(), *(tmp_path / "tmp").iterdir()] == []
 
 
 def test_the_watch_sees(tmp_path: Path) -> None:
     """A write outside would be found: that of the templates' cache is."""
     robot = write_tree(tmp_path / "robot", ROBOT)
     (tmp_path / "tmp").mkdir()
-    did = watched(("compile",), robot)
+    did = watched(("compile .",), robot)
     assert any(path.startswith(str(tmp_path / "cache" / "rcyaml")) for path in did["written"])
     assert any(path.startswith(str(robot / "speech" / "generated")) for path in did["written"])
+
+
+LIMITS = {
+    "a document": text.MAX_DOCUMENT >> 20, "a legacy file": reading.MAX_SOURCE >> 20, "one text in a document": text.MAX_SCALAR >> 20,
+    "nesting of YAML": syntax.MAX_DEPTH, "nesting of XML": xml.MAX_DEPTH, "nesting of a legacy file": grammar.MAX_DEPTH,
+    "values that aliases repeat": tree.MAX_ALIASED, "elements of an XML file": xml.MAX_ELEMENTS,
+    "plain values of a component's parameters": parameters.MAX_VALUES, "types inside of types": parameters.MAX_DEPTH,
+    "a constraint": expression.MAX_LENGTH, "nesting of a constraint": expression.MAX_DEPTH, "a count in a `pattern:`": pattern.MAX_COUNT,
+    "processes of a deployment": deployment_sizes.MOST, "includes inside of each other": deployment_sizes.DEEPEST,
+}  # fmt: skip
+
+
+def test_the_limits_are_those_that_are_told() -> None:
+    page = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
+    told = re.findall(r"^\| ([^|]+) \| ([0-9][0-9,]*)[^|]* \| (RC\d{4}|refused) \|$", page, re.MULTILINE)
+    assert {what: int(number.replace(",", "")) for what, number, _ in told} == LIMITS
+    assert {code for _, _, code in told if code != "refused"} <= set(table())

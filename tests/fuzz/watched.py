@@ -1,4 +1,5 @@
-"""Runs `rcyaml ARGS` and prints, as JSON, what it did beyond reading: `python watched.py ARGS`, in a process of its own."""
+"""Runs rcyaml and says, as JSON, what it did beyond reading: `python watched.py "ARGS" "ARGS" …`, in a process of its own.
+The report goes to the file $WATCHED."""
 
 from __future__ import annotations
 
@@ -38,12 +39,13 @@ def hook(event: str, args: tuple[object, ...]) -> None:
 sys.addaudithook(hook)
 from robocomp_yaml.cli import group  # noqa: E402 (watched, too)
 
-code: object = 0
-try:
-    group(sys.argv[1:], prog_name="rcyaml")
-except SystemExit as end:
-    code = end.code
+codes: list[object] = []
+for line in sys.argv[1:]:
+    try:
+        group(line.split(), prog_name="rcyaml")
+    except SystemExit as end:
+        codes.append(end.code)
 watching = False
 modules = sorted({os.path.abspath(str(m.__file__)) for m in list(sys.modules.values()) if getattr(m, "__file__", None)})
 with open(os.environ["WATCHED"], "w", encoding="utf-8") as report:
-    json.dump({"code": code, "written": written, "started": started, "modules": modules}, report)
+    json.dump({"codes": codes, "written": written, "started": started, "modules": modules}, report)

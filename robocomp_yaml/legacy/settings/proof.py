@@ -23,6 +23,7 @@ from robocomp_yaml.link.parameters import resolve
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model import build_parameters
 from robocomp_yaml.source import schema, tree
+from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as Mapping_
 from robocomp_yaml.source.tree import Node
 from robocomp_yaml.source.tree import Sequence as Sequence_
@@ -78,7 +79,10 @@ class _Draft:
 
     def _tree(self, name: str, kind: str, document: Map) -> Mapping_ | None:
         """Only a document of the right shape."""
-        root, said = tree.parse(name, document_text(document, Notes()))
+        content, said = decode(name, document_text(document, Notes()).encode())
+        root = None
+        if content is not None:
+            root, said = tree.parse(name, content)
         self.trees[name] = root
         if root is not None:
             said = [*said, *schema.validate(kind, root)]
