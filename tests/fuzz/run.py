@@ -22,7 +22,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FOUND = ROOT / ".fuzz"
-NOT_HERE = ("test_verdicts_cpp.py",)  # its cases are one program, built before they are judged
+SELDOM = ("test_verdicts_cpp.py",)  # its cases are one program, which takes a minute to build
 _FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+?::\S+)(?: - (.*))?$", re.MULTILINE)
 _PASSED = re.compile(r"\b(\d+) passed")
 
@@ -30,9 +30,13 @@ _PASSED = re.compile(r"\b(\d+) passed")
 def harnesses(words: list[str]) -> list[Path]:
     """Every test file that asks Hypothesis for examples; ours first."""
     found = [path for path in sorted((ROOT / "tests").rglob("test_*.py")) if "@given" in path.read_text(encoding="utf-8")]
-    found = [path for path in found if path.name not in NOT_HERE]
     found = [path for path in found if not words or any(word in path.name for word in words)]
     return sorted(found, key=lambda path: path.parent != ROOT / "tests" / "fuzz")
+
+
+def weight(path: Path) -> float:
+    """How many turns a file has where most have one."""
+    return 0.2 if path.name in SELDOM else 3 if path.parent.name == "fuzz" else 1
 
 
 @dataclass
@@ -48,11 +52,11 @@ class Run:
     lock: threading.Lock = field(default_factory=threading.Lock)
 
     def next(self) -> Path | None:
-        """The file that had the fewest turns; our own harnesses have three where the others have one."""
+        """The file that had the fewest turns for its weight."""
         with self.lock:
             if time.monotonic() >= self.until:
                 return None
-            path = min(self.files, key=lambda path: self.rounds.get(path, 0) / (3 if path.parent.name == "fuzz" else 1))
+            path = min(self.files, key=lambda path: (self.rounds.get(path, 0) / weight(path), path.name in SELDOM))
             self.rounds[path] = self.rounds.get(path, 0) + 1
             return path
 
