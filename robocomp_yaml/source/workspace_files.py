@@ -68,10 +68,10 @@ def settings_problem(folder: Path) -> str:
 def _wired(folder: Path) -> str:
     """The text of VS Code's settings with our schemas in `yaml.schemas`."""
     settings = folder / SETTINGS
-    if not stays_inside(str(folder), SETTINGS):
-        raise Unreadable("a link leads out of the workspace")
     if settings.is_symlink():
         raise Unreadable("it is a link")
+    if not stays_inside(str(folder), SETTINGS):
+        raise Unreadable("a link leads out of the workspace")
     try:
         text = settings.read_text(encoding="utf-8")
     except FileNotFoundError:

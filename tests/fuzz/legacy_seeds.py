@@ -63,7 +63,7 @@ ROBOT: Tree = {
 def seeds() -> list[Tree]:
     """Trees of one or a few legacy files."""
     found: list[Tree] = [ROBOT, *({name: text} for name, text in ROBOT.items()), *LEGACY_FILES]
-    return found
+    return [files for files in found if any(text is not None for text in files.values())]
 
 
 @cache

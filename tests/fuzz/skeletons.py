@@ -210,8 +210,16 @@ def _unescaped(word: str) -> str:
 
 def of_markdown(text: str) -> Any:
     """How many cells each row of a table has; texts are Markdown themselves."""
-    rows = [line.replace("\\|", "") for line in text.split("\n") if line.startswith("|")]
-    return [len(re.sub(r"`[^`]*`", lambda code: code[0].replace("|", ""), row).split("|")) for row in rows]
+    found: list[int] = []
+    before = ""
+    in_table = False
+    for line in text.split("\n"):
+        in_table = line.startswith("|---") or (in_table and line.startswith("|"))
+        for row in [before, line] if line.startswith("|---") else [line] if in_table else []:
+            bare = re.sub(r"`[^`]*`", lambda code: code[0].replace("|", ""), row.replace("\\|", ""))
+            found.append(len(bare.split("|")))
+        before = line
+    return found
 
 
 def _as_it_is(text: str) -> Any:
