@@ -20,9 +20,9 @@ from conftest import FUZZING, Tree, write_tree
 from robocomp_yaml.cli import group
 
 
-def examples(count: int) -> settings:
-    """So many examples as a part of all tests, and many more when new ones are looked for."""
-    return settings(max_examples=count * 10 if FUZZING else count, deadline=None, suppress_health_check=list(HealthCheck))
+def examples(count: int, times: int = 10) -> settings:
+    """So many examples as a part of all tests, and so many times as many when new ones are looked for."""
+    return settings(max_examples=count * times if FUZZING else count, deadline=None, suppress_health_check=list(HealthCheck))
 
 
 @contextmanager
