@@ -36,8 +36,9 @@ def legacy_trees(draw: st.DrawFn) -> Tree:
 
 def migrates(files: Tree, *options: str) -> None:
     with standing_in(files) as folder:
-        # documents of an older form are brought up to date
-        before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file() and path.suffix != ".yaml"}
+        # documents of an older form, and what rcyaml remembers, are brought up to date
+        before = {path: path.read_bytes() for path in folder.rglob("*")
+                  if path.is_file() and path.suffix != ".yaml" and path.parent.name != ".rcyaml"}  # fmt: skip
         result, said = told("migrate", ".", "--report", "report.json", *options)
         if result.exit_code == 2:
             return
