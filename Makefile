@@ -6,6 +6,7 @@ export VENV
 PYTHON ?= $(or $(RCYAML_PYTHON),$(shell /usr/bin/python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
   && echo /usr/bin/python3 || echo python3))
 JOBS ?= 2
+FUZZ_MINUTES ?= 10
 
 # What the system is to have for a goal: installed where that may be done, else named.
 demo_NEEDS := python3-venv python3-zeroc-ice
@@ -15,13 +16,14 @@ test_NEEDS := $(demo_NEEDS) \
 # More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server, and systemd.
 MORE ?=
 
-.PHONY: help demo test fast lint macros bench ice clean system-demo system-test
+.PHONY: help demo test fast fuzz lint macros bench ice clean system-demo system-test
 .NOTPARALLEL:
 
 help:
 	@echo "make demo   install into $(VENV), and run the example: migrate, check, compile, deploy, call"
 	@echo "make test   install what the tests need, and run them all"
 	@echo "make fast   the tests that need neither C++ builds nor an editor"
+	@echo "make fuzz   look for new failing examples, for FUZZ_MINUTES=10 minutes"
 	@echo "make bench  the benchmarks, as ratios"
 	@echo "make lint   the layers of the modules"
 	@echo "make macros the names that C++ takes, from this machine's compiler and headers"
@@ -54,6 +56,9 @@ macros: $(VENV)/tests
 
 fast: $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) -q -m 'not slow' --ignore tests/editor --ignore tests/ice
+
+fuzz: $(VENV)/tests
+	@$(VENV)/bin/python tests/fuzz/run.py --minutes $(FUZZ_MINUTES) --jobs $(JOBS)
 
 lint: $(VENV)/tests
 	@$(VENV)/bin/lint-imports

@@ -10,15 +10,29 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from hypothesis import HealthCheck, settings
+from hypothesis.database import DirectoryBasedExampleDatabase
 
 from robocomp_yaml.cli import group
 
 ROOT = Path(__file__).resolve().parent.parent
 CORPUS = ROOT.parent / "shared" / "corpus"
 
+# Random tests take the same examples in every run, here and in CI; `make fuzz` looks for new ones.
+FUZZING = bool(os.environ.get("RCYAML_FUZZ"))
+settings.register_profile(
+    "fixed", derandomize=True, database=None, deadline=None, print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)  # fmt: skip
+settings.register_profile(
+    "fuzz", derandomize=False, database=DirectoryBasedExampleDatabase(ROOT / ".fuzz" / "examples"), deadline=None,
+    print_blob=True, suppress_health_check=list(HealthCheck),
+)  # fmt: skip
+settings.load_profile("fuzz" if FUZZING else "fixed")
+
 # What takes longest begins first where whole files are handed out to several processes (`--dist loadfile`).
 LONGEST = (
-    "test_changes", "test_icegrid_moves", "test_cpp_qt", "test_clock", "test_cpp_build", "test_merge", "test_cpp_config",
+    "test_changes", "test_fuzz_strings", "test_icegrid_moves", "test_cpp_qt", "test_clock", "test_cpp_build", "test_merge", "test_cpp_config",
     "test_icegrid", "test_parameters", "test_compile_migrated", "test_cpp_names", "test_cpp_topics", "test_cpp_calls",
     "test_cpp_stop", "test_verdicts_cpp", "test_engines", "test_packages", "test_icegrid_faults", "test_migrate_config",
     "test_cpp_corpus", "test_cpp_absent", "test_values_ice", "test_docs", "test_statemachine", "test_schemas", "test_codes",

@@ -16,6 +16,7 @@ from robocomp_yaml.diag.codes import machines, values
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.emit import stamp, writer
+from robocomp_yaml.emit.fences import Fences
 from robocomp_yaml.emit.build import Build, build
 from robocomp_yaml.emit.changes import Changes
 from robocomp_yaml.emit.options import Options
@@ -47,6 +48,10 @@ class Run(msgspec.Struct):
     merge: bool = False
     _schemas: dict[str, bytes] = {}
 
+    @property
+    def fences(self) -> Fences:
+        return Fences(self.paths, self.output)
+
     def carry_out(self, *, with_diff: bool = False) -> tuple[Outcome, stamp.Stamp | None]:
         """What it came to; with a stamp where the same run need not be made again while nothing changes."""
         with _options.progress("reading", self.paths) as on_read:
@@ -55,6 +60,7 @@ class Run(msgspec.Struct):
             self.output, analysis.found.folders, frozenset(self.targets), analysis.linker.workspace_of, _ports(analysis)
         )
         built = build(analysis.program, analysis.diagnostics, options)
+        self.fences.keep_inside(built)
         others = self._other_roots(analysis)
         recovered = [] if self.look_only else writer.recover(built.plans, others)
         own = review(built.plans, merge=self.merge)
@@ -82,7 +88,10 @@ class Run(msgspec.Struct):
     def _refresh_schemas(self, analysis: Analysis) -> None:
         """Brings the schemas up to date that editors read. A workspace that cannot be written to has compiled all the
         same."""
+        fences = Fences(self.paths, None)
         for workspace in analysis.linker.workspaces.values():
+            if not fences.hold(workspace.root):
+                continue
             try:
                 workspace_files.install(Path(workspace.root))
             except OSError:

@@ -23,13 +23,13 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit import whole
 from robocomp_yaml.link.component_references import beside
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type, is_secret
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
 from robocomp_yaml.source import text as source_text
+from robocomp_yaml.source import whole_file
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values import paths
@@ -212,7 +212,7 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     if worse:
         _fail(ctx, worse, after.documents)
     try:
-        whole.replace(file, changed)
+        whole_file.replace(file, changed)
     except OSError as error:
         raise click.UsageError(f"{file} cannot be written: {(error.strerror or str(error)).lower()}") from None
     said, was = (values_show.hidden_text(of, named, text) for text in (value, change.was))
@@ -305,7 +305,7 @@ def write_new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
 
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        whole.create(str(target), first_values(linked, component, str(target), ports(analysis)))
+        whole_file.create(target, first_values(linked, component, str(target), ports(analysis)))
     except OSError as error:
         raise click.UsageError(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
     if ctx.obj.verbosity >= 0:

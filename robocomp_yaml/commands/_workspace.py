@@ -9,7 +9,7 @@ import click
 import msgspec
 
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.emit import whole
+from robocomp_yaml.source import whole_file
 
 
 class WorkspaceView(msgspec.Struct, frozen=True):
@@ -23,7 +23,7 @@ def make(ctx: click.Context, folder: Path) -> None:
     for path, text in _files(folder):
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            whole.create(str(path), text)
+            whole_file.create(path, text)
             tell(ctx, "wrote", path)
         except FileExistsError:
             tell(ctx, "kept", path)

@@ -11,8 +11,8 @@ import click
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._only_deployment import deployments_of, one_of
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.emit import whole
 from robocomp_yaml.emit.graphs.forms import forms
+from robocomp_yaml.source import whole_file
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.graphs.picture import Picture
@@ -77,6 +77,6 @@ def _picture(path: str, analysis: Analysis) -> Picture | None:
 
 def _save(path: str, text: str) -> None:
     try:
-        whole.replace(path, terminal.as_bytes(text))
+        whole_file.replace(path, terminal.as_bytes(text))
     except OSError as error:
         raise click.ClickException(f"{path} cannot be written: {(error.strerror or str(error)).lower()}") from error

@@ -13,7 +13,7 @@ import click
 from robocomp_yaml.commands import _options
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.render import tell
-from robocomp_yaml.emit import whole
+from robocomp_yaml.source import whole_file
 
 if TYPE_CHECKING:
     from robocomp_yaml.legacy.result import Migration
@@ -52,7 +52,7 @@ def command(
     edited is overwritten, and the sources stay as they are.
     """
     from robocomp_yaml.legacy.ledger import as_json
-    from robocomp_yaml.legacy.migration import migrate
+    from robocomp_yaml.legacy.migration import look_back, migrate
     from robocomp_yaml.legacy.settings.corrections import Wrong, corrections
     from robocomp_yaml.pipeline import search_folders
 
@@ -70,6 +70,7 @@ def command(
         terminal.data(change.diff(path), err=format_ != "text" or report == "-")
     if not dry_run:
         run.write()
+        look_back(run, include)
     lost = sum(entry.lines()["lost"] for entry in run.entries)
     _print(ctx, run, format_, dry_run, err=report == "-")
     if report is not None:
@@ -105,7 +106,7 @@ def _save(path: str, text: str) -> None:
         if path == "-":
             terminal.data(text, json=True)
         else:
-            whole.replace(path, text.encode("utf-8", "backslashreplace"))
+            whole_file.replace(path, text.encode("utf-8", "backslashreplace"))
     except OSError as error:
         raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
 

@@ -18,7 +18,7 @@ import msgspec
 
 from robocomp_yaml.commands import _options, _workspace
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.emit import whole
+from robocomp_yaml.source import whole_file
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LONGEST_NAME = 200
@@ -162,7 +162,7 @@ def component_document(
 def write(ctx: click.Context, document: NewDocument) -> None:
     """Writes a document where nothing stands yet."""
     document.path.parent.mkdir(parents=True, exist_ok=True)
-    whole.create(str(document.path), document.text)
+    whole_file.create(document.path, document.text)
     _workspace.tell(ctx, "wrote", document.path)
 
 

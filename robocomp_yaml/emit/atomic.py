@@ -15,6 +15,7 @@ import msgspec
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
 from robocomp_yaml.emit.places import STATE, Root, contents, in_words
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.inside import stays_inside
 
 PATIENCE = 10.0
 """Seconds to wait for another rcyaml that writes into the same root."""
@@ -84,6 +85,8 @@ def recover(root: str) -> bool:
     """Puts a root in order that a dead commit left; whether something had to be put back."""
     if not any(os.path.lexists(os.path.join(root, name)) for name in (JOURNAL, JOURNAL_DONE)):
         return False
+    if not stays_inside(root, STATE):
+        return False
     with locked(root):
         journal, done = load(root)
         if journal is None:
@@ -152,6 +155,8 @@ class _Commit(msgspec.Struct):
         return self.batch.root
 
     def open(self, locks: contextlib.ExitStack) -> None:
+        if not stays_inside(self.root, STATE):
+            raise WriteFailed(self.root, STATE, "it is a link that leads out of its folder")
         for folder in _missing_folders("/", os.path.join(self.root, STATE, "x").lstrip("/")):
             os.makedirs("/" + folder, exist_ok=True)
             self.made.append("/" + folder)

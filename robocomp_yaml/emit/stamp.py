@@ -20,6 +20,7 @@ from msgspec.structs import asdict
 import robocomp_yaml
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.discover import documents_in
+from robocomp_yaml.source.inside import stays_inside
 
 FOLDER = ".rcyaml/stamps"
 _KEPT = 32
@@ -109,6 +110,8 @@ def load(folder: str, name: str) -> Stamp | None:
 def save(folder: str, name: str, stamp: Stamp) -> None:
     """Keeps a stamp. Where that cannot be done, the next run simply is made again."""
     path = _file(folder, name)
+    if not stays_inside(folder or ".", os.path.join(FOLDER, f"{name}.json")):
+        return
     part = f"{path}.{os.getpid()}"
     with contextlib.suppress(OSError):
         os.makedirs(os.path.dirname(path), exist_ok=True)

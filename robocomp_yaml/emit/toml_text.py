@@ -20,7 +20,7 @@ from robocomp_yaml.source.properties import unquoted
 from robocomp_yaml.source.tree import Scalar
 from robocomp_yaml.values import references
 from robocomp_yaml.values.effective import Effective
-from robocomp_yaml.values.properties import Section, legacy_file, properties
+from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties
 from robocomp_yaml.values.spell_yaml import quoted
 from robocomp_yaml.values.spelling import Template
 from robocomp_yaml.values.write import Where, node_of, step
@@ -35,7 +35,8 @@ def toml_text(values: LinkedValues, effective: Effective) -> str:
     table: Table = {}
     sections = properties(values, effective, quoted=True)[0]
     connections = [section for section in sections if section.title != "Parameters"]
-    for key, literal in [*_connections(connections), *_parameters(effective, bool(legacy_file(values)))]:
+    others = _connections(connections, dialect(values) != CLASSIC)
+    for key, literal in [*others, *_parameters(effective, bool(legacy_file(values)))]:
         _put(table, key, literal)
     top = {key: value for key, value in table.items() if not isinstance(value, dict)}
     blocks = ["".join(f"{_key(key)} = {value}\n" for key, value in top.items())] if top else []
@@ -45,7 +46,8 @@ def toml_text(values: LinkedValues, effective: Effective) -> str:
     return "\n".join(blocks)
 
 
-def _connections(sections: list[Section]) -> Iterator[tuple[list[str], str]]:
+def _connections(sections: list[Section], unquotes: bool) -> Iterator[tuple[list[str], str]]:
+    """`unquotes`: quotes around a text are those of the file that it comes from, and no part of it."""
     for section in sections:
         for made in section.properties:
             name, _, tail = made.key.rpartition(".")
@@ -57,7 +59,8 @@ def _connections(sections: list[Section]) -> Iterator[tuple[list[str], str]]:
             elif key.endswith("Proxy") and "." not in key and key != "Proxy":
                 key = f"Proxies.{key.removesuffix('Proxy')}"
             is_bare = made.value in ("true", "false") or _NUMBER.match(made.value)
-            yield key.split(".", 1), made.value if is_bare else quoted(unquoted(made.value))
+            plain = unquoted(made.value) if unquotes or made.read is not None else made.value
+            yield key.split(".", 1), made.value if is_bare else quoted(plain)
 
 
 def _parameters(effective: Effective, as_given: bool) -> Iterator[tuple[list[str], str]]:

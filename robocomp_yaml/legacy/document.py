@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.legacy.yamltext import is_printable, scalar
+from robocomp_yaml.legacy.yamltext import escaped, is_printable, scalar
 
 WIDTH = 120
 GAP = None  # an empty line between comments; several are one
@@ -104,7 +104,7 @@ def _list(node: List, indent: str) -> Iterator[Line]:
         body = item.value
         if isinstance(body, Map) and body.entries and _line(body, start) is None and not body.entries[0].notes.head:
             first, *rest = _map(body, indent + "  ")
-            tail = "".join(f"  # {line}" for line in item.notes.tail)
+            tail = "".join(f"  # {escaped(line)[0]}" for line in item.notes.tail)
             yield f"{start} {(first or '').lstrip()}{tail}"
             yield from rest
             yield from _comments(item.notes.foot, indent + "  ")
@@ -113,7 +113,7 @@ def _list(node: List, indent: str) -> Iterator[Line]:
 
 
 def _entry(entry: Entry, indent: str, start: str) -> Iterator[Line]:
-    tail = "  # " + " # ".join(entry.notes.tail) if entry.notes.tail else ""
+    tail = "  # " + escaped(" # ".join(entry.notes.tail))[0] if entry.notes.tail else ""
     line = _line(entry.value, start)
     inner = indent + "  "
     if line is not None:
@@ -190,4 +190,4 @@ def _head(entry: Entry, first: bool, indent: str) -> Iterator[Line]:
 
 def _comments(lines: list[str], indent: str) -> Iterator[Line]:
     for line in lines:
-        yield f"{indent}# {line}".rstrip() if line else GAP
+        yield f"{indent}# {escaped(line)[0]}".rstrip() if line else GAP

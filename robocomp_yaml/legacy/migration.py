@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 
+from robocomp_yaml.diag.codes import idsl as idsl_codes
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
@@ -56,6 +57,29 @@ def migrate(
     _plan(run, good, chosen, known, inferred, force)
     upgrade(run, paths)
     return run
+
+
+def look_back(run: Migration, extra: Sequence[str]) -> None:
+    """Says of each document that was written what `check` says against it, at the legacy file that it comes from."""
+    documents = [(path, entry) for entry in run.entries if not entry.skipped for path in entry.outputs
+                 if path.endswith(".yaml")]  # fmt: skip
+    if not documents:
+        return
+    from robocomp_yaml.pipeline import analyse
+
+    found: dict[str, list[Diagnostic]] = {}
+    for told in analyse([path for path, _ in documents], extra).diagnostics:
+        if told.severity == ERROR:
+            found.setdefault(os.path.realpath(told.span.file), []).append(told)
+    for path, entry in documents:
+        is_told = any(said.code == codes.UNKNOWN_TYPE.id for said in entry.diagnostics)
+        errors = [told for told in found.get(os.path.realpath(path), [])
+                  if not (is_told and told.code == idsl_codes.UNKNOWN_TYPE.id)]  # fmt: skip
+        if errors:
+            first, more = errors[0], f" (and {len(errors) - 1} more)" if errors[1:] else ""
+            entry.diagnostics.append(codes.NOT_ACCEPTED.at(
+                Span(entry.file.path), path=path, line=first.span.line, problem=first.message + more, hint=first.hint
+            ))
 
 
 def _tell(run: Migration, said: Sequence[Diagnostic]) -> None:

@@ -2,11 +2,15 @@
 
 libyaml reads YAML 1.1 syntax, in which `{key: a:b}` is an error; YAML 1.2 allows it. So the slower parser has the last
 word on what is wrong. Both compose recursively, libyaml in C without a guard: the depth is bounded before.
+
+Both also end lines, and comments, at three characters that YAML 1.2 and editors take for part of the line. So others
+stand in for them while a text is parsed.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from ruamel.yaml.cyaml import CParser
 from ruamel.yaml.error import MarkedYAMLError
@@ -25,6 +29,9 @@ UNTAGGED = Tag(suffix="")
 # A pair with nothing between that could hide a bracket (a quote, a comment) or be one.
 _INNERMOST = re.compile(r"""\{[^][{}"'#]*\}|\[[^][{}"'#]*\]""")
 _BRACKET = re.compile(r"[\[{\]}]")
+_LINE_ENDS_OF_1_1 = "\x85\u2028\u2029"
+_HAS_THEM = re.compile(f"[{_LINE_ENDS_OF_1_1}]")
+_PRIVATE = range(0xE000, 0xF900)  # characters that mean nothing
 _DEEP_BLOCK = re.compile(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
 
 # The parsers' words, by a part of them: what a user is told, and how to mend it.
@@ -74,6 +81,8 @@ class _Composer(CParser):  # type: ignore[misc]
 
 def compose(path: str, text: str) -> Node | None:
     """The root node, or None for a text without content. Raises Refused."""
+    if not text.isascii() and _HAS_THEM.search(text):
+        return _composed_with_stand_ins(path, text)
     if _may_be_deep(text) and _depth(text) > MAX_DEPTH:
         raise Refused(codes.TOO_DEEP.at(_deep_place(path, text), limit=MAX_DEPTH))
     try:
@@ -89,22 +98,40 @@ def compose(path: str, text: str) -> Node | None:
         raise Refused(_diagnostic(path, text, fault)) from None
 
 
-def _compose_as_1_2(text: str) -> Node | None:
-    from ruamel.yaml import YAML
+def _composed_with_stand_ins(path: str, text: str) -> Node | None:
+    used = set(text)
+    free = [chr(code) for code in _PRIVATE if chr(code) not in used][: len(_LINE_ENDS_OF_1_1)]
+    there = str.maketrans(_LINE_ENDS_OF_1_1, "".join(free))
+    back = str.maketrans("".join(free), _LINE_ENDS_OF_1_1)
+    root = compose(path, text.translate(there))
+    for node in _nodes(root):
+        if isinstance(node, ScalarNode):
+            node.value = node.value.translate(back)
+    return root
 
-    root = YAML(typ="safe", pure=True).compose(text)
+
+def _nodes(root: Node | None) -> Iterator[Node]:
+    """A node and all below it, each once."""
     todo, seen = [root] if root is not None else [], set()
     while todo:
         node = todo.pop()
         if id(node) in seen:
             continue
         seen.add(id(node))
-        if not _has_explicit_tag(text, node.start_mark.index):
-            node.ctag = UNTAGGED
+        yield node
         if isinstance(node, MappingNode):
             todo += [part for pair in node.value for part in pair]
         elif not isinstance(node, ScalarNode):
             todo += node.value
+
+
+def _compose_as_1_2(text: str) -> Node | None:
+    from ruamel.yaml import YAML
+
+    root = YAML(typ="safe", pure=True).compose(text)
+    for node in _nodes(root):
+        if not _has_explicit_tag(text, node.start_mark.index):
+            node.ctag = UNTAGGED
     return root
 
 
@@ -170,7 +197,9 @@ def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
     span = Span(path, line, column, line, column + 1)
     if "but found another document" in problem:
         return codes.SEVERAL_DOCUMENTS.at(span, hint="put it into a file of its own")
-    lines = text.splitlines()
+    lines = re.split("\r\n|\r|\n", text)
+    if not lines[-1]:
+        del lines[-1]
     if line > len(lines):  # the end of the file: shown behind its last character
         line = max(1, len(lines))
         column = len(lines[-1]) + 1 if lines else 1

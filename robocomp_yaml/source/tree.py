@@ -105,6 +105,12 @@ def _marks(span: Span) -> tuple[_Mark, _Mark]:
     return _Mark(span.line - 1, span.column - 1), _Mark(span.end_line - 1, span.end_column - 1)
 
 
+def _last_mark(text: str) -> _Mark:
+    """The end of a text whose last line has no end."""
+    lines = re.split("\r\n|\r|\n", text)
+    return _Mark(len(lines) - 1, len(lines[-1]), len(text))
+
+
 def text_at(span: Span, text: str) -> Scalar:
     """A text that no document holds, made for what stands at a place."""
     return Scalar(span.file, ScalarNode(None, text, *_marks(span)), text)
@@ -137,6 +143,7 @@ class _Builder:
     def __init__(self, path: str, text: str) -> None:
         self.path = path
         self.has_anchors = "&" in text
+        self.last = None if text.endswith("\n") else _last_mark(text)  # libyaml's blocks end in the line behind it
         self.diagnostics: list[Diagnostic] = []
         self.known: dict[int, tuple[Node, int]] = {}  # by composed node: ours, and its size with aliases expanded
         self.open: set[int] = set()
@@ -163,6 +170,8 @@ class _Builder:
                 self.path, node, [self.build(item) for item in node.value]
             )
             self.open.discard(id(node))
+        if self.last is not None and built._end.line > self.last.line:
+            built._end = self.last
         if self.has_anchors:  # the composer does not say which nodes have one
             self.known[id(node)] = (built, self.size - before)
         return built
@@ -259,6 +268,7 @@ class _Builder:
     def _say(self, code: Code, node: YamlNode, *, hint: str = "", related: list[Related] | None = None,
              **facts: object) -> None:
         start, end = node.start_mark, node.end_mark
+        end = self.last if self.last is not None and end.line > self.last.line else end
         span = Span(self.path, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
         self.diagnostics.append(code.at(span, hint=hint, related=related or (), **facts))
 

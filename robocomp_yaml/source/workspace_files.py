@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from pathlib import Path
 
 from robocomp_yaml import resources
+from robocomp_yaml.source import whole_file
+from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.json_comments import Unreadable, with_members
 
 FOLDER = ".rcyaml/schemas"
@@ -36,15 +39,18 @@ def install(folder: Path) -> list[Path]:
     """Brings the editor's files of a workspace up to date; gives those that changed.
 
     What the user has in VS Code's settings stays as it is, comments included; `settings_problem` says why nothing
-    could be added. Raises OSError where the folder cannot be written.
+    could be added. Raises OSError where the folder cannot be written, or a link leads out of it.
     """
+    for kind in GLOBS:
+        if not stays_inside(str(folder), schema_path(kind)):
+            raise OSError(errno.ELOOP, "a link leads out of the workspace", str(folder / schema_path(kind)))
     changed = [
         folder / schema_path(kind)
         for kind in GLOBS
         if _write(folder / schema_path(kind), resources.text(f"schemas/{kind}.schema.json"))
     ]
     try:
-        wired = _wired(folder / SETTINGS)
+        wired = _wired(folder)
     except Unreadable:
         return changed
     return [*changed, folder / SETTINGS] if _write(folder / SETTINGS, wired) else changed
@@ -53,16 +59,19 @@ def install(folder: Path) -> list[Path]:
 def settings_problem(folder: Path) -> str:
     """Why `install` leaves VS Code's settings as they are, or ''."""
     try:
-        _wired(folder / SETTINGS)
+        _wired(folder)
     except Unreadable as error:
         return f"{SETTINGS} is left as it is, since {error}: documents with a modeline are checked all the same"
     return ""
 
 
-def _wired(settings: Path) -> str:
+def _wired(folder: Path) -> str:
     """The text of VS Code's settings with our schemas in `yaml.schemas`."""
+    settings = folder / SETTINGS
     if settings.is_symlink():
         raise Unreadable("it is a link")
+    if not stays_inside(str(folder), SETTINGS):
+        raise Unreadable("a link leads out of the workspace")
     try:
         text = settings.read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -81,10 +90,5 @@ def _write(path: Path, text: str) -> bool:
             return False
     except FileNotFoundError:
         path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        part.write_bytes(data)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+    whole_file.replace(path, data)
     return True

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import accessors
 import spellings
+from conftest import FUZZING
 from constraints import CASES, CONSTRAINTS, subject
 from cpp_accessors import Program
 from parameters import Data, documents, linked, mutated, parameters, values
@@ -39,7 +40,7 @@ def drawn() -> list[tuple[Data, Data, list[Any]]]:
     found: list[tuple[Data, Data, list[Any]]] = []
 
     @given(cases())
-    @settings(max_examples=CPP_DOCUMENTS, derandomize=True, deadline=None, database=None, phases=[Phase.generate],
+    @settings(max_examples=CPP_DOCUMENTS, derandomize=not FUZZING, deadline=None, database=None, phases=[Phase.generate],
               suppress_health_check=list(HealthCheck))  # fmt: skip
     def collect(case: tuple[Data, Data, list[Any]]) -> None:
         found.append(case)

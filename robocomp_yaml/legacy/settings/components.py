@@ -15,6 +15,7 @@ from robocomp_yaml.legacy.settings.grouping import Component, Components, Good, 
 from robocomp_yaml.legacy.settings.pdsl_document import pdsl_document
 from robocomp_yaml.legacy.settings.plan import Config, Guesses, Plan
 from robocomp_yaml.legacy.settings.planning import plans
+from robocomp_yaml.legacy.settings.proof import proven
 from robocomp_yaml.legacy.settings.sorting import sort
 from robocomp_yaml.legacy.settings.values_document import Links, values_document
 from robocomp_yaml.legacy.sources import LegacyFile
@@ -58,6 +59,8 @@ def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, e
     planned = plans(configs, guesses)
     if component.declared is not None:
         planned = declared.fitted(planned, component.declared, configs)
+    else:
+        planned = proven(planned, configs, links)
     entries = {file.path: entry for file, entry in component.configs}
     for plan in planned:
         _tell(plan, entries)

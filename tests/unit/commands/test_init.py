@@ -12,6 +12,7 @@ import pytest
 from click.testing import Result
 
 from conftest import read_tree, write_tree
+from robocomp_yaml.source import whole_file
 
 Run = Callable[..., Result]
 OWN_FILES = {
@@ -109,10 +110,10 @@ def test_a_file_is_no_workspace(rcyaml: Run, tmp_path: Path) -> None:
 
 
 def test_what_cannot_be_written_is_said(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(*_: object, **__: object) -> None:
-        raise PermissionError(13, "Permission denied", "a name of a moment")
+    def refuse(path: Path, _: str) -> None:
+        raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr(tempfile, "mkstemp", refuse)
+    monkeypatch.setattr(whole_file, "create", refuse)
     said = rcyaml("init")
     assert (said.exit_code, said.stderr) == (1, "Error: cannot write rcyaml.yaml: Permission denied\n")
 

@@ -138,3 +138,23 @@ def test_no_punctuation_gives_a_traceback(text: str) -> None:
     lines = text.split("\n")
     for diagnostic in diagnostics:
         assert 1 <= diagnostic.span.line <= len(lines)
+
+
+@pytest.mark.parametrize("char", ["\x85", "\u2028", "\u2029"])
+def test_what_ended_lines_in_yaml_1_1_is_part_of_its_line(char: str) -> None:
+    """An editor shows `# a…b: 1` as one line, a comment; so it is one."""
+    text = f"# a{char}b: 1\nc: x{char}y\nd: 'x{char}y'  # \ue000\ne: \"{char}\"\n"
+    root, faults = parse("x.yaml", text)
+    assert root is not None and faults == []
+    assert root.data == {"c": f"x{char}y", "d": f"x{char}y", "e": char}
+    assert isinstance(root, Mapping) and root.entries["e"][0].span.line == 4
+    _, (fault,) = parse("x.yaml", f"a: {char}\nb: [\n")
+    assert fault.span.line == 2
+
+
+@pytest.mark.parametrize("text", ["a: 1", "a:\n  b: 1", "a:\r  - b", "- {a: 1}\n-"])
+def test_a_last_line_without_an_end_is_the_last_one(text: str) -> None:
+    root, _ = parse("x.yaml", text)
+    assert root is not None
+    lines = text.replace("\r", "\n").split("\n")
+    assert (root.span.end_line, root.span.end_column) == (len(lines), len(lines[-1]) + 1)

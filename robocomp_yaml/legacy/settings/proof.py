@@ -1,0 +1,181 @@
+"""The documents of a component's configs, read as `check` reads them before they are written. What they cannot say as a
+parameter, or in a section of its own, is kept as a property; what can be no property either is told of as lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+import msgspec
+
+from robocomp_yaml.check import checks_of
+from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.legacy.document import Map, Notes
+from robocomp_yaml.legacy.document import text as document_text
+from robocomp_yaml.legacy.settings.grouping import first_half
+from robocomp_yaml.legacy.settings.pdsl_document import pdsl_document
+from robocomp_yaml.legacy.settings.plan import Config, Plan
+from robocomp_yaml.legacy.settings.planning import give_back
+from robocomp_yaml.legacy.settings.sorting import Sorted
+from robocomp_yaml.legacy.settings.values_document import Links, values_document
+from robocomp_yaml.link.parameters import resolve
+from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
+from robocomp_yaml.model import build_parameters
+from robocomp_yaml.source import schema, tree
+from robocomp_yaml.source.text import decode
+from robocomp_yaml.source.tree import Mapping as Mapping_
+from robocomp_yaml.source.tree import Node
+from robocomp_yaml.source.tree import Sequence as Sequence_
+from robocomp_yaml.values.paths import in_words
+
+
+def proven(planned: Sequence[Plan], configs: Sequence[Config], links: Mapping[str, Links]) -> list[Plan]:
+    """The plans that hold. Each round moves what does not hold one step: to `properties`, or out of these."""
+    kept = list(planned)
+    while True:
+        draft = _Draft(kept, configs, links)
+        moved = [_move(fault, draft, kept, configs) for fault in draft.faults()]
+        kept = [plan for plan in kept if plan.shape is not None]
+        if not any(moved):
+            return kept
+
+
+class _Fault(msgspec.Struct, frozen=True):
+    """What is wrong, and the keys that lead there; `config` is '' in the parameters' own document."""
+
+    config: str
+    keys: tuple[str, ...]
+    message: str
+
+
+class _Draft:
+    """The documents as they would be written."""
+
+    def __init__(self, plans: Sequence[Plan], configs: Sequence[Config], links: Mapping[str, Links]) -> None:
+        self.trees: dict[str, Node | None] = {}
+        self.said: list[Diagnostic] = []
+        program = Program()
+        root = self._tree("", "pdsl", pdsl_document("component", plans))
+        if root is None:
+            return
+        made = build_parameters.build(root, "")
+        parameters, found = resolve(made)
+        self.said += found
+        linked = LinkedParameters(parameters, made, broken=has_errors(found))
+        program.parameters[""] = linked
+        for config in configs:
+            node = self._tree(config.name, "config", values_document(config, plans, links[config.name], exact=False))
+            if node is not None:
+                values = LinkedValues(build_parameters.build_values(node, config.name), parameters=linked)
+                program.values[config.name] = values
+        for name, values in program.values.items():
+            base = program.values.get(first_half(name)) if links[name].after else None
+            if base is not None:
+                values.extends.append(base)
+                base.is_extended = True
+        for check in checks_of("pdsl"):
+            self.said += check(program)
+
+    def _tree(self, name: str, kind: str, document: Map) -> Mapping_ | None:
+        """Only a document of the right shape."""
+        content, said = decode(name, document_text(document, Notes()).encode())
+        root = None
+        if content is not None:
+            root, said = tree.parse(name, content)
+        self.trees[name] = root
+        if root is not None:
+            said = [*said, *schema.validate(kind, root)]
+        self.said += said
+        return root if isinstance(root, Mapping_) and not has_errors(said) else None
+
+    def faults(self) -> list[_Fault]:
+        return [
+            _Fault(said.span.file, tuple(_keys(self.trees.get(said.span.file), said.span)), said.message)
+            for said in self.said if said.severity == ERROR
+        ]  # fmt: skip
+
+    def types_of(self, plan: Plan) -> set[str]:
+        """The names of types that stand at a plan's place."""
+        node: Node | None = self.trees.get("")
+        steps = ["parameters", *(step for part in plan.path for step in (part, "group"))][:-1]
+        for step in steps:
+            node = node.get(step) if isinstance(node, Mapping_) else None
+        return set(_texts(node.data)) if node is not None else set()
+
+
+def _move(fault: _Fault, draft: _Draft, plans: Sequence[Plan], configs: Sequence[Config]) -> bool:
+    """Whether something went another way that could be at fault."""
+    if fault.config:
+        found = next(config.sorted for config in configs if config.name == fault.config)
+        if fault.keys[:1] == ("properties",) and len(fault.keys) > 1:
+            return _lose(fault, found)
+        if len(fault.keys) > 1 and fault.keys[0] in _SECTIONS:
+            return _keep(fault, found)
+    moved = [plan for plan in _blamed(fault, draft, plans) if plan.shape is not None]
+    for plan in moved:
+        give_back(plan, configs)
+    return bool(moved)
+
+
+def _blamed(fault: _Fault, draft: _Draft, plans: Sequence[Plan]) -> list[Plan]:
+    section, *steps = (*fault.keys, "")
+    path = tuple(steps[:-1])
+    if section == "types" and path:
+        return [plan for plan in plans if path[0] in draft.types_of(plan)]
+    if section == "legacy" and path:
+        return [plan for plan in plans if ".".join(plan.path) == path[0]]
+    if not fault.config:
+        path = tuple(step for at, step in enumerate(path) if at % 2 == 0 or step != "group")
+    if section == "parameters" and path:
+        inside = [plan for plan in plans if plan.path[: len(path)] == path]
+        return inside or [plan for plan in plans if path[: len(plan.path)] == plan.path]
+    named = [plan for plan in plans if fault.message.startswith(in_words(plan.path))]  # it has no place of its own
+    return sorted(named, key=lambda plan: len(in_words(plan.path)))[-1:]
+
+
+_SECTIONS = ("endpoints", "proxies", "topics", "ice")
+
+
+def _keep(fault: _Fault, found: Sorted) -> bool:
+    """What stands in a section becomes a property."""
+    for section in (found.endpoints, found.proxies, found.manager, found.prefixes, found.names, found.ice):
+        for named in section:
+            if named.name == fault.keys[-1] or (section is found.proxies and named.name in fault.keys[1:2]):
+                section.remove(named)
+                found.keep(named.setting)
+                return True
+    return False
+
+
+def _lose(fault: _Fault, found: Sorted) -> bool:
+    for named in found.properties:
+        if named.name == fault.keys[1]:
+            found.properties.remove(named)
+            found.diagnostics.append(codes.LOST.at(named.setting.span, what=f"{fault.message}; it is left out"))
+            return True
+    return False
+
+
+def _keys(node: Node | None, span: Span) -> Iterator[str]:
+    """The keys that lead to a place."""
+    start = (span.line, span.column)
+    items: Iterable[tuple[str, Node, Node]] = ()
+    if isinstance(node, Mapping_):
+        items = [(key.lexeme, key, value) for key, value in node.items()]
+    elif isinstance(node, Sequence_):
+        items = [(str(at), item, item) for at, item in enumerate(node.items)]
+    for name, key, value in items:
+        end = max((value.span.end_line, value.span.end_column), (key.span.end_line, key.span.end_column))
+        if (key.span.line, key.span.column) <= start < end:
+            yield name
+            yield from _keys(value, span)
+            return
+
+
+def _texts(data: object) -> Iterator[str]:
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, dict | list):
+        for inner in data.values() if isinstance(data, dict) else data:
+            yield from _texts(inner)

@@ -1,0 +1,53 @@
+"""`migrate` reads what it wrote as `check` does: what a config cannot say as parameters stays a property, and what is
+wrong all the same is told."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+from robocomp_yaml.source.tree import parse
+
+Run = Callable[..., Result]
+FLAT = "Endpoints0=true,true\n"  # with it, components take quotes away
+CONFIGS = {
+    "a quoted text": ('Laser = "true"\n' + FLAT, {"Laser": '"true"'}),
+    "above rows that are called as a section of TOML": ('names = "left"\nAgent0=a,1\n', {"names": '"left"'}),
+    "several": ('a.b = "x y"\nPeriod3=a,b\nc = "true"\nd = 1\n', {"a.b": '"x y"', "c": '"true"'}),
+}
+
+
+@pytest.mark.parametrize("name", CONFIGS)
+def test_what_cannot_be_a_parameter_is_a_property(name: str, rcyaml: Run, tmp_path: Path) -> None:
+    text, properties = CONFIGS[name]
+    write_tree(tmp_path, {"etc/config": text})
+    result = rcyaml("migrate", ".", "--format", "json")
+    assert "RC5039" not in result.stdout
+    assert rcyaml("check", "etc/config.yaml").exit_code == 0
+    root, _ = parse("x.yaml", (tmp_path / "etc/config.yaml").read_text())
+    assert root is not None and isinstance(root.data, dict)
+    assert root.data["properties"] == properties
+    exported = rcyaml("config", "export", "etc/config.yaml").stdout
+    assert all(f"{key}={value}" in exported for key, value in properties.items())
+
+
+def test_what_check_refuses_is_told_once_for_a_document(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {
+        "speech.cdsl": "Component C { Communications { implements A, B; }; language python; };\n",
+        "fine.cdsl": "Component D { language python; };\n",
+    })
+    result = rcyaml("migrate", ".", "--format", "json")
+    assert result.exit_code == 0
+    (told,) = [each for each in json.loads(result.stdout)["diagnostics"] if each["code"] == "RC5039"]
+    assert told["file"] == "speech.cdsl" and "(and 1 more)" in told["message"]
+    assert rcyaml("check", ".").exit_code == 1
+
+
+def test_a_dry_run_has_nothing_to_look_at(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"speech.cdsl": "Component C { Communications { implements A; }; language python; };\n"})
+    assert "RC5039" not in rcyaml("migrate", ".", "--dry-run").output
