@@ -78,7 +78,7 @@ def look_back(run: Migration, extra: Sequence[str]) -> None:
         if errors:
             first, more = errors[0], f" (and {len(errors) - 1} more)" if errors[1:] else ""
             entry.diagnostics.append(codes.NOT_ACCEPTED.at(
-                Span(entry.file.path), path=path, line=first.span.line, problem=first.message + more, hint=first.hint
+                Span(entry.file.path), path=path, line=first.span.line, reason=first.message + more, hint=first.hint
             ))
 
 

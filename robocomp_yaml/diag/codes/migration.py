@@ -238,7 +238,7 @@ NO_PDSL = Code(
     }, _MIGRATE,
 )  # fmt: skip
 NOT_ACCEPTED = Code(
-    "RC5039", WARNING, "`check` will refuse {path}, line {line}: {problem}",
+    "RC5039", WARNING, "`check` will refuse {path}, line {line}: {reason}",
     "The document says what the legacy file says, and that is not right: older tools let it pass, or never looked. "
     "Mend the legacy file and migrate it again, or mend the document.",
     {**_RIGHT, "mouth.idsl": "module RoboCompMouth { interface Mouth { void __init__(); }; };\n"}, _RIGHT, _MIGRATE,
