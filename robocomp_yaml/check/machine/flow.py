@@ -8,7 +8,7 @@ from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.machine_index import MachineIndex, plain, prefixes
+from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, plain, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
 
 _MANY = 500  # names to look for a similar one in
@@ -100,7 +100,7 @@ def _at_once(index: MachineIndex, state: State) -> State | None:
     if any(ancestor.kind == PARALLEL for ancestor in ancestors):
         return None
     transition = next((t for source in ancestors for t in source.transitions if not t.events), None)
-    if transition is None or transition.condition is not None:
+    if transition is None or not is_unconditional(transition, index.machine.datamodel):
         return None
     found = index.targets(transition) if transition.targets else [state]
     return found[0] if len(found) == 1 and found[0].kind != HISTORY else None

@@ -357,11 +357,11 @@ METHOD_NAME = Code(
 DEAD_TRANSITION = Code(
     "RC2238",
     "error",
-    "this transition of {state} is never taken{when}: one before it {why}",
+    "this transition of {state} is never taken{when}: {why}",
     "Of the transitions of a state, the first one that fits is taken. One that stands behind another one for the same "
     "event, or behind one for `*` or `door.*` that matches it too, waits in vain, unless the first has a condition, "
-    "and not the same one; so does every one behind a transition that waits for nothing. A state inside may have "
-    "transitions for the same event: they come before. In an SCXML file, where this is legal, it is a warning.",
+    "and not the same one; so does every one beside a transition that waits for nothing. Those of a state inside come "
+    "before. In an SCXML file it is a warning, unless both are for the same event and do different things.",
     _inline("  initial: closed\n  states: {opened: {}, broken: {}}\n"
             "  transitions: {closed: [{to: opened, event: open}, {to: broken, event: open}]}\n"),
     _inline("  initial: closed\n  states: {opened: {}, broken: {}}\n"
