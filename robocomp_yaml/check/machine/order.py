@@ -81,7 +81,8 @@ def _dead(state: State, machine: StateMachine) -> Iterator[Diagnostic]:
             if first is not None:
                 yield _told(machine, state, _Taker(transition, event), first)
             elif restless is not None and head != _AT_ONCE:
-                yield _told(machine, state, _Taker(transition, event), _Taker(restless, Text("", restless.span)), "behind")
+                taker = _Taker(restless, Text("", restless.span))
+                yield _told(machine, state, _Taker(transition, event), taker, "behind")
         for head, event in heads.items():
             if is_certain:
                 certain.setdefault(head, _Taker(transition, event))
