@@ -18,7 +18,8 @@ DEAD_TRANSITION = Code(
     inline("  initial: closed\n  states: {opened: {}, broken: {}}\n"
            "  transitions: {closed: [{to: opened, event: open, if: whole}, {to: broken, event: open}]}\n"),
     says=("this transition of {state} is never taken for '{event}': one before it takes '{other}'",
-          "this transition of {state} is never taken for '{event}': one before it takes '{other}' on the same condition",
+          "this transition of {state} is never taken for '{event}': one before it takes '{other}' on the same "
+          "condition",
           "this transition of {state} is never taken for '{event}': one behind it is taken at once",
           "this transition of {state} is never taken: one before it is taken at once"),
 )
