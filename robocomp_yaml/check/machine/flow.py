@@ -152,6 +152,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
     fired = [event.text for event in index.machine.events]
     known = [*fired, *(event.text for event in sent)]
     heads = {prefix for event in known for prefix in prefixes(event)}
+    listed = "`events:`" if index.machine.inline else "`rc:events`"
     for state, transition in index.transitions():
         signals = {f"t_{state.id}_to_{target.text}" for target in transition.targets}  # what RoboComp's code fires
         for event in transition.events:
@@ -163,7 +164,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
                 close = suggest(event.text, known[:_MANY])
                 yield codes.NEVER_SENT.at(
                     event.span, event=event.text, why="", hint=f"did you mean '{close}'?" if close else
-                    "list it under `events:`, for the component's code to fire it",
+                    f"list it under {listed}, for the component's code to fire it",
                 )  # fmt: skip
 
 

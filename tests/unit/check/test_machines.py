@@ -237,6 +237,13 @@ def test_a_start_misspelled_where_no_states_are_listed(diagnostics: Check) -> No
     assert inline(diagnostics, text) == ["4:12 RC2221 there is no state 'clozed' did you mean 'closed'?"]
 
 
+def test_a_hint_names_the_list_of_its_file(diagnostics: Check) -> None:
+    rc = 'initial="a" xmlns:rc="urn:robocomp:statemachine" rc:events="stop"'
+    files = {"c.cdsl.yaml": "component: C\nlanguage: python\nstatemachine: c.scxml\n"}
+    [found] = diagnostics({**files, "c.scxml": machine('<state id="a"><transition event="door"/></state>', rc)})
+    assert found["hint"].startswith("list it under `rc:events`")
+
+
 def test_a_circle_on_what_is_always_true(diagnostics: Check) -> None:
     text = "  initial: a\n  states: {b: {}}\n  transitions: {a: {to: b, if: 'true'}, b: {to: a, if: not false}}\n"
     assert [said.split()[1] for said in inline(diagnostics, text)] == ["RC2233"]
