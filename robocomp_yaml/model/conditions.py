@@ -57,6 +57,22 @@ def names(found: Condition, kind: str) -> Iterator[str]:
         yield from names(part, kind)
 
 
+def always(found: Condition) -> bool:
+    """Whether it holds whatever guards and states say, as `true` and `not false` do."""
+    return _is_constant(found, True)
+
+
+def _is_constant(found: Condition, value: bool) -> bool:
+    match found.kind:
+        case "not":
+            return _is_constant(found.parts[0], not value)
+        case "and" | "or":
+            some = any if value == (found.kind == OR) else all
+            return some(_is_constant(part, value) for part in found.parts)
+        case _:
+            return found.kind == (ALWAYS if value else NEVER)
+
+
 def literal(text: str) -> str:
     """A value as JSON. Raises NotInLanguage."""
     text = text.strip()

@@ -7,10 +7,12 @@ from collections.abc import Iterator
 import msgspec
 
 from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.model import conditions
 from robocomp_yaml.model.statemachine import (
     FINAL,
     HISTORY,
     PARALLEL,
+    PYTHON,
     Action,
     Invoke,
     State,
@@ -105,6 +107,19 @@ class MachineIndex(msgspec.Struct):
             children = [child for child in state.states if child.kind != HISTORY]
             return bool(children) and all(self.can_be_done(child) for child in children)
         return any(child.kind == FINAL for child in state.states)
+
+
+def is_unconditional(transition: Transition, datamodel: str) -> bool:
+    """Whether it is taken whatever holds: it has no condition, or one that is always true."""
+    if transition.condition is None:
+        return True
+    text = transition.condition.text.strip()
+    if datamodel == PYTHON:
+        return text == "True"
+    try:
+        return conditions.always(conditions.condition(text))
+    except conditions.NotInLanguage:
+        return False
 
 
 def plain(descriptor: str) -> str:

@@ -16,6 +16,7 @@ from robocomp_yaml.source import properties
 from robocomp_yaml.source.ice_options import BLANKS, PROTOCOLS, Refused, words_of
 
 _EVERYWHERE = ("*", "0.0.0.0", "::")
+_USUAL = ("tcp", "ssl", "udp", "ws", "wss", "default")  # those that a misspelled protocol may mean
 
 
 class IceEndpoint(msgspec.Struct, frozen=True):
@@ -112,7 +113,7 @@ def read_endpoint(text: str, start: int, end: int, *, for_adapter: bool) -> IceE
         raise Refused("an endpoint is missing behind the colon", max(start - 1, 0), max(end, start))
     protocol, options = words[0].text, words[1:]
     if protocol not in PROTOCOLS:
-        raise UnknownProtocol(f"there is no protocol '{protocol}'", words[0].start, words[0].end, tuple(PROTOCOLS))
+        raise UnknownProtocol(f"there is no protocol '{protocol}'", words[0].start, words[0].end, _USUAL)
     made = PROTOCOLS[protocol](protocol, for_adapter)
     options = made.take(options, made.is_known)
     if protocol in ("ws", "wss"):  # which reads what TCP leaves

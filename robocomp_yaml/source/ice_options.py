@@ -121,7 +121,7 @@ class _Ip:
     def _is_of_ip(self, option: Word, argument: Word | None) -> bool:
         match option.text:
             case "-h":
-                self._host_at = _given(option, argument)
+                self._host_at = _given(option, argument, "a value; an IPv6 address stands in double quotes")
                 self.host = self._host_at.text
             case "-p":
                 self.port = _number(option, argument, "a port", 0, LAST_PORT)
@@ -251,9 +251,9 @@ def _wrong(word: Word, problem: str) -> Refused:
     return Refused(f"'{word.text}' {problem}", word.start, word.end)
 
 
-def _given(option: Word, argument: Word | None) -> Word:
+def _given(option: Word, argument: Word | None, what: str = "a value") -> Word:
     if argument is None:
-        raise _wrong(option, "needs a value")
+        raise _wrong(option, f"needs {what}")
     return argument
 
 

@@ -1,7 +1,8 @@
-"""Which names the headers that generated C++ includes define as macros, asked of the compiler.
+"""Which names the headers that generated C++ includes define as macros, and which outside of any namespace, asked of
+the compiler.
 
-`make macros` writes them to robocomp_yaml/model/cpp_macros.py, and keeps what stands there: another version of a
-compiler or of a library knows others.
+`make macros` writes them to robocomp_yaml/model/, and keeps what stands there: another version of a compiler or of a
+library knows others.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "robocomp_yaml" / "model" / "cpp_macros.py"
+GLOBALS = TABLE.with_name("cpp_globals.py")
 FAMILIES = ("GL_", "QT_", "Q_")
 SETS = {"ALWAYS": "in every component", "SINCE_20": "with C++20 and later", "QT": "where there is a dialog"}
 _HEAD = """\
@@ -37,6 +39,14 @@ def is_macro(name: str, standard: int, has_dialog: bool) -> bool:
         or (standard >= 20 and name in SINCE_20)
         or (has_dialog and (name in QT or name.startswith(FAMILIES)))
     )"""
+_GLOBALS_HEAD = """\
+\"\"\"Names of the C library's functions, types and variables, which stand outside of any namespace: in C++ none can be
+called so.
+
+Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
+\"\"\"
+
+from __future__ import annotations"""
 _SLICE = "module M { struct S { int a; }; exception E { S s; }; interface I { S f(out int a) throws E; }; };\n"
 _INCLUDE = re.compile(r"^#include <(?!Q|\{|genericworker)([^>]+)>", re.MULTILINE)
 
@@ -53,6 +63,26 @@ def found() -> dict[str, set[str]]:
             flags = ["-fPIC", *(f"-I{path}" for path in folders)]
             sets["QT"] = _macros([*include, "QtCore", "QtWidgets", "QApplication"], 17, *flags) - always
         return sets
+
+
+def found_globals() -> set[str]:
+    """The names of this machine that cannot be those of namespaces: each word of the headers is tried, but for what is
+    known as a macro or a keyword."""
+    sys.path.insert(0, str(ROOT))
+    from robocomp_yaml.model.cpp_macros import EVER
+    from robocomp_yaml.model.names import CPP_KEYWORDS
+
+    with tempfile.TemporaryDirectory() as folder:
+        source = "".join(f"#include <{header}>\n" for header in headers(Path(folder)))
+    names: set[str] = set()
+    for standard in (17, 20):
+        words = set(re.findall(r"\b[A-Za-z]\w*", _preprocessed(source, standard, "-P"))) - CPP_KEYWORDS - EVER
+        words = {word for word in words if _can_be_named(word)}
+        asked = "".join(f'#line 1 "@{word}"\nnamespace {word} {{ struct Of; }}\n' for word in sorted(words))
+        flags = [f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-fsyntax-only", "-fmax-errors=0"]
+        said = subprocess.run(["g++", *flags, "-x", "c++", "-"], input=source + asked, capture_output=True, text=True).stderr
+        names |= set(re.findall(r"^@(\w+):\d+:\d+: error", said, re.MULTILINE))
+    return names
 
 
 def headers(folder: Path) -> list[str]:
@@ -91,12 +121,14 @@ def _can_be_named(name: str) -> bool:
 
 def table(sets: dict[str, set[str]]) -> str:
     """The module, with these sets."""
-    parts = [_HEAD]
-    for name, when in SETS.items():
-        words = textwrap.fill(" ".join(sorted(sets[name])), 112, break_long_words=False, break_on_hyphens=False)
-        parts.append(f'{name} = frozenset(  # {when}\n    """{textwrap.indent(words, "    ").lstrip()}""".split()\n)')
+    parts = [_HEAD, *(_listed(name, sets[name], f"  # {when}") for name, when in SETS.items())]
     parts.append(_FOOT.replace("{families}", str(FAMILIES).replace("'", '"')))
     return "\n\n".join(parts) + "\n"
+
+
+def _listed(name: str, names: set[str], comment: str = "") -> str:
+    words = textwrap.fill(" ".join(sorted(names)), 112, break_long_words=False, break_on_hyphens=False)
+    return f'{name} = frozenset({comment}\n    """{textwrap.indent(words, "    ").lstrip()}""".split()\n)'
 
 
 def main() -> None:
@@ -110,7 +142,13 @@ def main() -> None:
         known[name] |= macros
     known["SINCE_20"] -= known["ALWAYS"]
     known["QT"] -= known["ALWAYS"]
-    TABLE.write_text(table(known), encoding="utf-8")
+    TABLE.write_text(table(known), encoding="utf-8")  # before the rest asks for it
+    names = found_globals()
+    if GLOBALS.is_file():
+        from robocomp_yaml.model import cpp_globals
+
+        names |= cpp_globals.GLOBALS
+    GLOBALS.write_text(f"{_GLOBALS_HEAD}\n\n{_listed('GLOBALS', names)}\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

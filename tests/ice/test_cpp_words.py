@@ -9,11 +9,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from cpp_macros import FAMILIES, found, headers
+from cpp_macros import FAMILIES, found, found_globals, headers
 from cpp_programs import needs_cpp
 
 from conftest import write_tree
-from robocomp_yaml.model import cpp_macros
+from robocomp_yaml.model import cpp_globals, cpp_macros
 
 pytestmark = needs_cpp
 Check = Callable[..., list[dict[str, Any]]]
@@ -104,6 +104,13 @@ def test_the_table_has_the_macros_of_this_machine() -> None:
         known = known | table[name] if name != "QT" else set(cpp_macros.EVER)
         assert sorted(macros - known) == [], f"{name} lacks these"
     assert cpp_macros.FAMILIES == FAMILIES
+
+
+def test_the_table_has_what_stands_in_no_namespace() -> None:
+    """`make macros` adds what is missing."""
+    names = found_globals()
+    assert sorted(names - cpp_globals.GLOBALS) == []
+    assert {"time", "log", "index", "FILE", "int8_t"} <= names and "Time" not in cpp_globals.GLOBALS
 
 
 # A macro with arguments is none where no `(` follows, but is refused all the same: what the component's own code does

@@ -14,9 +14,12 @@ from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, Related
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.references import Name, exceptions_of, groups, kind_of, types_of
 from robocomp_yaml.model.component import DEFAULT_STANDARD
+from robocomp_yaml.model.cpp_globals import GLOBALS
 from robocomp_yaml.model.cpp_macros import EVER, FAMILIES, is_macro
 from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Struct, TypeRef
 from robocomp_yaml.source.migrated import is_migrated
+
+_GENERATED = frozenset(("GenericWorker", "Parameters", "SpecificWorker", "Worker", "main"))
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -36,6 +39,7 @@ class _Module(msgspec.Struct):
     def check(self) -> Iterator[Diagnostic]:
         module = self.linked.module
         yield from self.macro(Name("module", module.name, module.span))
+        yield from self.beside()
         for definition in module.definitions:
             yield from self.macro(Name(kind_of(definition), definition.name, definition.span))
             inside = list(groups(definition))
@@ -63,6 +67,16 @@ class _Module(msgspec.Struct):
         hit = [user for user in self.users if _is_macro_for(name.text, user)]
         if hit or name.text in EVER:
             yield self.said(codes.CPP_MACRO.at(name.span, kind=name.kind, name=name.text, hint=_other(name.text)), hit)
+
+    def beside(self) -> Iterator[Diagnostic]:
+        """A namespace stands where the C library has its functions, and a component its classes."""
+        name, span = self.linked.module.name, self.linked.module.span
+        if name in EVER:
+            return
+        if name in GLOBALS or name in _GENERATED:
+            owner = "something of each component" if name in _GENERATED else "something in the system's headers"
+            hint = f"call it 'RoboComp{name[0].upper()}{name[1:]}'"
+            yield self.said(codes.CPP_GLOBAL.at(span, name=name, owner=owner, hint=hint), self.users)
 
     def told_apart(self, names: Iterable[Name], taken: set[str]) -> Iterator[Diagnostic]:
         """Ice's C++ has no second name for a member called as its exception, nor for a method as a type it uses."""

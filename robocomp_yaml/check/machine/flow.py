@@ -8,7 +8,7 @@ from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.machine_index import MachineIndex, plain, prefixes
+from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, plain, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
 
 _MANY = 500  # names to look for a similar one in
@@ -100,7 +100,7 @@ def _at_once(index: MachineIndex, state: State) -> State | None:
     if any(ancestor.kind == PARALLEL for ancestor in ancestors):
         return None
     transition = next((t for source in ancestors for t in source.transitions if not t.events), None)
-    if transition is None or transition.condition is not None:
+    if transition is None or not is_unconditional(transition, index.machine.datamodel):
         return None
     found = index.targets(transition) if transition.targets else [state]
     return found[0] if len(found) == 1 and found[0].kind != HISTORY else None
@@ -152,6 +152,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
     fired = [event.text for event in index.machine.events]
     known = [*fired, *(event.text for event in sent)]
     heads = {prefix for event in known for prefix in prefixes(event)}
+    listed = "`events:`" if index.machine.inline else "`rc:events`"
     for state, transition in index.transitions():
         signals = {f"t_{state.id}_to_{target.text}" for target in transition.targets}  # what RoboComp's code fires
         for event in transition.events:
@@ -163,7 +164,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
                 close = suggest(event.text, known[:_MANY])
                 yield codes.NEVER_SENT.at(
                     event.span, event=event.text, why="", hint=f"did you mean '{close}'?" if close else
-                    "list it under `events:`, for the component's code to fire it",
+                    f"list it under {listed}, for the component's code to fire it",
                 )  # fmt: skip
 
 

@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.diag.codes import machines as codes
+from robocomp_yaml.diag.codes import machine_order as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.machine_index import MachineIndex, plain, prefixes
+from robocomp_yaml.model import conditions
+from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, plain, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PYTHON, State, StateMachine, Text, Transition
 
 _AT_ONCE = "an event"  # what a transition without events does not wait for
@@ -35,9 +36,7 @@ def _of(machine: StateMachine) -> Iterator[Diagnostic]:
         if state.kind == HISTORY:
             yield from _history(state)
         else:
-            for told in _dead(state, machine):
-                # SCXML has it as legal as any other transition; drawn by a tool, it may be meant as a note.
-                yield told if machine.inline else told.as_severity(WARNING)
+            yield from _dead(state, machine)
     for invoked in index.invoked():
         yield from _of(invoked)
 
@@ -65,11 +64,13 @@ def _history(state: State) -> Iterator[Diagnostic]:
 
 def _dead(state: State, machine: StateMachine) -> Iterator[Diagnostic]:
     """Of the transitions of a state the first that fits is taken, in the document's order. One of a state inside comes
-    before all of them, so it takes nothing away."""
+    before all of them, so it takes nothing away. One that waits for nothing is asked before any event is handled."""
     certain: dict[str, _Taker] = {}  # by what is taken whatever else holds
-    guarded: dict[tuple[str, str], _Taker] = {}
+    guarded: dict[tuple[str, object], _Taker] = {}
+    restless = next((t for t in state.transitions if not t.events and is_unconditional(t, machine.datamodel)), None)
     for transition in state.transitions:
-        condition = " ".join(transition.condition.text.split()) if transition.condition else ""
+        is_certain = is_unconditional(transition, machine.datamodel)
+        condition = _meaning(transition.condition)
         heads = {plain(event.text): event for event in transition.events}
         if not transition.events:
             heads = {_AT_ONCE: Text("", transition.span)}
@@ -78,28 +79,50 @@ def _dead(state: State, machine: StateMachine) -> Iterator[Diagnostic]:
             first = next((certain[one] for one in wider if one in certain), None)
             first = first or next((guarded[one, condition] for one in wider if (one, condition) in guarded), None)
             if first is not None:
-                yield _told(machine, state, event, first)
+                yield _told(machine, state, _Taker(transition, event), first)
+            elif restless is not None and head != _AT_ONCE:
+                taker = _Taker(restless, Text("", restless.span))
+                yield _told(machine, state, _Taker(transition, event), taker, "behind")
         for head, event in heads.items():
-            if not condition:
+            if is_certain:
                 certain.setdefault(head, _Taker(transition, event))
             elif machine.datamodel != PYTHON:  # Python's may say something else each time
                 guarded.setdefault((head, condition), _Taker(transition, event))
 
 
-def _told(machine: StateMachine, state: State, event: Text, first: _Taker) -> Diagnostic:
+def _meaning(condition: Text | None) -> object:
+    """The same for `near` and `near()`, `not near` and `!near`."""
+    try:
+        return conditions.condition(condition.text) if condition else None
+    except conditions.NotInLanguage:
+        return condition
+
+
+def _told(machine: StateMachine, state: State, dead: _Taker, first: _Taker, where: str = "before") -> Diagnostic:
     guard = "`if:`" if machine.inline else "`cond`"
-    is_guarded = first.transition.condition is not None
+    event, takes = dead.event, first.event
+    is_guarded = not is_unconditional(first.transition, machine.datamodel)
+    is_same = bool(takes.text) == bool(event.text) and plain(takes.text) == plain(event.text)
     if is_guarded:
         hint = "remove one of them, or give it another condition"
-    elif first.event.text and plain(first.event.text) != plain(event.text):
+    elif takes.text and not is_same:
         hint = f"put it before the other one, or give that one {guard}"
+    elif first.transition.condition is not None:
+        hint = f"give the one {where} another condition, or remove one of them"
     else:
-        hint = f"give the one before {guard}, or remove one of them"
-    why = f"takes '{first.event.text}'" if first.event.text else "is taken at once"
-    where = " and ".join(f"'{target.text}'" for target in first.transition.targets)
-    return codes.DEAD_TRANSITION.at(
+        hint = f"give the one {where} {guard}, or remove one of them"
+    why = f"one {where} it " + (f"takes '{takes.text}'" if takes.text else "is taken at once")
+    leads = " and ".join(f"'{target.text}'" for target in first.transition.targets)
+    told = codes.DEAD_TRANSITION.at(
         event.span, state=f"'{state.id}'" if state.id else "the machine",
         when=f" for '{event.text}'" if event.text else "",
         why=f"{why} on the same condition" if is_guarded else why, hint=hint,
-        related=[Related("this one is taken" + (f", and leads to {where}" if where else ""), first.event.span)],
+        related=[Related("this one is taken" + (f", and leads to {leads}" if leads else ""), takes.span)],
     )  # fmt: skip
+    # SCXML takes it as legal, and tools draw such files: what is lost must be what somebody wrote for that very event.
+    is_lost = is_same and not is_guarded and _effect(dead.transition) != _effect(first.transition)
+    return told if machine.inline or is_lost else told.as_severity(WARNING)
+
+
+def _effect(transition: Transition) -> object:
+    return transition.targets, transition.internal, transition.actions

@@ -8,10 +8,12 @@ from typing import Any
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import FINAL, HISTORY, PARALLEL, State, StateMachine, Text, Transition
 
+_MANY = 500  # names to look for a similar one in
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
@@ -57,8 +59,17 @@ def _unknown(index: MachineIndex, name: Text, inside: State | None = None) -> Di
 
 
 def _strays(index: MachineIndex) -> Iterator[Diagnostic]:
-    for name in index.machine.strays:
-        yield _unknown(index, name)
+    """Where no states are listed, a start that no transition knows may itself be the name that is misspelled."""
+    strays, start = index.machine.strays, index.machine.root.initial
+    meant = None
+    if start is not None and strays and not any(state.transitions for state in index.machine.states):
+        name = start.targets[0]
+        meant = suggest(name.text, [stray.text for stray in strays[:_MANY]])
+        if meant:
+            yield codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=f"did you mean '{meant}'?")
+    for stray in strays:
+        if stray.text != meant:
+            yield _unknown(index, stray)
 
 
 def _kind(index: MachineIndex, state: State) -> Iterator[Diagnostic]:

@@ -104,6 +104,18 @@ CPP_MACRO = Code(
     right=_types("  Result: {enum: [OK, again]}\n"),
 )
 
+CPP_GLOBAL = Code(
+    "RC1028",
+    WARNING,
+    "in C++, no module can be called '{name}': {owner} has this name",
+    why="A module becomes a namespace of C++, which stands beside what the system's headers declare (`time`, `log`, "
+    "`index`, `link`, `remove`) and the classes of the component (`SpecificWorker`). Case counts: `Time` is free. "
+    "Slice, and Python, take them: it is an error where a component in C++ needs the module, a warning elsewhere and "
+    "in documents that were migrated.",
+    wrong={"Clock.idsl.yaml": "module: clock\ntypes:\n  Moment: {struct: {seconds: double}}\n"},
+    right={"Clock.idsl.yaml": "module: RoboCompClock\ntypes:\n  Moment: {struct: {seconds: double}}\n"},
+)
+
 UNKNOWN_TYPE = Code(
     "RC1010",
     ERROR,

@@ -14,12 +14,12 @@ def _file(inner: str, attributes: str = ' initial="closed"', head: str = "") -> 
     return {"door.cdsl.yaml": f"{_COMPONENT}statemachine: door.scxml\n", "door.scxml": text}
 
 
-def _inline(text: str) -> Files:
+def inline(text: str) -> Files:
     return {"door.cdsl.yaml": f"{_COMPONENT}statemachine:\n{text}"}
 
 
 _RIGHT = _file(_OPEN)
-_INLINE = _inline("  initial: closed\n  states: {opened: {}}\n  transitions: {closed: {to: opened, event: open}}\n")
+INLINE = inline("  initial: closed\n  states: {opened: {}}\n  transitions: {closed: {to: opened, event: open}}\n")
 
 UNREADABLE = Code(
     "RC2201",
@@ -221,10 +221,10 @@ NO_INITIAL = Code(
     "{what} does not say which of its states it starts in",
     "A state that holds states enters one of them; which, says `initial:`. Only where all are active at once, with "
     "`parallel: true`, there is nothing to choose.",
-    _inline("  initial: closed\n  states: {closed: {states: {locked: {}, unlocked: {}}}}\n"),
-    _inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n"
-            "      states: {locked: {}, unlocked: {}}\n"
-            "      transitions: {locked: {to: unlocked, event: turn}}\n"),
+    inline("  initial: closed\n  states: {closed: {states: {locked: {}, unlocked: {}}}}\n"),
+    inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n"
+           "      states: {locked: {}, unlocked: {}}\n"
+           "      transitions: {locked: {to: unlocked, event: turn}}\n"),
 )
 IMPLICIT_INITIAL = Code(
     "RC2224",
@@ -282,6 +282,7 @@ NEVER_SENT = Code(
     _file('<state id="closed" initial="turning"><transition event="done.state.closed" target="opened"/>'
           '<state id="turning"><transition event="turned" target="turned"/></state><final id="turned"/></state>\n'
           '<state id="opened"/>\n'),
+    says=("nobody sends the event '{event}'", "nobody sends the event '{event}': {reason}"),
 )
 EVENT_NAME = Code(
     "RC2230",
@@ -323,25 +324,25 @@ INLINE_HISTORY = Code(
     "error",
     "a history stands for states beside it: it has no {what} of its own",
     "`{{history: deep}}` (or `shallow`) is not a state: who goes there comes back to where its surroundings were left.",
-    _inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n      states:\n        locked: {}\n"
-            "        last: {history: shallow, entry: [beep]}\n      transitions: {last: locked}\n"),
-    _INLINE,
+    inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n      states:\n        locked: {}\n"
+           "        last: {history: shallow, entry: [beep]}\n      transitions: {last: locked}\n"),
+    INLINE,
 )
 FINAL_LEFT = Code(
     "RC2235",
     "error",
     "'{id}' is a final state: it has no {what}",
     "A final state ends the state that it stands in, or the machine.",
-    _inline("  initial: closed\n  final: opened\n  transitions: {closed: opened, opened: closed}\n"),
-    _inline("  initial: closed\n  final: opened\n  transitions: {closed: opened}\n"),
+    inline("  initial: closed\n  final: opened\n  transitions: {closed: opened, opened: closed}\n"),
+    inline("  initial: closed\n  final: opened\n  transitions: {closed: opened}\n"),
 )
 NO_PARENT = Code(
     "RC2236",
     "error",
     "a history stands in a state, not at the top",
     "It remembers where the state that it stands in was left.",
-    _inline("  initial: closed\n  states: {closed: {}, last: {history: deep}}\n  transitions: {last: closed}\n"),
-    _INLINE,
+    inline("  initial: closed\n  states: {closed: {}, last: {history: deep}}\n  transitions: {last: closed}\n"),
+    INLINE,
 )
 METHOD_NAME = Code(
     "RC2237",
@@ -349,51 +350,8 @@ METHOD_NAME = Code(
     "'{name}' cannot be the name of a guard or of an action",
     "Guards and actions are methods of the specific worker, so they have neither the name of something that every "
     "worker has, nor a word of Python or C++.",
-    _inline("  initial: closed\n  states: {opened: {}}\n"
-            "  transitions: {closed: {to: opened, event: open, if: default}}\n"),
-    _inline("  initial: closed\n  states: {opened: {}}\n"
-            "  transitions: {closed: {to: opened, event: open, if: wanted, do: killYourSelf}}\n"),
-)
-DEAD_TRANSITION = Code(
-    "RC2238",
-    "error",
-    "this transition of {state} is never taken{when}: one before it {why}",
-    "Of the transitions of a state, the first one that fits is taken. One that stands behind another one for the same "
-    "event, or behind one for `*` or `door.*` that matches it too, waits in vain, unless the first has a condition, "
-    "and not the same one; so does every one behind a transition that waits for nothing. A state inside may have "
-    "transitions for the same event: they come before. In an SCXML file, where this is legal, it is a warning.",
-    _inline("  initial: closed\n  states: {opened: {}, broken: {}}\n"
-            "  transitions: {closed: [{to: opened, event: open}, {to: broken, event: open}]}\n"),
-    _inline("  initial: closed\n  states: {opened: {}, broken: {}}\n"
-            "  transitions: {closed: [{to: opened, event: open, if: whole}, {to: broken, event: open}]}\n"),
-)
-EVENT_TWICE = Code(
-    "RC2239",
-    "error",
-    "the event '{event}' is listed twice",
-    "`events:` lists each event that code fires once; the second one is probably another one, misspelled.",
-    _inline("  initial: closed\n  events: [open, open]\n  states: {opened: {}}\n"
-            "  transitions: {closed: {to: opened, event: open}}\n"),
-    _inline("  initial: closed\n  events: [open, close]\n  states: {opened: {}}\n"
-            "  transitions: {closed: {to: opened, event: open}, opened: {to: closed, event: close}}\n"),
-)
-HISTORY_TWICE = Code(
-    "RC2240",
-    "error",
-    "a second transition of the history '{id}'",
-    "A history has one transition: it says where to go as long as there is nothing to remember.",
-    _inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n"
-            "      states: {locked: {}, ajar: {}, last: {history: shallow}}\n"
-            "      transitions: {locked: {to: ajar, event: pull}, last: [locked, ajar]}\n"),
-    _INLINE,
-)
-HISTORY_WAITS = Code(
-    "RC2241",
-    "error",
-    "the transition of the history '{id}' waits for nothing: it has neither event nor condition",
-    "Who goes to a history comes at once to where its surroundings were left, or to where its transition leads.",
-    _inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n"
-            "      states: {locked: {}, last: {history: shallow}}\n"
-            "      transitions: {locked: {to: last, event: pull}, last: {to: locked, event: back}}\n"),
-    _INLINE,
+    inline("  initial: closed\n  states: {opened: {}}\n"
+           "  transitions: {closed: {to: opened, event: open, if: default}}\n"),
+    inline("  initial: closed\n  states: {opened: {}}\n"
+           "  transitions: {closed: {to: opened, event: open, if: wanted, do: killYourSelf}}\n"),
 )

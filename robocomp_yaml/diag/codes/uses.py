@@ -48,6 +48,7 @@ NOT_INSTALLED = Code(
     _uses(_PYTHON, "libraries: [{pip: no-such-package-of-anyone}]"),
     _uses(_PYTHON, "libraries: [{pip: click, version: \">=8\"}]"),
     "check . --environment",
+    says=("{what} is not installed here", "{what} is not installed here: {reason}"),
 )
 NO_SOURCE = Code(
     "RC2305",

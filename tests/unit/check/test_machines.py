@@ -193,15 +193,60 @@ def test_a_name_of_no_state_in_initial_or_final(diagnostics: Check, text: str, m
     ("{a: [{to: b, if: near}, @{to: c, if: near}]}", "never: is taken at once on the same"),
     ("{a: [{to: b, if: near}, {to: c, event: @x, if: near}]}", "never for 'x': is taken at once on the same"),
     ("{a: {to: b, event: x}, b: {to: c, event: x}}", ""),
+    ("{a: [{to: b, event: x, if: 'true'}, {to: c, event: @x}]}", "never for 'x': takes 'x'"),
+    ("{a: [{to: b, event: x, if: far or not false}, {to: c, event: @x}]}", "never for 'x': takes 'x'"),
+    ("{a: [{to: b, event: x, if: far and true}, {to: c, event: x}]}", ""),
+    ("{a: [{to: b, event: x, if: 'false'}, {to: c, event: x}]}", ""),
+    ("{a: [{to: b, event: x, if: not near}, {to: c, event: @x, if: '!near()'}]}", "never for 'x': takes 'x' on the same"),
+    ("{a: [{to: b, event: @x}, {to: c, if: 'true'}]}", "never for 'x': is taken at once"),
+    ("{a: [{to: b, event: x}, {to: c, if: near}]}", ""),
 ])  # fmt: skip
 def test_transitions_behind_others(diagnostics: Check, transitions: str, told: str) -> None:
     text = "component: C\nlanguage: cpp\nstatemachine:\n  initial: a\n  states:\n    {b: {}, c: {}}\n"
     line = f"  transitions: {transitions}"  # with an @ before what is told of
     found = diagnostics({"c.cdsl.yaml": f"{text}{line.replace('@', '')}\n"})
     errors = [d for d in found if d["severity"] == "error"]
-    said = [re.sub(r".* is (never) taken(.*): one before it(.*)", r"\1\2:\3", d["message"]) for d in errors]
+    said = [re.sub(r".* is (never) taken(.*): one (?:before|behind) it(.*)", r"\1\2:\3", d["message"]) for d in errors]
     assert len(said) == bool(told) and "".join(said).startswith(told)
     assert [(d["code"], d["line"], d["column"]) for d in errors] == ([("RC2238", 7, line.index("@") + 1)] if told else [])
+
+
+@pytest.mark.parametrize(("transitions", "severity"), [
+    ('<transition event="x" target="b"/><transition event="x" target="a"/>', "error"),
+    ('<transition event="x" target="b"/><transition event="x" target="b"><script>beep</script></transition>', "error"),
+    ('<transition event="x"><script>beep</script></transition><transition event="x" cond="near" target="b"/>', "error"),
+    ('<transition event="x" cond="true" target="b"/><transition event="x.*" target="a"/>', "error"),
+    ('<transition event="y x" target="b"/><transition event="x z" target="a"/>', "error"),
+    ('<transition target="b"/><transition target="c"/>', "error"),
+    ('<transition event="x" target="b"/><transition event="x"  target="b"></transition>', "warning"),  # as W3C's 343
+    ('<transition event="x" cond="near" target="b"/><transition event="x" cond="near" target="a"/>', "warning"),
+    ('<transition event="*" target="b"/><transition event="x" target="a"/>', "warning"),
+    ('<transition event="x" target="b"/><transition event="x.y" target="a"/>', "warning"),
+    ('<transition event="x" target="b"/><transition target="c"/>', "warning"),  # as W3C's 419
+    ('<transition event="*" target="b"/><transition target="c"/>', "warning"),
+])  # fmt: skip
+def test_what_is_lost_in_a_file(diagnostics: Check, transitions: str, severity: str) -> None:
+    text = machine(f'<state id="a">{transitions}</state><state id="b"/><state id="c"/>')
+    files = {"c.cdsl.yaml": "component: C\nlanguage: python\nstatemachine: c.scxml\n", "c.scxml": text}
+    found = diagnostics(files)
+    assert [(d["severity"], d["line"]) for d in found if d["code"] == "RC2238"] == [(severity, 2)]
+
+
+def test_a_start_misspelled_where_no_states_are_listed(diagnostics: Check) -> None:
+    text = "  initial: clozed\n  final: gone\n  transitions: {closed: gone}\n"
+    assert inline(diagnostics, text) == ["4:12 RC2221 there is no state 'clozed' did you mean 'closed'?"]
+
+
+def test_a_hint_names_the_list_of_its_file(diagnostics: Check) -> None:
+    rc = 'initial="a" xmlns:rc="urn:robocomp:statemachine" rc:events="stop"'
+    files = {"c.cdsl.yaml": "component: C\nlanguage: python\nstatemachine: c.scxml\n"}
+    [found] = diagnostics({**files, "c.scxml": machine('<state id="a"><transition event="door"/></state>', rc)})
+    assert found["hint"].startswith("list it under `rc:events`")
+
+
+def test_a_circle_on_what_is_always_true(diagnostics: Check) -> None:
+    text = "  initial: a\n  states: {b: {}}\n  transitions: {a: {to: b, if: 'true'}, b: {to: a, if: not false}}\n"
+    assert [said.split()[1] for said in inline(diagnostics, text)] == ["RC2233"]
 
 
 def test_what_a_state_inside_takes_is_its_own(diagnostics: Check) -> None:

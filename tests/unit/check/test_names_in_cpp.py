@@ -59,6 +59,17 @@ def test_a_module_of_such_a_name(diagnostics: Check) -> None:
     assert [d["code"] for d in diagnostics({"Map.idsl.yaml": "module: BUFSIZ\n"})] == ["RC1027"]
 
 
+@pytest.mark.parametrize(("module", "language", "severity"), [
+    ("log", "cpp", "error"), ("select", "python", "warning"), ("Parameters", "cpp", "error"), ("int8_t", "cpp", "error"),
+    ("Log", "cpp", ""), ("runtime", "cpp", ""), ("linux", "cpp", ""),
+])  # fmt: skip
+def test_a_module_beside_the_system(diagnostics: Check, module: str, language: str, severity: str) -> None:
+    text = f"module: {module}\ninterfaces: {{Map: {{methods: {{time: {{in: {{index: int}}}}}}}}}}\n"
+    found = diagnostics({"Map.idsl.yaml": text, **component(language)})
+    expected = [("RC1028", severity, f"call it 'RoboComp{module[0].upper()}{module[1:]}'")] if severity else []
+    assert [(d["code"], d["severity"], d["hint"]) for d in found] == expected
+
+
 @pytest.mark.parametrize(("word", "language", "keys", "severity"), [
     ("EDOM", "cpp", "", "error"),
     ("EDOM", "python", "", "warning"),

@@ -46,6 +46,12 @@ def test_the_wrong_example_is_among_what_it_can_say(row: Code, rcyaml: Callable[
         assert found["code"] != row.id or re.fullmatch(pattern, str(found["message"])), found["message"]
 
 
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
+def test_readers_see_words_apart(row: Code) -> None:
+    """Where a fact goes on with a message's words, `says` has the messages that there are: no `takenWHEN`."""
+    assert not [message for message in row.says or (row.message,) if re.search(r"(\w|\}['\"`]?)\{", message)]
+
+
 def _pattern(message: str) -> str:
     message = re.sub(r" \(.*\)$", "", message)  # for readers
     parts = re.split(r"(?<!\{)\{[^{}]+\}(?!\})", message)

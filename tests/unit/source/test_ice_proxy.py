@@ -22,6 +22,7 @@ from robocomp_yaml.source.ice_proxy import parse_proxy, proxy_at
         ("lamp:tcp -t 0", "0", "timeout"),
         ("lamp:tcp -h 'a b", "'a b", "a quote is not closed"),
         ("lamp:tpc -p 1", "tpc", "no protocol 'tpc'"),
+        ("lamp:tcp -h ::1 -p 1", "-h", "an IPv6 address stands in double quotes"),
         ("lamp:", ":", "an endpoint is missing"),
         ("lamp @", "@", "adapter is missing"),
         ("lamp @ A b", "b", "nothing can follow"),
@@ -52,6 +53,12 @@ def test_what_it_means() -> None:
     assert parse_proxy("a\\/b\\u00e9\\303\\251 @ 'A 1'").name == "a/béé"
     assert parse_proxy("a @ 'A 1'").adapter == "A 1"
     assert proxy_at("two words") is None
+
+
+def test_nobody_means_bluetooth() -> None:
+    with pytest.raises(Refused) as refused:
+        parse_proxy("lamp:tls -p 1")
+    assert "ssl" in refused.value.meant and "bts" not in refused.value.meant
 
 
 @pytest.mark.parametrize("text", ["", "tcp", "tcp -p 0", "udp:tcp -p 1", "tcp -p 1:tpc -p 2", "tcp -p 1 -q", ":tcp -p 1"])
