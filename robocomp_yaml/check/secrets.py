@@ -80,7 +80,7 @@ def _warning(document: Document, secret: Secret) -> Diagnostic:
     code = network_codes.OPEN_SECRET if document.kind == "ddsl" else codes.OPEN_SECRET
     hint = {
         "config": f"{mode}, or give {{env: NAME}} or {{file: PATH}}",
-        "ddsl": f"{mode}, or leave it to the environment: {{env: NAME}}",
+        "ddsl": f"{mode}, or give {{env: NAME}} or {{file: PATH}}, under `env:` or `set:`",
         "pdsl": "leave the default out, and give the value as {env: NAME} or {file: PATH}",
     }[document.kind]
     return code.at(secret.node.span, file=os.path.basename(document.path), hint=hint)

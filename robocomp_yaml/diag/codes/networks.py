@@ -373,8 +373,8 @@ OPEN_SECRET = Code(
     "warning",
     "this is secret, and others can read {file}",
     "A password or a token that stands in a document is read by whoever can read the document, and often goes into a "
-    "repository with it. Under `env:`, `{{env: NAME}}` takes it from the environment; what `set:` gives a component "
-    "can also come from a file: `{{file: PATH}}`. Arguments are seen by everybody on the machine while the process "
+    "repository with it. Under `env:` and `set:`, `{env: NAME}` takes it from the environment, and `{file: PATH}` from "
+    "a file. Arguments are seen by everybody on the machine while the process "
     "runs. Secret is what its name says to be so (`DB_PASSWORD`, `--api-key=…`), the password in a URL, and what is "
     "given to a parameter with `secret: true`.",
     deployed(f"components:\n{_MOVES}" + _SPEAKS.replace("h}", "h, env: {API_TOKEN: hunter2}}")),
