@@ -126,10 +126,12 @@ def may_hold(text: str) -> bool:
 
 
 Part = tuple[int, int]
-def hidden_lines(text: str) -> list[str]:
+
+
+def hidden_lines(text: str, names: Collection[str] = ()) -> list[str]:
     """The lines of a document or a property file, with their ends, as they may be shown."""
     lines = text.splitlines(keepends=True)
-    for number, parts in parts_of_lines([line.rstrip("\r\n") for line in lines]).items():
+    for number, parts in parts_of_lines([line.rstrip("\r\n") for line in lines], names).items():
         for start, end in sorted(parts, reverse=True):
             lines[number] = f"{lines[number][:start]}{HIDDEN}{lines[number][end:]}"
     return lines

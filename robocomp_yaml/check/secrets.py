@@ -23,6 +23,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.documents import Document
 from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.model.parameters import RecordType
+from robocomp_yaml.source import properties
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values.hidden import declared, named_nodes, nodes, plain_below
@@ -46,6 +47,36 @@ def check(program: Program, documents: Iterable[Document], contents: dict[str, b
         if document.kind in _KINDS and document.model is not None and finder.may_hold(document, contents):
             if _others_can_read(document.path):
                 yield from (_warning(document, secret) for secret in finder.secrets(document) if secret.is_sure)
+    yield from _of_configurations(program, contents)
+
+
+def _of_configurations(program: Program, contents: dict[str, bytes]) -> Iterator[Diagnostic]:
+    """Of those that are no documents of ours, at the deployment that names them."""
+    told: set[tuple[str, str]] = set()
+    for deployment in program.deployments.values():
+        for instance in deployment.instances.values():
+            path, given, component = instance.flat, instance.entry.config, instance.component
+            place = (instance.document.path, os.path.realpath(path)) if path else ("", "")
+            if given is None or place in told or path not in contents or not _others_can_read(path):
+                continue
+            told.add(place)
+            names = set(declared(component.parameters.parameters.root)) if component is not None else set()
+            line = _line_of_secret(contents[path].decode("utf-8", "replace"), names)
+            if line:
+                file, hint = os.path.relpath(path), f"`chmod 600 {shlex.quote(os.path.relpath(path))}`"
+                yield network_codes.OPEN_CONFIG.at(given.span, file=file, line=line, hint=hint)
+
+
+def _line_of_secret(text: str, names: Collection[str]) -> int:
+    """The first line with a secret, as Ice reads it or as any other text; 0 where there is none."""
+    if not secrets.may_hold(text) and not any(name in text for name in names):
+        return 0
+    for entry in properties.read(text).entries:
+        is_set = entry.value and not entry.key.startswith(_COMMENT)
+        if is_set and secrets.value(entry.key, entry.value, names) != entry.value:
+            return entry.line
+    lines = ["" if line.lstrip().startswith(_COMMENT) else line for line in text.splitlines()]
+    return min(secrets.parts_of_lines(lines, names), default=-1) + 1
 
 
 def hidden(program: Program, documents: Iterable[Document], contents: dict[str, bytes], files: set[str]) -> Hidden:
@@ -56,8 +87,9 @@ def hidden(program: Program, documents: Iterable[Document], contents: dict[str, 
             continue
         found.files.add(document.path)
         if document.kind not in _KINDS:
-            continue
-        if document.tree is None:
+            for node in _in_extensions(document.tree):
+                found.add(node.span, node.lexeme)
+        elif document.tree is None:
             _add_lines(found, document, contents, finder.names)
         elif finder.may_hold(document, contents):
             for secret in finder.secrets(document):
@@ -65,6 +97,7 @@ def hidden(program: Program, documents: Iterable[Document], contents: dict[str, 
     return found
 
 
+_COMMENT = ("#", ";", "//", "<!--")
 _KINDS = ("config", "ddsl", "pdsl")
 
 
@@ -107,6 +140,10 @@ class _Finder:
             if id(secret.node) not in seen:
                 seen.add(id(secret.node))
                 yield secret
+        for node in _in_extensions(tree):
+            if id(node) not in seen:
+                seen.add(id(node))
+                yield Secret(node, is_sure=False)
         for node in _texts(tree):
             if id(node) not in seen and secrets.url(node.lexeme) != node.lexeme:
                 yield Secret(node, _password_of_url(node.lexeme))
@@ -180,6 +217,21 @@ def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
 
 def _unsure(node: Node) -> Iterator[Secret]:
     return (Secret(found, is_sure=False) for found in plain_below(node))
+
+
+def _in_extensions(node: Node | None) -> Iterator[Scalar]:
+    """What names and texts below keys of the user's own (`x-…`) say to be secret."""
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            if key.lexeme.startswith("x-"):
+                yield from named_nodes(value)
+                yield from plain_below(value) if secrets.is_secret(key.lexeme) else ()
+                yield from (one for one in plain_below(value) if secrets.masked(one.lexeme) != one.lexeme)
+            else:
+                yield from _in_extensions(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _in_extensions(item)
 
 
 def _texts(node: Node) -> Iterator[Scalar]:

@@ -368,6 +368,19 @@ NO_PROGRAM = Code(
         "'{name}' cannot be started: there is no folder {folder} to run in",
     ),
 )
+OPEN_CONFIG = Code(
+    "RC4311",
+    "warning",
+    "{file} holds a secret in line {line}, and others can read it",
+    "A configuration that is no values document goes to its process as it is. A property is secret whose name says so, "
+    "or that a component's parameter with `secret: true` has; in a URL the password is. Let nobody but the owner read "
+    "the file: what is derived from it nobody else can read, either.",
+    {**deployed(f"components:\n{_MOVES}" + _SPEAKS.replace("h}", "h, config: speech.conf}")),
+     "speech.conf": "api_token=hunter2\n"},
+    {**deployed(f"components:\n{_MOVES}" + _SPEAKS.replace("h}", "h, config: speech.conf}")),
+     "speech.conf": "api_token=${env:API_TOKEN}\n"},
+    _CHECK,
+)
 OPEN_SECRET = Code(
     "RC4310",
     "warning",
