@@ -91,12 +91,14 @@ def hidden(program: Program, documents: Iterable[Document], contents: dict[str, 
                 found.add(node.span, node.lexeme)
         elif document.tree is None:
             _add_lines(found, document, contents, finder.names)
-        elif finder.may_hold(document, contents):
+        elif finder.names or finder.may_hold(document, contents):  # a name may be misspelt
             for secret in finder.secrets(document):
                 found.add(secret.node.span, secret.part or secret.node.lexeme)
     return found
 
 
+_MORE = {"ddsl": ("set",), "pdsl": ("default",)}
+"""Names of keys below which a secret can stand that has another name, where nobody can tell."""
 _COMMENT = ("#", ";", "//", "<!--")
 _KINDS = ("config", "ddsl", "pdsl")
 
@@ -147,8 +149,12 @@ class _Finder:
         for node in _texts(tree):
             if id(node) not in seen and secrets.url(node.lexeme) != node.lexeme:
                 yield Secret(node, _password_of_url(node.lexeme))
+            elif id(node) not in seen and (part := _part_of(node.lexeme)):
+                yield Secret(node, part, is_sure=False)
 
     def _of_kind(self, document: Document, tree: Mapping) -> Iterator[Secret]:
+        if document.model is None:  # its shape is wrong: a secret may stand anywhere
+            yield from _of_defaults(tree) if document.kind == "pdsl" else _anywhere(tree, self.names)
         if document.kind == "config":
             yield from map(Secret, self._of_values(document, tree))
         elif document.kind == "ddsl":
@@ -200,6 +206,31 @@ class _Finder:
                 yield from _unsure(given) if "component" in entry.entries else ()
 
 
+def _anywhere(node: Node, names: Collection[str]) -> Iterator[Secret]:
+    if isinstance(node, Mapping):
+        for _, value in node.items():
+            yield from _anywhere(value, names)
+        yield from map(Secret, named_nodes(node, names))
+    elif isinstance(node, Sequence):
+        yield from _words(node, names)
+        for item in node.items:
+            yield from _anywhere(item, names)
+
+
+def _of_defaults(node: Node) -> Iterator[Secret]:
+    """In a document of parameters, whatever its shape."""
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            if isinstance(value, Mapping):
+                is_secret = secrets.is_secret(key.lexeme) or "secret" in value.entries
+                given = value.get("default") if is_secret else None
+                yield from map(Secret, plain_below(given)) if given is not None else ()
+            yield from _of_defaults(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _of_defaults(item)
+
+
 def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
     """Arguments that are secrets, or hold one."""
     if isinstance(node, Mapping):
@@ -235,19 +266,29 @@ def _in_extensions(node: Node | None) -> Iterator[Scalar]:
 
 
 def _texts(node: Node) -> Iterator[Scalar]:
-    """Every text that holds a URL."""
+    """Every text that may hold a secret by its own words."""
     if isinstance(node, Mapping):
-        for _, value in node.items():
-            yield from _texts(value)
+        for key, value in node.items():
+            yield from _texts(value) if key.lexeme != "doc" else ()
     elif isinstance(node, Sequence):
         for item in node.items:
             yield from _texts(item)
-    elif isinstance(node, Scalar) and "@" in node.lexeme:
+    elif isinstance(node, Scalar) and secrets.may_hold(node.lexeme):
         yield node
 
 
 def _password_of_url(text: str) -> str:
-    head, _, tail = secrets.url(text).partition(secrets.HIDDEN)
+    return _between(text, secrets.url(text))
+
+
+def _part_of(text: str) -> str:
+    """What of a text is secret by its own words, or ''."""
+    masked = secrets.masked(text)
+    return _between(text, masked) if masked != text else ""
+
+
+def _between(text: str, masked: str) -> str:
+    head, _, tail = masked.partition(secrets.HIDDEN)
     return text[len(head) : len(text) - len(tail)] if secrets.HIDDEN not in tail else text
 
 
@@ -263,7 +304,8 @@ def _add_lines(found: Hidden, document: Document, contents: dict[str, bytes], na
     """What is hidden of the lines of a document that is no YAML."""
     text = contents.get(document.path, b"").decode("utf-8-sig", "replace")
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    known = {*names, *_names_nearby(document.path)} if document.kind == "config" else names
+    nearby = _names_nearby(document.path) if document.kind == "config" else ()
+    known = {*names, *nearby, *_MORE.get(document.kind, ())}
     for number, parts in secrets.parts_of_lines(lines, known).items():
         for start, end in parts:
             span = Span(document.path, number + 1, start + 1, number + 1, end + 1)

@@ -124,6 +124,7 @@ BROKEN = [
     "parameters: {wifi: canaryWifi, accounts: [{user: 'a,b', key: canaryKey}]}\n",
     'parameters: {wifi: "canary\\nWifi", name: 3}\n',
     'parameters: {wifi: "${env:canaryWifi}", name: 3}\n',
+    "parameters: {wiffi: canaryWifi, Wifi: canaryB, name: 3}\n",
     "parameters: {wifi: " + "canary" * 20 + ", name: 3, url: 'x://a:canary@b'}\n",
 ]
 
@@ -144,6 +145,12 @@ DEPLOYMENTS = [
     "  a: {program: /bin/true, env: {PASSWORD: 4711471, TOKEN: 'canary}\n",
     "  a: {component: speech, set: {wifi: [canaryA], pin: canaryB, name: 3, 'accounts[4].key': canaryC}}\n",
     "  a: {component: nowhere, set: {wifi: canaryA, password: canaryB}, env: {X: 'x://a:canary@b'}}\n",
+    "  a:\n    program: /bin/true\n    args:\n    - --password\n    - 'canaryA\n",
+    "  a:\n    component: speech\n    set: {mode: \"canaryA\"x}\n",
+    "  [a, {program: /bin/true, env: {PASSWORD: canaryA}, args: [--token, canaryB]}]\n",
+    "  a: {program: /bin/true, env: [PASSWORD=canaryA, {PASSWORD: canaryB}]}\n",
+    "  a: {program: '/bin/x --password canaryA'}\nhosts: {h: {address: a, password: canaryB}}\n",
+    "  a: {program: sh, args: [-c, 'PASSWORD=canaryA run --password canaryB'], prot: 1}\n",
 ]
 
 
@@ -163,6 +170,9 @@ def test_nor_by_deployments_that_are_wrong(
     "parameters: {password: {type: int, default: canaryA}}\n",
     "parameters: {password: {type: string, pattern: '[a-z]', default: canaryA, optional: true}}\n",
     "parameters: {token: {list: string, default: [canaryA, {x: canaryB}]}, x: flaot}\n",
+    "parameters: {wifi: {type: string, secret: true, default: canaryA, patern: x}}\n",
+    "parameters: {db: {group: {password: {type: string, default: canaryA, rnge: 1}}}}\n",
+    'parameters: {wifi: {type: string, secret: true, default: "canaryA"x}}\n',
 ])  # fmt: skip
 def test_nor_by_defaults_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], text: str) -> None:
     (robot / "speech/speech.pdsl.yaml").write_text(f"component: speech.cdsl.yaml\n{text}", encoding="utf-8")
