@@ -126,10 +126,12 @@ def may_hold(text: str) -> bool:
 
 
 Part = tuple[int, int]
-def hidden_lines(text: str) -> list[str]:
+
+
+def hidden_lines(text: str, names: Collection[str] = ()) -> list[str]:
     """The lines of a document or a property file, with their ends, as they may be shown."""
     lines = text.splitlines(keepends=True)
-    for number, parts in parts_of_lines([line.rstrip("\r\n") for line in lines]).items():
+    for number, parts in parts_of_lines([line.rstrip("\r\n") for line in lines], names).items():
         for start, end in sorted(parts, reverse=True):
             lines[number] = f"{lines[number][:start]}{HIDDEN}{lines[number][end:]}"
     return lines
@@ -140,6 +142,8 @@ _FLOW_VALUE = re.compile(r"[ \t]*(?:\"(?:[^\"\\]|\\.)*\"?|'(?:[^']|'')*'?|[^,}\]
 _LISTED = re.compile(
     r"(?P<name>(?<![\w-])--?[A-Za-z][\w.\-]{0,60})[\"']?,[ \t]*(?P<value>\"[^\"]*\"?|'[^']*'?|[^\s,\]]+)"
 )
+_ANY_ITEM = re.compile(r"[ \t]*-[ \t]+")
+_ITEM = re.compile(r"[ \t]*-[ \t]+[\"']?(?P<name>--?[A-Za-z][\w.\-]*)[\"']?[ \t]*\Z")
 _INDENT = re.compile(r"[ \t]*(?:-[ \t]+)*")
 
 
@@ -148,6 +152,7 @@ def parts_of_lines(lines: Sequence[str], names: Collection[str] = ()) -> dict[in
     a name that says so, or is one of `names`, and below it."""
     found: dict[int, list[Part]] = {}
     below: int | None = None  # the indentation of the key whose value goes on
+    is_value = False  # of an option, which the item before is
     for number, line in enumerate(lines):
         start = len(line) - len(line.lstrip())
         goes_on = below is not None and (start > below or (start == below and not _KEY.search(line)))
@@ -156,6 +161,10 @@ def parts_of_lines(lines: Sequence[str], names: Collection[str] = ()) -> dict[in
                 found[number] = [(start, len(line.rstrip()))]
             continue
         parts, below = _parts_of_line(line, names)
+        option = _ITEM.match(line)
+        if is_value and (item := _ANY_ITEM.match(line)) and not option:
+            parts = [(item.end(), max(len(line.rstrip()), item.end()))]
+        is_value = option is not None and is_one_of(option["name"], names)
         if parts:
             found[number] = parts
     return found

@@ -23,6 +23,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.documents import Document
 from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.model.parameters import RecordType
+from robocomp_yaml.source import properties
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values.hidden import declared, named_nodes, nodes, plain_below
@@ -46,6 +47,36 @@ def check(program: Program, documents: Iterable[Document], contents: dict[str, b
         if document.kind in _KINDS and document.model is not None and finder.may_hold(document, contents):
             if _others_can_read(document.path):
                 yield from (_warning(document, secret) for secret in finder.secrets(document) if secret.is_sure)
+    yield from _of_configurations(program, contents)
+
+
+def _of_configurations(program: Program, contents: dict[str, bytes]) -> Iterator[Diagnostic]:
+    """Of those that are no documents of ours, at the deployment that names them."""
+    told: set[tuple[str, str]] = set()
+    for deployment in program.deployments.values():
+        for instance in deployment.instances.values():
+            path, given, component = instance.flat, instance.entry.config, instance.component
+            place = (instance.document.path, os.path.realpath(path)) if path else ("", "")
+            if given is None or place in told or path not in contents or not _others_can_read(path):
+                continue
+            told.add(place)
+            names = set(declared(component.parameters.parameters.root)) if component is not None else set()
+            line = _line_of_secret(contents[path].decode("utf-8", "replace"), names)
+            if line:
+                file, hint = os.path.relpath(path), f"`chmod 600 {shlex.quote(os.path.relpath(path))}`"
+                yield network_codes.OPEN_CONFIG.at(given.span, file=file, line=line, hint=hint)
+
+
+def _line_of_secret(text: str, names: Collection[str]) -> int:
+    """The first line with a secret, as Ice reads it or as any other text; 0 where there is none."""
+    if not secrets.may_hold(text) and not any(name in text for name in names):
+        return 0
+    for entry in properties.read(text).entries:
+        is_set = entry.value and not entry.key.startswith(_COMMENT)
+        if is_set and secrets.value(entry.key, entry.value, names) != entry.value:
+            return entry.line
+    lines = ["" if line.lstrip().startswith(_COMMENT) else line for line in text.splitlines()]
+    return min(secrets.parts_of_lines(lines, names), default=-1) + 1
 
 
 def hidden(program: Program, documents: Iterable[Document], contents: dict[str, bytes], files: set[str]) -> Hidden:
@@ -56,15 +87,19 @@ def hidden(program: Program, documents: Iterable[Document], contents: dict[str, 
             continue
         found.files.add(document.path)
         if document.kind not in _KINDS:
-            continue
-        if document.tree is None:
+            for node in _in_extensions(document.tree):
+                found.add(node.span, node.lexeme)
+        elif document.tree is None:
             _add_lines(found, document, contents, finder.names)
-        elif finder.may_hold(document, contents):
+        elif finder.names or finder.may_hold(document, contents):  # a name may be misspelt
             for secret in finder.secrets(document):
                 found.add(secret.node.span, secret.part or secret.node.lexeme)
     return found
 
 
+_MORE = {"ddsl": ("set",), "pdsl": ("default",)}
+"""Names of keys below which a secret can stand that has another name, where nobody can tell."""
+_COMMENT = ("#", ";", "//", "<!--")
 _KINDS = ("config", "ddsl", "pdsl")
 
 
@@ -80,7 +115,7 @@ def _warning(document: Document, secret: Secret) -> Diagnostic:
     code = network_codes.OPEN_SECRET if document.kind == "ddsl" else codes.OPEN_SECRET
     hint = {
         "config": f"{mode}, or give {{env: NAME}} or {{file: PATH}}",
-        "ddsl": f"{mode}, or leave it to the environment: {{env: NAME}}",
+        "ddsl": f"{mode}, or give {{env: NAME}} or {{file: PATH}}, under `env:` or `set:`",
         "pdsl": "leave the default out, and give the value as {env: NAME} or {file: PATH}",
     }[document.kind]
     return code.at(secret.node.span, file=os.path.basename(document.path), hint=hint)
@@ -107,11 +142,19 @@ class _Finder:
             if id(secret.node) not in seen:
                 seen.add(id(secret.node))
                 yield secret
+        for node in _in_extensions(tree):
+            if id(node) not in seen:
+                seen.add(id(node))
+                yield Secret(node, is_sure=False)
         for node in _texts(tree):
             if id(node) not in seen and secrets.url(node.lexeme) != node.lexeme:
                 yield Secret(node, _password_of_url(node.lexeme))
+            elif id(node) not in seen and (part := _part_of(node.lexeme)):
+                yield Secret(node, part, is_sure=False)
 
     def _of_kind(self, document: Document, tree: Mapping) -> Iterator[Secret]:
+        if document.model is None:  # its shape is wrong: a secret may stand anywhere
+            yield from _of_defaults(tree) if document.kind == "pdsl" else _anywhere(tree, self.names)
         if document.kind == "config":
             yield from map(Secret, self._of_values(document, tree))
         elif document.kind == "ddsl":
@@ -163,6 +206,31 @@ class _Finder:
                 yield from _unsure(given) if "component" in entry.entries else ()
 
 
+def _anywhere(node: Node, names: Collection[str]) -> Iterator[Secret]:
+    if isinstance(node, Mapping):
+        for _, value in node.items():
+            yield from _anywhere(value, names)
+        yield from map(Secret, named_nodes(node, names))
+    elif isinstance(node, Sequence):
+        yield from _words(node, names)
+        for item in node.items:
+            yield from _anywhere(item, names)
+
+
+def _of_defaults(node: Node) -> Iterator[Secret]:
+    """In a document of parameters, whatever its shape."""
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            if isinstance(value, Mapping):
+                is_secret = secrets.is_secret(key.lexeme) or "secret" in value.entries
+                given = value.get("default") if is_secret else None
+                yield from map(Secret, plain_below(given)) if given is not None else ()
+            yield from _of_defaults(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _of_defaults(item)
+
+
 def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
     """Arguments that are secrets, or hold one."""
     if isinstance(node, Mapping):
@@ -182,20 +250,45 @@ def _unsure(node: Node) -> Iterator[Secret]:
     return (Secret(found, is_sure=False) for found in plain_below(node))
 
 
-def _texts(node: Node) -> Iterator[Scalar]:
-    """Every text that holds a URL."""
+def _in_extensions(node: Node | None) -> Iterator[Scalar]:
+    """What names and texts below keys of the user's own (`x-…`) say to be secret."""
     if isinstance(node, Mapping):
-        for _, value in node.items():
-            yield from _texts(value)
+        for key, value in node.items():
+            if key.lexeme.startswith("x-"):
+                yield from named_nodes(value)
+                yield from plain_below(value) if secrets.is_secret(key.lexeme) else ()
+                yield from (one for one in plain_below(value) if secrets.masked(one.lexeme) != one.lexeme)
+            else:
+                yield from _in_extensions(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _in_extensions(item)
+
+
+def _texts(node: Node) -> Iterator[Scalar]:
+    """Every text that may hold a secret by its own words."""
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            yield from _texts(value) if key.lexeme != "doc" else ()
     elif isinstance(node, Sequence):
         for item in node.items:
             yield from _texts(item)
-    elif isinstance(node, Scalar) and "@" in node.lexeme:
+    elif isinstance(node, Scalar) and secrets.may_hold(node.lexeme):
         yield node
 
 
 def _password_of_url(text: str) -> str:
-    head, _, tail = secrets.url(text).partition(secrets.HIDDEN)
+    return _between(text, secrets.url(text))
+
+
+def _part_of(text: str) -> str:
+    """What of a text is secret by its own words, or ''."""
+    masked = secrets.masked(text)
+    return _between(text, masked) if masked != text else ""
+
+
+def _between(text: str, masked: str) -> str:
+    head, _, tail = masked.partition(secrets.HIDDEN)
     return text[len(head) : len(text) - len(tail)] if secrets.HIDDEN not in tail else text
 
 
@@ -211,7 +304,8 @@ def _add_lines(found: Hidden, document: Document, contents: dict[str, bytes], na
     """What is hidden of the lines of a document that is no YAML."""
     text = contents.get(document.path, b"").decode("utf-8-sig", "replace")
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    known = {*names, *_names_nearby(document.path)} if document.kind == "config" else names
+    nearby = _names_nearby(document.path) if document.kind == "config" else ()
+    known = {*names, *nearby, *_MORE.get(document.kind, ())}
     for number, parts in secrets.parts_of_lines(lines, known).items():
         for start, end in parts:
             span = Span(document.path, number + 1, start + 1, number + 1, end + 1)

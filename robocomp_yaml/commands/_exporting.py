@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from typing import TYPE_CHECKING
 
 import click
@@ -22,12 +23,15 @@ if TYPE_CHECKING:
 
 def export(ctx: click.Context, opened: Opened, form: str, output: str | None) -> None:
     """Prints the files, or writes them below `output`. They may hold what a configuration holds: only their owner can
-    read those that are written."""
+    read those that are written, and on a terminal secrets are hidden."""
     from robocomp_yaml.emit import exports
+    from robocomp_yaml.network.hidden import hidden
 
+    is_hidden = output is None and sys.stdout.isatty()
+    network = hidden(opened.network) if is_hidden else opened.network
     try:
         with exports.noted() as notes:
-            files = exports.export(opened.network, form)
+            files = exports.export(network, form)
     except exports.Unwritable as refused:
         opened.told.append(_told(refused, form).as_severity(ERROR))
         end(ctx, opened)

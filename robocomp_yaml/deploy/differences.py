@@ -75,8 +75,7 @@ def _command(spec: Spec) -> str:
 
 
 def _variables(variables: tuple[Variable, ...]) -> dict[str, str]:
-    return {variable.name: f"{{env: {variable.source}}}" if variable.source else variable.value
-            for variable in variables}  # fmt: skip
+    return {variable.name: variable.shown for variable in variables}
 
 
 def _config(old: ConfigFile | None, new: ConfigFile | None, names: set[str]) -> Iterator[Difference]:

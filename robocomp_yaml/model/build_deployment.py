@@ -131,7 +131,7 @@ def _pairs(node: Node, key: str) -> Iterator[Pair]:
 
 def _variable(name: Scalar, value: Node) -> Variable:
     if isinstance(value, Mapping):
-        return Variable(name.lexeme, source=text(value, "env"), span=name.span)
+        return Variable(name.lexeme, source=text(value, "env"), file=text(value, "file"), span=name.span)
     assert isinstance(value, Scalar)
     return Variable(name.lexeme, value.lexeme, span=name.span)
 

@@ -46,11 +46,12 @@ class Storm(Located, frozen=True):
 
 
 class Variable(Located, frozen=True):
-    """A variable of the environment: `value`, or the caller's variable `source`."""
+    """A variable of the environment: `value`, or the caller's variable `source`, or the text of `file`."""
 
     name: str
     value: str = ""
     source: str = ""
+    file: str = ""
     span: Span = Span("")
 
 

@@ -33,12 +33,21 @@ class Host(Located, frozen=True):
 
 
 class Variable(msgspec.Struct, frozen=True):
-    """A variable of a process's environment: `value`, or that of the caller's variable `source`, which is read when
-    the process starts and never written or printed."""
+    """A variable of a process's environment: `value`, or that of the caller's variable `source`, or the text of `file`
+    on the process's host. Both are read when the process starts, and never written or printed. `file` is absolute, or
+    begins with `~/`, the home of whoever runs the process; one line end at its end does not count."""
 
     name: str
     value: str = ""
     source: str = ""
+    file: str = ""
+
+    @property
+    def shown(self) -> str:
+        """As a document says it."""
+        if self.file:
+            return f"{{file: {self.file}}}"
+        return f"{{env: {self.source}}}" if self.source else self.value
 
 
 class Endpoint(Located, frozen=True):

@@ -42,7 +42,7 @@ def of_draft(
     is_told = any(CONFIG in part for part in command[1:])
     return Process(
         draft.name, draft.host.name, command, folder, PROGRAM if component is None else COMPONENT,
-        env=tuple(Variable(one.name, one.value, one.source) for one in entry.env),
+        env=tuple(_variable(one, instance.document.path) for one in entry.env),
         config=ConfigFile(f"config/{draft.name}", text, secrets) if text is not None and is_told else None,
         endpoints=tuple(adapter.resolved() for adapter in draft.adapters),
         ready=_ready(draft),
@@ -58,6 +58,13 @@ def of_draft(
         extra=(*entry.extra, *_of_aliases(draft)),
         span=entry.span,
     )
+
+
+def _variable(given: model.Variable, document: str) -> Variable:
+    file = given.file
+    if file and not file.startswith("~/"):
+        file = os.path.abspath(os.path.join(os.path.dirname(document), file))
+    return Variable(given.name, given.value, given.source, file)
 
 
 def _of_aliases(draft: Draft) -> Iterator[tuple[str, object]]:

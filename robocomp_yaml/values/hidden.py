@@ -99,10 +99,18 @@ def _of_member(record: RecordType, key: Scalar, value: Node) -> Iterator[Scalar]
             type_ = type_.element if isinstance(type_, ListType | MapType) else None
     if type_ is not None and not (isinstance(value.data, str) and secrets.is_secret(steps[-1])):
         yield from nodes(type_, value)
-    elif type_ is not None or secrets.is_secret(key.lexeme):
+    elif type_ is not None or secrets.is_secret(key.lexeme) or _is_close(record, key.lexeme):
         yield from plain_below(value)
     else:
         yield from named_nodes(value)
+
+
+def _is_close(record: RecordType, name: str) -> bool:
+    """Whether a name that there is not is a secret's with a slip in it."""
+    from difflib import get_close_matches  # few need it
+
+    known = [member.name.lower() for member in record.members if holds_secret(member.type)]
+    return bool(known) and bool(get_close_matches(name.lower(), known, 1, 0.7))
 
 
 def named_nodes(node: Node, names: Collection[str] = ()) -> Iterator[Scalar]:

@@ -105,6 +105,28 @@ def test_its_language_is_that_of_its_document_or_of_the_node(
     )
 
 
+@pytest.mark.parametrize(
+    ("raw", "meant"),
+    [(b"a $b\\n\n", b"a $b\\n"), (b"a\r\n", b"a"), (b"a\r", b"a\r"), (b"", b""), (b"\xff\n\n", b"\xff\n")],
+)
+def test_a_variable_that_a_file_holds(runner: Runner, tmp_path: Path, raw: bytes, meant: bytes) -> None:
+    (tmp_path / "my token").write_bytes(raw)
+    words = ("=python3", "=-c", "=import os; print(ascii(os.fsencode(os.environ['TOKEN'])))")
+    log = runner.to_end("rTOKEN=~/my token", *words, HOME=str(tmp_path))
+    assert f"\n{meant!a}\n" in log
+
+
+@pytest.mark.parametrize("raw", [None, b"a\0b", b"a" * 140_000])
+def test_one_that_cannot_be_read_is_said(runner: Runner, tmp_path: Path, raw: bytes | None) -> None:
+    if raw:
+        (tmp_path / "token").write_bytes(raw)
+    runner.start(f"rTOKEN={tmp_path}/token", "=echo", "=here I am").wait(20)
+    until(lambda: "TOKEN is the text of" in runner.log, "the log")
+    assert "here I am" not in runner.log
+    state, how, _ = runner.told
+    assert state == "given up" and "TOKEN is the text of" in how
+
+
 def test_a_language_that_the_node_had_not_is_said(runner: Runner) -> None:
     log = runner.to_end("sTWO=LC_ALL", "=echo", "=here I am", LC_ALL="C", RCYAML_LANGUAGE="none")
     assert "the variable LC_ALL was not set" in log and "here I am" not in log

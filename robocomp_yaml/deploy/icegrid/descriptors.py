@@ -55,6 +55,8 @@ def server(places: Places, spec: Spec, user: str, number: int, *, is_here: bool)
     for place, variable in enumerate(process.env):
         if variable.source:
             words.append(f"s{variable.name}={variable.source}")
+        elif variable.file:
+            words.append(f"r{variable.name}={variable.file}")
         else:  # in the environment from the beginning: everybody can see the words of a command
             words.append(f"e{place}")
             environment.append(f"RCYAML_ENTRY_{place}={encoded(f'{variable.name}={variable.value}')}")

@@ -16,7 +16,13 @@ from robocomp_yaml.deploy.local import launch, record
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
 from robocomp_yaml.deploy.local.kernel import die_with
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
-from robocomp_yaml.deploy.local.obstacles import Cleared, environment_of, not_here, obstacles
+from robocomp_yaml.deploy.local.obstacles import (
+    Cleared,
+    environment_of,
+    not_here,
+    obstacles,
+    whole_environment_of,
+)
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
@@ -111,7 +117,7 @@ class LocalEngine:
         process = self._specs[name].process if name in self._specs else self._network.processes[name]
         try:
             started = await asyncio.create_subprocess_exec(
-                *command, cwd=process.cwd or None, env=environment_of(process), stdin=asyncio.subprocess.DEVNULL,
+                *command, cwd=process.cwd or None, env=whole_environment_of(process), stdin=asyncio.subprocess.DEVNULL,
                 stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.DEVNULL, start_new_session=True,
                 preexec_fn=partial(die_with, os.getpid()),
             )  # fmt: skip

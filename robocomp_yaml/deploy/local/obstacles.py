@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.folder import document_in
 from robocomp_yaml.deploy.local import procfs, program
+from robocomp_yaml.deploy.local.variables import from_files
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -20,12 +21,18 @@ _JUST = 2.0  # seconds
 
 
 def environment_of(process: Process) -> dict[str, str]:
-    """The caller's environment with the process's own variables. What Python programs print is seen at once."""
+    """The caller's environment with the process's own variables, but for those that files hold. What Python programs
+    print is seen at once."""
     own = {
         variable.name: os.environ.get(variable.source, "") if variable.source else variable.value
-        for variable in process.env
+        for variable in process.env if not variable.file
     }
     return {"PYTHONUNBUFFERED": "1", **os.environ, **own}
+
+
+def whole_environment_of(process: Process) -> dict[str, str]:
+    """That of the process as it would start now. Raises OSError where a file cannot be read."""
+    return environment_of(process) | from_files((one.name, one.file) for one in process.env if one.file)
 
 
 def obstacles(specs: Sequence[Spec], own: Collection[int]) -> list[Diagnostic]:
@@ -126,7 +133,7 @@ def _why_not(spec: Spec) -> str:
     if not os.path.isdir(folder):
         return f"its folder '{folder}' does not exist"
     try:
-        program.find(spec.command[0], folder, environment_of(spec.process))
+        program.find(spec.command[0], folder, whole_environment_of(spec.process))
     except OSError as error:
         return error.strerror or str(error)
     return ""

@@ -18,7 +18,7 @@ from robocomp_yaml.deploy.local.child import Child
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
 
-PROTOCOL = 1
+PROTOCOL = 2
 """Raised with each change of what is said on the socket: clients of another version are told."""
 
 LONGEST = 1 << 28  # bytes of a request: configurations may be long
@@ -140,7 +140,7 @@ class _Service:
     async def _start(self, request: Request) -> Request:
         child = self.children[request["name"]]
         async with child.lock:
-            child.start({**request["environment"], procfs.MARK: child.mark})
+            child.start(request["environment"])
         return {}
 
     async def _stop_one(self, request: Request) -> Request:

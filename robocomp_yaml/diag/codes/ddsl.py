@@ -187,7 +187,7 @@ CONFIG_AS_PROGRAM = Code(
     "RC4017",
     "error",
     "'{text}' cannot be what is started: {{config}} is a configuration's path, which only arguments can have",
-    "In an argument, `{{config}}` stands for the path of the configuration that is derived for the process. What is "
+    "In an argument, `{config}` stands for the path of the configuration that is derived for the process. What is "
     "started is a program; one that reads its configuration as a script gets it as an argument.",
     deployed("components:\n" + _MOVES + "  laser: {program: '{config}', config: mouth/etc/config}\n")
     | {"mouth/etc/config": "Mouth.Speed=1\n"},

@@ -144,7 +144,7 @@ KEY_COLON = Code(
     "RC0108",
     "error",
     "a blank is missing after the colon in '{key}'",
-    "Inside `{{}}` a colon separates a key from its value only when a blank follows it.",
+    "Inside `{}` a colon separates a key from its value only when a blank follows it.",
     _wrong("module: RoboCompSpeech\ntypes:\n  Words: {sequence:string}\n"),
     {"Speech.idsl.yaml": "module: RoboCompSpeech\ntypes:\n  Words: {sequence: string}\n"},
 )

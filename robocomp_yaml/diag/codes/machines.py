@@ -323,7 +323,7 @@ INLINE_HISTORY = Code(
     "RC2234",
     "error",
     "a history stands for states beside it: it has no {what} of its own",
-    "`{{history: deep}}` (or `shallow`) is not a state: who goes there comes back to where its surroundings were left.",
+    "`{history: deep}` (or `shallow`) is not a state: who goes there comes back to where its surroundings were left.",
     inline("  initial: closed\n  states:\n    closed:\n      initial: locked\n      states:\n        locked: {}\n"
            "        last: {history: shallow, entry: [beep]}\n      transitions: {last: locked}\n"),
     INLINE,

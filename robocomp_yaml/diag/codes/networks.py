@@ -368,13 +368,26 @@ NO_PROGRAM = Code(
         "'{name}' cannot be started: there is no folder {folder} to run in",
     ),
 )
+OPEN_CONFIG = Code(
+    "RC4311",
+    "warning",
+    "{file} holds a secret in line {line}, and others can read it",
+    "A configuration that is no values document goes to its process as it is. A property is secret whose name says so, "
+    "or that a component's parameter with `secret: true` has; in a URL the password is. Let nobody but the owner read "
+    "the file: what is derived from it nobody else can read, either.",
+    {**deployed(f"components:\n{_MOVES}" + _SPEAKS.replace("h}", "h, config: speech.conf}")),
+     "speech.conf": "api_token=hunter2\n"},
+    {**deployed(f"components:\n{_MOVES}" + _SPEAKS.replace("h}", "h, config: speech.conf}")),
+     "speech.conf": "api_token=${env:API_TOKEN}\n"},
+    _CHECK,
+)
 OPEN_SECRET = Code(
     "RC4310",
     "warning",
     "this is secret, and others can read {file}",
     "A password or a token that stands in a document is read by whoever can read the document, and often goes into a "
-    "repository with it. Under `env:`, `{{env: NAME}}` takes it from the environment; what `set:` gives a component "
-    "can also come from a file: `{{file: PATH}}`. Arguments are seen by everybody on the machine while the process "
+    "repository with it. Under `env:` and `set:`, `{env: NAME}` takes it from the environment, and `{file: PATH}` from "
+    "a file. Arguments are seen by everybody on the machine while the process "
     "runs. Secret is what its name says to be so (`DB_PASSWORD`, `--api-key=…`), the password in a URL, and what is "
     "given to a parameter with `secret: true`.",
     deployed(f"components:\n{_MOVES}" + _SPEAKS.replace("h}", "h, env: {API_TOKEN: hunter2}}")),

@@ -133,7 +133,7 @@ BAD_PATTERN = Code(
     ERROR,
     "this pattern cannot be used: {problem}",
     "A pattern must mean the same to the editor, to Python and to C++: literals, `.`, classes `[a-z]`, `\\d \\w \\s`, "
-    "groups, `|` and the counts `* + ? {{2,5}}`. It always matches the whole text.",
+    "groups, `|` and the counts `* + ? {2,5}`. It always matches the whole text.",
     _pdsl("parameters:\n  device: {type: string, pattern: '(?=/dev/).*', default: /dev/x}\n"),
     _pdsl("parameters:\n  device: {type: string, pattern: '/dev/.*', default: /dev/x}\n"),
     says=(
@@ -253,7 +253,7 @@ BAD_SPELLING = Code(
     ERROR,
     "the legacy spelling of '{path}' {problem}",
     "`legacy:` says how the properties of `etc/config` spell a parameter. A plain value has the name of its property; "
-    "a list needs rows (`key` with `{{i}}`, and `columns` for records), `fields`, or `separators`.",
+    "a list needs rows (`key` with `{i}`, and `columns` for records), `fields`, or `separators`.",
     _pdsl("parameters:\n  volume: {type: int, default: 1}\nlegacy:\n  volum: Speech.Volume\n"),
     _pdsl("parameters:\n  volume: {type: int, default: 1}\nlegacy:\n  volume: Speech.Volume\n"),
     says=(
@@ -267,7 +267,7 @@ SECRET_DEFAULT = Code(
     ERROR,
     "'{name}' is secret, and has a default",
     "A default stands in a document that many read, and in generated code. What is `secret` is given where it is "
-    "known: as `{{env: NAME}}` or `{{file: PATH}}`, or in a values document that only its owner can read.",
+    "known: as `{env: NAME}` or `{file: PATH}`, or in a values document that only its owner can read.",
     _pdsl("parameters:\n  pin: {type: int, secret: true, default: 4711}\n"),
     _pdsl("parameters:\n  pin: {type: int, secret: true, optional: true}\n"),
 )

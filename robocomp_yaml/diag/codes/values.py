@@ -98,7 +98,7 @@ BAD_REFERENCE = Code(
     "RC3309",
     ERROR,
     "{path} {problem}",
-    "`{{env: NAME}}` takes a value from the environment when the component starts, and `{{file: PATH}}` from a file. "
+    "`{env: NAME}` takes a value from the environment when the component starts, and `{file: PATH}` from a file. "
     "They can stand where one number, text or truth value stands.",
     _values("parameters:\n  volume: {env: 7UP}\n"),
     _values("parameters:\n  volume: {env: SPEECH_VOLUME}\n"),
@@ -127,8 +127,8 @@ OPEN_SECRET = Code(
     WARNING,
     "this is secret, and others can read {file}",
     "A password or a token that stands in a document is read by whoever can read the document, and often goes into a "
-    "repository with it. Give the value where it is used: `{{env: NAME}}` takes it from the environment when the "
-    "component starts, and `{{file: PATH}}` from a file. Or let nobody but the owner read the document: then what is "
+    "repository with it. Give the value where it is used: `{env: NAME}` takes it from the environment when the "
+    "component starts, and `{file: PATH}` from a file. Or let nobody but the owner read the document: then what is "
     "made of it is for the owner alone, too. Parameters are secret that say `secret: true`, or whose names say so; in "
     "a URL the password is.",
     _values("parameters:\n  password: hunter2\n", _SECRET),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.network.network import CONFIG, Network, Process
 
@@ -12,6 +12,23 @@ def without_config(process: Process) -> tuple[str, ...]:
     """The program and its arguments but for that which names its configuration."""
     program, *arguments = process.command
     return program, *(word for word in arguments if CONFIG not in word)
+
+
+# No line break stands in it, which not every form could say. What is in a file never becomes a part of it.
+_READ_FILES = (
+    'n=$(printf "\\n."); n=${n%.}; r=$(printf "\\r"); '
+    'while [ "$1" != -- ]; do f=$2; case $f in "~/"*) f=${HOME:?}/${f#"~/"};; esac; '
+    'v=$([ -f "$f" ] && cat -- "$f" && echo .) && [ "$(tr -d "\\000" <"$f" | wc -c)" -eq "$(wc -c <"$f")" ] || '
+    '{ echo "the variable $1 is the text of $f, which cannot be read, or holds a NUL" >&2; exit 1; }; '
+    'v=${v%.}; case $v in *"$r$n") v=${v%"$r$n"};; *"$n") v=${v%"$n"};; esac; '
+    'export "$1=$v"; shift 2; done; shift; exec "$@"'
+)
+
+
+def with_files(process: Process, command: Iterable[str]) -> list[str]:
+    """A command of a process that runs with the variables that files hold: a shell reads them where it starts."""
+    files = [word for one in process.env if one.file for word in (one.name, one.file)]
+    return ["/bin/sh", "-c", _READ_FILES, process.name, *files, "--", *command] if files else list(command)
 
 
 def file_name(name: str) -> str:

@@ -10,7 +10,8 @@ import os
 import re
 from collections.abc import Iterable
 
-from robocomp_yaml.emit.exports._commands import by_host, configs, file_name
+from robocomp_yaml.emit.exports import _unwritable
+from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
 from robocomp_yaml.network.network import ALWAYS, COMPONENT, ICESTORM, NEVER, Network, Process
 from robocomp_yaml.values.spell_yaml import quoted
 
@@ -26,7 +27,8 @@ def export(network: Network) -> dict[str, str]:
         here = {process.name: process for process in processes}
         lines = [f"name: {quoted(_project(network.name))}", "services:"]
         for process in processes:
-            lines += [f"  {line}" for line in _service(process, here)]
+            with _unwritable.of(process):
+                lines += [f"  {line}" for line in _service(process, here)]
         files[f"{folder}compose.yaml"] = "\n".join(lines) + "\n"
         files |= configs(folder, processes)
     return files
@@ -34,7 +36,7 @@ def export(network: Network) -> dict[str, str]:
 
 def _service(process: Process, here: dict[str, Process]) -> list[str]:
     inside = f"{_INSIDE}/{os.path.basename(process.config.path)}" if process.config else ""
-    program, *arguments = process.words(inside)
+    program, *arguments = with_files(process, process.words(inside))
     lines = [
         f"{quoted(file_name(process.name))}:", f"  image: {quoted(_IMAGE)}", '  network_mode: "host"', "  init: true",
         *_list("entrypoint", [program]), *_list("command", arguments), f"  restart: {quoted(_restart(process))}",
@@ -43,9 +45,10 @@ def _service(process: Process, here: dict[str, Process]) -> list[str]:
         lines.append(f"  working_dir: {_text(process.cwd)}")
     if not process.enabled:
         lines.append('  profiles: ["disabled"]')
-    if process.env:
+    given = [item for item in process.env if not item.file]
+    if given:
         lines.append("  environment:")
-        for item in process.env:
+        for item in given:
             value = quoted(f"${{{item.source}}}") if item.source else _text(item.value)
             lines.append(f"    {quoted(item.name)}: {value}")
     lines += _volumes(process, inside)
@@ -64,7 +67,7 @@ def _service(process: Process, here: dict[str, Process]) -> list[str]:
 
 
 def _volumes(process: Process, inside: str) -> list[str]:
-    """The folders of the program, and its configuration."""
+    """The folders of the program, its configuration, and the files that hold variables."""
     home = os.path.dirname(process.command[0]) if os.path.isabs(process.command[0]) else ""
     if process.kind == COMPONENT and os.path.basename(home) == "bin":
         home = os.path.dirname(home)
@@ -73,13 +76,25 @@ def _volumes(process: Process, inside: str) -> list[str]:
     mounts += [(folder, folder, True) for folder in process.folders]
     if process.config is not None:
         mounts.append((f"./{process.config.path}", inside, False))
-    if not mounts:
-        return []
-    lines = ["  volumes:"]
-    for source, target, is_written in mounts:
-        rights = ", bind: {create_host_path: true}" if is_written else ", read_only: true"
-        lines.append(f"    - {{type: bind, source: {_text(source)}, target: {_text(target)}{rights}}}")
-    return lines
+    lines = [_mount(source, target, _WRITTEN if is_written else _READ) for source, target, is_written in mounts]
+    lines += [_mount(path, path, _FILE) for path in _files(process)]
+    return ["  volumes:", *lines] if lines else []
+
+
+_READ, _WRITTEN = "read_only: true", "bind: {create_host_path: true}"
+_FILE = f"{_READ}, bind: {{create_host_path: false}}"
+
+
+def _mount(source: str, target: str, rights: str) -> str:
+    return f"    - {{type: bind, source: {_text(source)}, target: {_text(target)}, {rights}}}"
+
+
+def _files(process: Process) -> list[str]:
+    """Raises Unwritable: whose home an image has is not known."""
+    for one in process.env:
+        if one.file.startswith("~/"):
+            raise _unwritable.Unwritable(f"a container has no home to find {one.file} in: give {one.name} another path")
+    return list(dict.fromkeys(one.file for one in process.env if one.file))
 
 
 def _folder(process: Process) -> str:
@@ -90,7 +105,7 @@ def _folder(process: Process) -> str:
 def _health(process: Process) -> list[str]:
     """What tells that it is ready: its own command, or that something listens at its port."""
     if process.ready.command:
-        return list(process.ready.command)
+        return with_files(process, process.ready.command)
     listening = [endpoint.port for endpoint in process.endpoints if endpoint.port and endpoint.protocol == "tcp"]
     port = process.ready.port or (listening[0] if listening and not process.ready.log else 0)
     return ["bash", "-c", f"</dev/tcp/127.0.0.1/{port}"] if port else []

@@ -7,7 +7,7 @@ anywhere. IceGrid knows no order of starting and no readiness: all servers start
 from __future__ import annotations
 
 from robocomp_yaml.emit.exports import _unwritable
-from robocomp_yaml.emit.exports._commands import file_name, without_config
+from robocomp_yaml.emit.exports._commands import file_name, with_files, without_config
 from robocomp_yaml.emit.exports._xml import HEAD, element
 from robocomp_yaml.network.network import CONFIG, ICESTORM, NEVER, PROGRAM, Network, Process
 from robocomp_yaml.source import properties
@@ -57,6 +57,7 @@ def _server(process: Process) -> list[str]:
         if needs_file and process.config is not None:
             script, words = f"{_MAKE_FILE}; {_FILE_AND_DROP_LAST}", [f"={process.config.text}", *words]
         program, arguments = "/bin/sh", ["-c", script, process.name, *words]
+    program, *arguments = with_files(process, (program, *arguments))
     if process.folders:
         program, arguments = "/bin/sh", ["-c", _MAKE_FOLDERS, process.name, *process.folders, "--", program, *arguments]
     attributes = {"id": process.name, "exe": _literal(program), "activation": _activation(process)}
@@ -64,7 +65,7 @@ def _server(process: Process) -> list[str]:
         attributes["pwd"] = _literal(process.cwd)
     inside = [line for word in arguments for line in element("option", {}, text=_literal(word))]
     for variable in process.env:
-        if "$" not in variable.value:
+        if "$" not in variable.value and not variable.file:
             value = f"${variable.source}" if variable.source else variable.value
             inside += element("env", {}, text=f"{variable.name}={value}")
     values = properties.read(process.config.text).values if process.config and is_ice else {}

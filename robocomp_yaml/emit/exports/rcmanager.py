@@ -72,6 +72,9 @@ class _Exporter:
             yield from _generic(key, value)
         for process in self.network.processes.values():
             with _unwritable.of(process):
+                if process.env:
+                    names = ", ".join(one.name for one in process.env)
+                    _unwritable.note(f"RCManager gives its commands no variables: {names}")
                 for number, name in enumerate((process.name, *process.aliases)):
                     yield from self.node(process, name, number)
         for name in self.nodes:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from robocomp_yaml.emit.exports import _unwritable
-from robocomp_yaml.emit.exports._commands import by_host, configs, file_name
+from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
 from robocomp_yaml.emit.exports._units import Unit, folder, plain, quoted
 from robocomp_yaml.network.network import ICESTORM, Network, Process
 
@@ -60,7 +60,7 @@ def _unit(network: Network, process: Process, here: set[str]) -> str:
 
 def _environment(unit: Unit, network: Network, process: Process) -> None:
     for item in process.env:
-        if not item.source:
+        if not item.source and not item.file:
             unit.put("Environment", quoted(f"{item.name}={item.value}"))
     given = [item for item in process.env if item.source]
     if given:
@@ -88,7 +88,7 @@ def _command(process: Process, config: str) -> str:
     """The words, none of which means anything to systemd. The path of the configuration is the only one with a
     specifier in it."""
     mark = "\ue000"  # a sign of nobody's
-    program, *arguments = process.words(mark)
+    program, *arguments = with_files(process, process.words(mark))
     if program[0] in _SPECIAL:  # what would say something of the command, not which it is
         program, arguments = "/bin/sh", ["-c", 'exec "$@"', "sh", program, *arguments]
     # `$` stands for itself when it stands twice, but in the program's path only where nothing is replaced at all

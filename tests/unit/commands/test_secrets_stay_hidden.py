@@ -124,6 +124,7 @@ BROKEN = [
     "parameters: {wifi: canaryWifi, accounts: [{user: 'a,b', key: canaryKey}]}\n",
     'parameters: {wifi: "canary\\nWifi", name: 3}\n',
     'parameters: {wifi: "${env:canaryWifi}", name: 3}\n',
+    "parameters: {wiffi: canaryWifi, Wifi: canaryB, name: 3}\n",
     "parameters: {wifi: " + "canary" * 20 + ", name: 3, url: 'x://a:canary@b'}\n",
 ]
 
@@ -144,6 +145,12 @@ DEPLOYMENTS = [
     "  a: {program: /bin/true, env: {PASSWORD: 4711471, TOKEN: 'canary}\n",
     "  a: {component: speech, set: {wifi: [canaryA], pin: canaryB, name: 3, 'accounts[4].key': canaryC}}\n",
     "  a: {component: nowhere, set: {wifi: canaryA, password: canaryB}, env: {X: 'x://a:canary@b'}}\n",
+    "  a:\n    program: /bin/true\n    args:\n    - --password\n    - 'canaryA\n",
+    "  a:\n    component: speech\n    set: {mode: \"canaryA\"x}\n",
+    "  [a, {program: /bin/true, env: {PASSWORD: canaryA}, args: [--token, canaryB]}]\n",
+    "  a: {program: /bin/true, env: [PASSWORD=canaryA, {PASSWORD: canaryB}]}\n",
+    "  a: {program: '/bin/x --password canaryA'}\nhosts: {h: {address: a, password: canaryB}}\n",
+    "  a: {program: sh, args: [-c, 'PASSWORD=canaryA run --password canaryB'], prot: 1}\n",
 ]
 
 
@@ -163,6 +170,9 @@ def test_nor_by_deployments_that_are_wrong(
     "parameters: {password: {type: int, default: canaryA}}\n",
     "parameters: {password: {type: string, pattern: '[a-z]', default: canaryA, optional: true}}\n",
     "parameters: {token: {list: string, default: [canaryA, {x: canaryB}]}, x: flaot}\n",
+    "parameters: {wifi: {type: string, secret: true, default: canaryA, patern: x}}\n",
+    "parameters: {db: {group: {password: {type: string, default: canaryA, rnge: 1}}}}\n",
+    'parameters: {wifi: {type: string, secret: true, default: "canaryA"x}}\n',
 ])  # fmt: skip
 def test_nor_by_defaults_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], text: str) -> None:
     (robot / "speech/speech.pdsl.yaml").write_text(f"component: speech.cdsl.yaml\n{text}", encoding="utf-8")
@@ -186,6 +196,61 @@ def test_programs_get_the_values(robot: Path, rcyaml: Callable[..., Any]) -> Non
 def test_a_terminal_does_not(robot: Path, form: str) -> None:
     assert not sings(on_a_terminal("config", "export", CONFIG, "--as", form))
     assert sings(on_a_terminal("config", "export", CONFIG, "--as", form, "--reveal"))
+
+
+@pytest.mark.parametrize("more", [(), ("--format", "json")])
+@pytest.mark.parametrize("form", ["systemd", "compose", "icegrid", "rcmanager"])
+def test_nor_is_an_export_shown_on_one(robot: Path, form: str, more: tuple[str, ...]) -> None:
+    (robot / "etc").mkdir()
+    (robot / "etc/flat.conf").write_text(FLAT)
+    (robot / "own.json").write_text('{"db": {"password": "canaryJson",\n "user": "x"}}\n')
+    more_entries = (
+        "  flat: {component: speech, config: ../etc/flat.conf, ready: {command: [x, --password=canaryReady]}}\n"
+        "  own: {program: /bin/true, config: own.json, args: ['{config}'],\n"
+        "    x-rcmanager: {upCommand: 'own --password canaryUp', dbPassword: canaryX, list: [{token: canaryL}]}}\n"
+    )
+    (robot / "robot.ddsl.yaml").write_text(DDSL + more_entries)
+    command = ("deploy", "export", "robot.ddsl.yaml", "--as", form, *more)
+    assert not sings(on_a_terminal(*command))
+    run = subprocess.run([sys.executable, "-m", "robocomp_yaml", *command], capture_output=True, text=True)
+    assert sings(run.stdout) and not sings(run.stderr)
+
+
+FLAT = "# password=none\nx=1\nwifi = canaryFlat\nPW\\=a b.password=canaryOdd\nmail=smtp://bob:canaryMail@h\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        (FLAT, 3), ("x=1\n# password=none\n", 0), ("password=\nwifi=${env:WIFI}\n", 0), ('{"token": "canary"}', 1),
+        ("mail:\n  password: |\n    canary\n", 2), ("url=http://bob:canary@h\n", 1), ("max_tokens=3\nmy.keys=3\n", 0),
+        ("; password = x\n// token: x\n", 0), ("gains=1\nlocks=canary\n", 2),
+    ],
+)  # fmt: skip
+@pytest.mark.usefixtures("umask")
+def test_a_configuration_that_is_no_document(robot: Path, rcyaml: Callable[..., Any], text: str, line: int) -> None:
+    (robot / "speech/flat.conf").write_text(text)
+    (robot / "robot.ddsl.yaml").write_text(
+        "deployment: Robot\ncomponents:\n  speech{i}: {component: speech, instances: 2, config: flat.conf}\n"
+    )
+    told = rcyaml("check", "robot.ddsl.yaml").output
+    assert told.count("RC4311") == (1 if line else 0), told
+    assert not sings(told)
+    if line:
+        assert f"speech/flat.conf holds a secret in line {line}, and others can read it" in told
+        assert "robot.ddsl.yaml:3:56" in told and "`chmod 600 speech/flat.conf`" in told
+    (robot / "speech/flat.conf").chmod(0o600)
+    assert "RC4311" not in rcyaml("check", "robot.ddsl.yaml").output
+
+
+def test_keys_of_ones_own_are_no_hiding_place(robot: Path, rcyaml: Callable[..., Any]) -> None:
+    entry = "{program: /bin/true, prot: 3, x-a: {up: 'run --password canaryA', token: [canaryB]}, x-secret: canaryC}"
+    (robot / "robot.ddsl.yaml").write_text(f"deployment: Robot\ncomponents:\n  a: {entry}\n")
+    (robot / "speech/speech.cdsl.yaml").write_text("{component: S, languag: python, x-a: {password: canaryD}}\n")
+    for form in ("text", "json", "sarif"):
+        told = rcyaml("check", "--format", form).output
+        assert "prot" in told and "languag" in told
+        assert not sings(told)
 
 
 def on_a_terminal(*words: str) -> str:
