@@ -225,8 +225,8 @@ class _Root:
             return codes.NOT_OURS.at(span, path=path, hint=f"`{adopt}` writes it, and keeps yours as .orig")
         keys = ", ".join(ownership.lost(self._base(path), data, text) or ["them"])
         return codes.CHANGED.at(
-            span, path=path, hint=f"bring {keys} into {path}.yaml; `{adopt}` then rewrites the file, and keeps yours "
-            "as .orig",
+            span, path=path, hint=f"bring {keys} into {span.file}.yaml; `{adopt}` then rewrites the file, and keeps "
+            "yours as .orig",
         )
 
     def _unwanted(self, path: str, entry: Entry) -> None:
