@@ -8,11 +8,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from typing import Any
+
+
+class _Pattern:
+    """A pattern that is compiled when it is asked for something: most runs meet no secret."""
+
+    def __init__(self, text: str, flags: int = 0) -> None:
+        self._given = text, flags
+
+    def __getattr__(self, name: str) -> Any:
+        found = getattr(re.compile(*self._given), name)
+        setattr(self, name, found)
+        return found
+
 
 HIDDEN = "***"
 """What is shown instead of a secret."""
 
-_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z\x80-\U0010ffff]+|[0-9]+")
+# Letters beyond ASCII are said by what they are not: ranges up to the end of Unicode take `re` milliseconds to compile.
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[^\x00-`{-\x7f]+|[0-9]+")
 _STEMS = (
     "password", "passwd", "passphrase", "passcode", "secret", "credential", "contrase",
     "apikey", "accesskey", "privatekey", "authkey", "bearer", "authorization",
@@ -44,19 +59,19 @@ def is_secret(name: str) -> bool:
     return any(word in _WORDS or word.endswith(_ENDS) for word in words)
 
 
-_USER_INFO = re.compile(r"([A-Za-z][A-Za-z0-9+.-]{0,30}://[^\s/?#:@'\"<>]*):([^\s/?#'\"<>]+)@")
-_ASSIGNMENT = re.compile(
-    r"(?P<name>(?<![\w.])[A-Za-z_\x80-\U0010ffff][\w.\-]{0,60})"
+_USER_INFO = _Pattern(r"([A-Za-z][A-Za-z0-9+.-]{0,30}://[^\s/?#:@'\"<>]*):([^\s/?#'\"<>]+)@")
+_ASSIGNMENT = _Pattern(
+    r"(?P<name>(?<![\w.])[^\x00-@\[-^`{-\x7f][\w.\-]{0,60})"
     r"(?P<sign>(?P<close>[\"']?)[ \t]*=[ \t]*|[\"']?[ \t]*:[ \t]+|[\"']:)"
     r"(?P<value>\"(?:[^\"\\]|\\.)*\"?|'[^']*'?|(?:(?:Bearer|Basic|Digest)[ \t]+)?[^\s\"'&;,)}\]]+)"
 )
-_OPTION = re.compile(
+_OPTION = _Pattern(
     r"(?P<name>(?<![\w-])--?[A-Za-z][\w.\-]{0,60})(?P<sign>[ \t]+)"
     r"(?P<value>\"[^\"]*\"?|'[^']*'?|[^\s\"'&;-][^\s\"'&;]*)"
 )
-_IS_OPTION = re.compile(r"--?[A-Za-z][\w.\-]*\Z")
-_WHOLE = re.compile(r"((?:--?)?[A-Za-z_\x80-\U0010ffff][\w.\-]*)([=:])(?!//)(.+)\Z", re.DOTALL)
-_REFERENCE = re.compile(r"\$?\{ *(?:env|file) *:|\$\{?[A-Za-z_]")
+_IS_OPTION = _Pattern(r"--?[A-Za-z][\w.\-]*\Z")
+_WHOLE = _Pattern(r"((?:--?)?[^\x00-@\[-^`{-\x7f][\w.\-]*)([=:])(?!//)(.+)\Z", re.DOTALL)
+_REFERENCE = _Pattern(r"\$?\{ *(?:env|file) *:|\$\{?[A-Za-z_]")
 
 
 def masked(text: str) -> str:
@@ -137,14 +152,14 @@ def hidden_lines(text: str, names: Collection[str] = ()) -> list[str]:
     return lines
 
 
-_KEY = re.compile(r"[\"']?(?P<name>(?<![\w.])[A-Za-z_\x80-\U0010ffff][\w.\-\[\]]{0,60})[\"']?[ \t]*(?P<sign>[:=])")
-_FLOW_VALUE = re.compile(r"[ \t]*(?:\"(?:[^\"\\]|\\.)*\"?|'(?:[^']|'')*'?|[^,}\]]*)")
-_LISTED = re.compile(
+_KEY = _Pattern(r"[\"']?(?P<name>(?<![\w.])[^\x00-@\[-^`{-\x7f][\w.\-\[\]]{0,60})[\"']?[ \t]*(?P<sign>[:=])")
+_FLOW_VALUE = _Pattern(r"[ \t]*(?:\"(?:[^\"\\]|\\.)*\"?|'(?:[^']|'')*'?|[^,}\]]*)")
+_LISTED = _Pattern(
     r"(?P<name>(?<![\w-])--?[A-Za-z][\w.\-]{0,60})[\"']?,[ \t]*(?P<value>\"[^\"]*\"?|'[^']*'?|[^\s,\]]+)"
 )
-_ANY_ITEM = re.compile(r"[ \t]*-[ \t]+")
-_ITEM = re.compile(r"[ \t]*-[ \t]+[\"']?(?P<name>--?[A-Za-z][\w.\-]*)[\"']?[ \t]*\Z")
-_INDENT = re.compile(r"[ \t]*(?:-[ \t]+)*")
+_ANY_ITEM = _Pattern(r"[ \t]*-[ \t]+")
+_ITEM = _Pattern(r"[ \t]*-[ \t]+[\"']?(?P<name>--?[A-Za-z][\w.\-]*)[\"']?[ \t]*\Z")
+_INDENT = _Pattern(r"[ \t]*(?:-[ \t]+)*")
 
 
 def parts_of_lines(lines: Sequence[str], names: Collection[str] = ()) -> dict[int, list[Part]]:
@@ -182,7 +197,7 @@ def _parts_of_line(line: str, names: Collection[str]) -> tuple[list[Part], int |
         if not is_secret(key["name"]) and last not in names and key["name"] not in names:
             continue
         is_first = first is not None and key.start() == first.end()
-        end = len(line.rstrip()) if is_first else _FLOW_VALUE.match(line, at).end()  # type: ignore[union-attr]
+        end = len(line.rstrip()) if is_first else _FLOW_VALUE.match(line, at).end()
         begin = at + len(line[at:end]) - len(line[at:end].lstrip())
         if is_first and (begin == end or line[begin] in "|>\"'&!"):
             return [*parts, (begin, end)] if begin < end else parts, key.start()

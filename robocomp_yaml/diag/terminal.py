@@ -15,11 +15,12 @@ import re
 import sys
 import unicodedata
 from collections.abc import Iterable
+from functools import cache
 from typing import TextIO
 
 # Controls, formats (Cf), separators of lines, halves of surrogate pairs, what is no character, and fillers that nobody
 # sees.
-_HARMFUL = re.compile(
+_HARMFUL = (
     "[\x00-\x1f\x7f-\x9f\xad\u034f\u0600-\u0605\u061c\u06dd\u070f\u0890\u0891\u08e2\u115f\u1160\u17b4\u17b5\u180e"
     "\u200b-\u200f\u2028-\u202e\u2060-\u206f\u3164\ud800-\udfff\ufdd0-\ufdef\ufeff\uffa0\ufff9-\ufffb\ufffe\uffff"
     "\U000110bd\U000110cd\U00013430-\U0001343f\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e007f"
@@ -29,6 +30,12 @@ _HARMFUL = re.compile(
 _LETTERS = {"\a": r"\a", "\b": r"\b", "\t": r"\t", "\n": r"\n", "\v": r"\v", "\f": r"\f", "\r": r"\r", "\x1b": r"\e"}
 _DIFF_TINTS = {"+": "32", "-": "31", "@": "36"}
 _PLAIN = re.compile(r"[\w@%+=:,./-]+")  # what no shell looks into
+
+
+@cache
+def _harmful() -> re.Pattern[str]:
+    """Compiled where a text is not plain ASCII: that takes a millisecond."""
+    return re.compile(_HARMFUL)
 
 
 class Shown(str):
@@ -43,7 +50,7 @@ def shown(text: str, *, tabs: bool = False) -> Shown:
         return text
     if text.isascii() and text.isprintable():
         return Shown(text)
-    return Shown(_HARMFUL.sub(_kept_tabs if tabs else _escape, text))
+    return Shown(_harmful().sub(_kept_tabs if tabs else _escape, text))
 
 
 def line(*parts: str, tabs: bool = False) -> Shown:
@@ -90,8 +97,8 @@ def typed(*words: str) -> str:
 def _quoted(word: str) -> str:
     if _PLAIN.fullmatch(word):
         return word
-    if _HARMFUL.search(word):
-        inner = _HARMFUL.sub(_escape, re.sub(r"(['\\])", r"\\\1", word))
+    if _harmful().search(word):
+        inner = _harmful().sub(_escape, re.sub(r"(['\\])", r"\\\1", word))
         return f"$'{inner}'"
     return "'" + word.replace("'", "'\"'\"'") + "'"
 
@@ -127,7 +134,7 @@ def data(text: str, *, json: bool = False, err: bool = False) -> None:
     """Prints data, on standard error if `err`."""
     out = sys.stderr if err else sys.stdout
     if out.isatty():
-        out.write(_HARMFUL.sub(_escape_json if json else _kept_lines, text))
+        out.write(_harmful().sub(_escape_json if json else _kept_lines, text))
         out.flush()
     elif (buffer := getattr(out, "buffer", None)) is None:
         out.write(text)

@@ -14,14 +14,12 @@ import msgspec
 
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
 from robocomp_yaml.emit.places import STATE, Root, contents, in_words
+from robocomp_yaml.emit.plan import ANYBODY
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.inside import stays_inside
 
 PATIENCE = 10.0
 """Seconds to wait for another rcyaml that writes into the same root."""
-
-ANYBODY = 0o066
-"""The rights of a file that is nobody's secret."""
 
 _NO_LINKS = (errno.EPERM, errno.EMLINK, errno.ENOSYS, errno.EOPNOTSUPP)
 

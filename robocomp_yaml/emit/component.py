@@ -39,7 +39,8 @@ def component_plan(
 
             plan.files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
     if options.wants("config"):
-        plan.files += parameter_files.schemas(linked)
+        if options.only is None:
+            plan.files += parameter_files.schemas(linked)
         made = list(_configs(linked, program, lambda: options.ports(linked)))
         plan.files += made
         if all(file.path != CONFIG for file in made):

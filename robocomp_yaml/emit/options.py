@@ -18,7 +18,7 @@ class Options(msgspec.Struct):
     """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
     `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
     component's workspace (asked for only where its configuration leaves some open). `only` limits it to some
-    components, and leaves interfaces out."""
+    components, for the user's own files there: interfaces and schemas are left out."""
 
     output: str | None
     below: Sequence[str]

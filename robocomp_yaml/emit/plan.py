@@ -8,11 +8,12 @@ from collections.abc import Iterable
 
 import msgspec
 
-from robocomp_yaml.emit.atomic import ANYBODY
-
 ALWAYS, ONCE = "always", "once"
 
-CONFIG = "etc/config"
+CONFIG, SOURCES = "etc/config", "src"
+
+ANYBODY = 0o066
+"""The rights of a file that is nobody's secret."""
 
 
 class FilePlan(msgspec.Struct, frozen=True):

@@ -16,7 +16,7 @@ from robocomp_yaml.emit.changes import Change, Changes, RootChanges
 from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, free_name
 from robocomp_yaml.emit.manifest import Entry, Manifest
 from robocomp_yaml.emit.places import Found
-from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
+from robocomp_yaml.emit.plan import ANYBODY, CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
 from robocomp_yaml.emit.wanted import WantedRoot, by_root
 from robocomp_yaml.source.digest import digest
 
@@ -225,8 +225,8 @@ class _Root:
             return codes.NOT_OURS.at(span, path=path, hint=f"`{adopt}` writes it, and keeps yours as .orig")
         keys = ", ".join(ownership.lost(self._base(path), data, text) or ["them"])
         return codes.CHANGED.at(
-            span, path=path, hint=f"bring {keys} into {path}.yaml; `{adopt}` then rewrites the file, and keeps yours "
-            "as .orig",
+            span, path=path, hint=f"bring {keys} into {span.file}.yaml; `{adopt}` then rewrites the file, and keeps "
+            "yours as .orig",
         )
 
     def _unwanted(self, path: str, entry: Entry) -> None:
@@ -311,7 +311,7 @@ class _Root:
         if text is not None:
             self.result.settled[manifest.PATH] = text
 
-    def _remember(self, path: str, text: bytes | None, rights: int = atomic.ANYBODY) -> None:
+    def _remember(self, path: str, text: bytes | None, rights: int = ANYBODY) -> None:
         """A file of our own, which no report mentions."""
         found = self.root.look(path)
         if found.problem:

@@ -50,6 +50,8 @@ def set_value(
     for depth, step in enumerate(steps):
         found = _child(node, step)
         if found is None:
+            if any(isinstance(each, int) for each in steps[depth + 1 :]):
+                raise NotEditable("there is no list here to add to; give the whole list", node)
             spelled = scalar(new) if is_text else new
             left_out = _left_out(text, node, key, steps[depth], lines_above(steps[: depth + 1]))
             change = _uncommented(text, left_out, steps[depth:], spelled) if left_out is not None else (
@@ -135,8 +137,6 @@ def _fill(text: str, node: Node, key: Scalar | None, new: str) -> Change:
 
 def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: str) -> Change:
     """A new entry in a mapping or list, or the first one below a key that has nothing behind it."""
-    if any(isinstance(step, int) for step in steps[1:]):
-        raise NotEditable("there is no list here to add to; give the whole list", node)
     if isinstance(node, Sequence) and isinstance(steps[0], int):
         return _append(text, node, key, steps[1:], new)
     if isinstance(node, Scalar) and node.data is None and key is not None and isinstance(steps[0], str):

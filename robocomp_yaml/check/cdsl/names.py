@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from itertools import count
 
 from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -21,14 +22,14 @@ def check(program: Program) -> Iterator[Diagnostic]:
         if len(alike) == 1:
             continue
         first: dict[tuple[str, str], LinkedComponent] = {}
+        free = (f"{name}{n}" for n in count(2) if f"{name}{n}" not in by_name)
         for linked in sorted(alike, key=lambda each: (len(each.component.path), each.component.path)):
             component = linked.component
             root = root_above(os.path.dirname(component.path))
             workspace = "" if root is None else os.path.realpath(root)
             other = first.setdefault((workspace, component.language.name), linked).component
             if other is not component:
-                free = next(f"{name}{n}" for n in range(2, len(by_name) + 3) if f"{name}{n}" not in by_name)
                 yield codes.SAME_NAME.at(
                     component.span, name=name, other=other.path, related=[Related("the other one", other.span)],
-                    hint=f"a copy needs a name of its own: `component: {free}`",
+                    hint=f"a copy needs a name of its own: `component: {next(free)}`",
                 )

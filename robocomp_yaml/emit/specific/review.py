@@ -10,11 +10,9 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.manifest import BASE
 from robocomp_yaml.emit.places import Root
-from robocomp_yaml.emit.plan import ONCE, Merge, Merges, RootPlan
+from robocomp_yaml.emit.plan import ONCE, SOURCES, Merge, Merges, RootPlan
 from robocomp_yaml.emit.specific import entries
 from robocomp_yaml.emit.specific.own import Own
-
-SOURCES = "src"
 
 
 class Review(msgspec.Struct):

@@ -7,7 +7,7 @@ import re
 
 HIDDEN = "***"
 
-_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z\x80-\U0010ffff]+|[0-9]+")
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[^\x00-`{-\x7f]+|[0-9]+")
 _STEMS = (
     "password", "passwd", "passphrase", "passcode", "secret", "credential", "contrase",
     "apikey", "accesskey", "privatekey", "authkey", "bearer", "authorization",

@@ -16,6 +16,7 @@ component: c.cdsl.yaml
 parameters:
   device: {type: string, default: /dev/tty, doc: "Where.\\n\\ndevice: none"}
   offsets: {map: float, default: {}}
+  gains: {list: float, default: [1, 2]}
   speed: float
   Arm: {group: {device: {type: string, optional: true}, Hand: {group: {force: {type: float, default: 1}}}}}
   Last: {group: {low: {type: int, default: 0}, high: {type: int, default: 9}}}
@@ -73,3 +74,14 @@ def test_a_first_child_goes_where_the_comments_stand(rcyaml: Run, document: Path
     assert rcyaml("config", "set", "etc/config.yaml", "Last.high", "5").exit_code == 0
     document.write_text(document.read_text().replace("# low", "low"))
     assert "Last.low = 3" in rcyaml("config", "show", "etc/config.yaml").stdout
+
+
+@pytest.mark.parametrize("path", ["gains[0]", "gains[2]"])
+def test_an_entry_of_a_list_that_is_left_out(rcyaml: Run, document: Path, path: str) -> None:
+    was = document.read_text()
+    told = rcyaml("config", "set", "etc/config.yaml", path, "3")
+    assert told.exit_code == 2
+    assert "give the whole list" in told.stderr
+    assert document.read_text() == was
+    assert rcyaml("config", "set", "etc/config.yaml", "gains", "[3, 2]").exit_code == 0
+    assert document.read_text() == was.replace("  # gains: [1, 2]\n", "  gains: [3, 2]\n")
