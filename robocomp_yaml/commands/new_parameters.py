@@ -29,8 +29,8 @@ def parameters_document(root: Path, name: str) -> tuple[Path, str]:
 
 
 def _component(root: Path, name: str) -> Path | None:
-    """The component document of this name, by what the component is called or by its file. Where there is none, the name
-    is that of a component to come; not so where one that has no parameters yet is called nearly so."""
+    """The component document of this name, by what the component is called or by its file. Where there is none, it is
+    still to come; unless one that has no parameters yet is called nearly so."""
     from robocomp_yaml.diag.suggest import suggest
     from robocomp_yaml.link.documents import Documents
     from robocomp_yaml.model.component import Component

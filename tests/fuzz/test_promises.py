@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import stat
 import subprocess
 import sys
 from pathlib import Path
@@ -129,6 +130,29 @@ def test_nothing_is_run_and_nothing_is_written_outside(name: str, tmp_path: Path
     assert read_tree(victim) == VICTIM
     assert not list(tmp_path.rglob("EXECUTED"))
     assert [*(tmp_path / "home").iterdir(), *(tmp_path / "tmp").iterdir()] == []
+
+
+READ_ALONG = (
+    "speech/etc/config", "speech/src/specificworker.py", "speech/.rcyaml/manifest.json", "speech/generated/main.py",
+    "slice/.rcyaml/manifest.json", ".rcyaml/migrated.json", ".vscode/settings.json", ".rcyaml/schemas/idsl.schema.json",
+    "old/src/specificworker.cpp", "old/src/specificworker.py",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("how", ["pipe", "endless", "socket"])
+def test_what_never_ends_is_not_waited_for(how: str, tmp_path: Path) -> None:
+    robot = write_tree(tmp_path / "robot", {**ROBOT, "old/old.cdsl": "Component Old { language Python; };\n"})
+    for name in READ_ALONG:
+        (robot / name).parent.mkdir(parents=True, exist_ok=True)
+        if how == "pipe":
+            os.mkfifo(robot / name)
+        elif how == "endless":
+            (robot / name).symlink_to("/dev/zero")
+        else:
+            os.mknod(robot / name, stat.S_IFSOCK | 0o600)
+    (tmp_path / "tmp").mkdir()
+    did = watched(("check .", "migrate .", "compile .", "config new speech", "graph ."), robot)
+    assert did["started"] == []
 
 
 def test_the_watch_sees(tmp_path: Path) -> None:
