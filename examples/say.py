@@ -19,7 +19,10 @@ def main(proxy: str, text: str) -> None:
     import RoboCompSpeech
 
     with Ice.initialize(["--Ice.Default.InvocationTimeout=5000"]) as communicator:
-        speech = RoboCompSpeech.SpeechPrx.checkedCast(communicator.stringToProxy(proxy))
+        try:
+            speech = RoboCompSpeech.SpeechPrx.checkedCast(communicator.stringToProxy(proxy))
+        except Ice.Exception as error:
+            sys.exit(f"say.py: nobody answers at '{proxy}': {str(error).splitlines()[-1]}")
         print(f"Speech.say({text!r}) answers {speech.say(text, False)}", flush=True)
         while speech.isBusy():
             time.sleep(0.1)
@@ -27,8 +30,12 @@ def main(proxy: str, text: str) -> None:
 
 
 if __name__ == "__main__":
-    from generated.runtime import interpreter
-
+    if len(sys.argv) != 3:
+        sys.exit("usage: say.py 'speech:tcp -p PORT' TEXT")
+    try:
+        from generated.runtime import interpreter
+    except ModuleNotFoundError:
+        sys.exit(f"say.py: {COMPONENT.parents[1]} is not compiled: `rcyaml migrate` and `rcyaml compile` there come first")
     try:
         interpreter.settle(str(COMPONENT), sys.argv)  # goes on in a Python that has Ice
         main(*sys.argv[1:])

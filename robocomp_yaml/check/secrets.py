@@ -10,7 +10,6 @@ import os
 import re
 import shlex
 from collections.abc import Collection, Iterable, Iterator
-from pathlib import Path
 
 import msgspec
 
@@ -24,7 +23,7 @@ from robocomp_yaml.link.documents import Document
 from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.model.parameters import RecordType
 from robocomp_yaml.source import properties
-from robocomp_yaml.source.text import decode
+from robocomp_yaml.source.text import decode, read_bytes
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values.hidden import declared, named_nodes, nodes, plain_below
 
@@ -320,11 +319,11 @@ def _names_nearby(path: str) -> Iterator[str]:
     for where in (folder, os.path.join(folder, os.pardir)):
         try:
             names = [name for name in sorted(os.listdir(where)) if name.endswith("pdsl.yaml")]
-            found = [Path(where, name).read_bytes() for name in names[:20]]
         except OSError:
             continue
-        for raw in found:
-            text, _ = decode(path, raw)
+        for name in names[:20]:
+            raw, _ = read_bytes(os.path.join(where, name))
+            text, _ = decode(path, raw or b"")
             tree, _ = parse(path, text) if text is not None else (None, [])
             yield from _called_secret(tree)
 

@@ -24,6 +24,7 @@ from robocomp_yaml.emit.specific.review import Review, review
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import documents_below
+from robocomp_yaml.source.regular import regular
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.ports import Ports
@@ -98,7 +99,8 @@ class Run(msgspec.Struct):
                 continue
             for kind in workspace_files.GLOBS:
                 path = os.path.normpath(os.path.join(workspace.root, workspace_files.schema_path(kind)))
-                self._schemas[path] = Path(path).read_bytes()
+                with open(path, "rb", opener=regular) as file:
+                    self._schemas[path] = file.read()
 
     def _stamp(self, analysis: Analysis, own: Review, changes: Changes, again: Outcome) -> stamp.Stamp | None:
         """What the same run made again would come to, errors too; None where that depends on more than what was

@@ -29,23 +29,34 @@ def parameters_document(root: Path, name: str) -> tuple[Path, str]:
 
 
 def _component(root: Path, name: str) -> Path | None:
-    """The component document of this name, by what the component is called or by its file."""
+    """The component document of this name, by what the component is called or by its file. Where there is none, it is
+    still to come; unless one that has no parameters yet is called nearly so."""
+    from robocomp_yaml.diag.suggest import suggest
     from robocomp_yaml.link.documents import Documents
     from robocomp_yaml.model.component import Component
     from robocomp_yaml.source.discover import documents_below, kind_of
 
     documents = Documents()
     found: list[tuple[Path, bool]] = []
+    without: list[str] = []
     for path in documents_below(str(root)):
         if kind_of(path) == "cdsl":
             model = documents.get(path).model
             called = model.name if isinstance(model, Component) else ""
             stem = Path(path).name.removesuffix(".cdsl.yaml")
+            names_parameters = isinstance(model, Component) and bool(model.parameters)
             if name.lower() in (called.lower(), stem.lower()):
-                found.append((Path(path), bool(isinstance(model, Component) and model.parameters)))
+                found.append((Path(path), names_parameters))
+            elif not names_parameters and not list(Path(path).parent.glob("*.pdsl.yaml")):
+                without += [called, stem]
     if len(found) > 1:
         shown = ", ".join(str(path) for path, _ in found)
         raise click.UsageError(f"several components are called '{name}': {shown}")
     if found and found[0][1]:
         raise click.UsageError(f"{found[0][0]} names its parameters' document already")
+    meant = None if found else suggest(name, filter(None, without))
+    if meant:
+        raise click.UsageError(
+            f"there is no component '{name}'; did you mean '{meant}'? Else `rcyaml new component {name}` comes first"
+        )
     return found[0][0] if found else None

@@ -10,6 +10,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from robocomp_yaml.diag import terminal
+from robocomp_yaml.source.regular import regular
 
 _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
 
@@ -79,7 +80,7 @@ def _kind_of(document: Path) -> str:
 def _named(document: Path) -> str | None:
     """The schema that a document's modeline names."""
     try:
-        with document.open(encoding="utf-8", errors="replace") as file:
+        with open(document, encoding="utf-8", errors="replace", opener=regular) as file:
             head = file.read(10_000)
     except OSError as error:
         raise click.UsageError(f"cannot read {document}: {error.strerror}") from error

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from robocomp_yaml.deploy import folder
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.regular import regular
 
 RECORD = ".rcyaml/exports.json"
 
@@ -41,7 +42,8 @@ def _record(output: str) -> dict[str, str]:
 
 def _read(path: Path) -> bytes | None:
     try:
-        return path.read_bytes()
+        with open(path, "rb", opener=regular) as file:
+            return file.read()
     except FileNotFoundError:
         return None
 

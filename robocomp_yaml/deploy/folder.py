@@ -10,6 +10,8 @@ import tempfile
 import time
 from collections.abc import Iterator
 
+from robocomp_yaml.source.regular import regular
+
 _NAME = re.compile(r"""^["']?deployment["']?[ \t]*:[ \t]*["']?([_A-Za-z][-A-Za-z0-9_]*)""", re.MULTILINE)
 _PARTS = ("config", "logs", "state")
 
@@ -77,7 +79,7 @@ def deployment_in(path: str) -> str:
     if said:
         return said if _NAME.fullmatch(f"deployment: {said}") else ""
     try:
-        with open(path, encoding="utf-8-sig", errors="replace") as file:
+        with open(path, encoding="utf-8-sig", errors="replace", opener=regular) as file:
             found = _NAME.search(file.read())
     except OSError:
         return ""

@@ -11,6 +11,7 @@ from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedModule
+from robocomp_yaml.source.regular import regular
 
 
 def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
@@ -40,7 +41,7 @@ def _differs(folder: str, linked: LinkedModule, texts: dict[int, str]) -> bool:
     """`texts` remembers what was rendered for other components."""
     path = os.path.join(folder, "slice", slice_target.file_name(linked))
     try:
-        with open(path, encoding="utf-8", errors="replace") as file:
+        with open(path, encoding="utf-8", errors="replace", opener=regular) as file:
             found = file.read()
     except OSError:
         return False

@@ -6,13 +6,13 @@ says now.
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 import msgspec
 
 from robocomp_yaml.network.network import Network, Process
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.regular import regular
 
 _NOT_KEPT = ("span", "extra", "build")
 
@@ -62,10 +62,8 @@ def spec_of(network: Network, process: Process, digests: dict[str, str]) -> Spec
 
 def _digest_of(path: str) -> str:
     """'' where there is no file, or none that can be read. Special files are never opened: they may block."""
-    if not os.path.isfile(path):
-        return ""
     try:
-        with open(path, "rb") as file:
+        with open(path, "rb", opener=regular) as file:
             return digest(file.read())
     except OSError:
         return ""

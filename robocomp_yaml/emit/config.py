@@ -11,6 +11,7 @@ from robocomp_yaml.emit.ports import IceEndpoint, Ports, interface_key
 from robocomp_yaml.emit.specific.entries import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.source.properties import entry_line, read, unquoted
+from robocomp_yaml.source.regular import regular
 
 DEFAULT_PERIOD = 100
 
@@ -66,7 +67,7 @@ def names(key: str) -> tuple[str, ...]:
 def standing(folder: str) -> dict[str, str]:
     """The properties of the `etc/config` in a component's folder; none where there is none."""
     try:
-        with open(os.path.join(folder, CONFIG), encoding="utf-8", errors="replace") as file:
+        with open(os.path.join(folder, CONFIG), encoding="utf-8", errors="replace", opener=regular) as file:
             return dict(read(file.read()).values)
     except OSError:
         return {}

@@ -15,6 +15,7 @@ from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
 from robocomp_yaml.model.parameters import Parameters, RecordType
 from robocomp_yaml.source.properties import read, unquoted
+from robocomp_yaml.source.regular import regular
 from robocomp_yaml.values.new import Sections, new_document
 from robocomp_yaml.values.read import properties_to_values
 
@@ -57,7 +58,7 @@ def _connections(linked: LinkedComponent, standing: Mapping[str, str], table: Po
 def _changed(folder: str, standing: Mapping[str, str], usual: str) -> dict[str, str]:
     """What of an `etc/config` is not as rcyaml wrote it: a user's."""
     try:
-        with open(os.path.join(folder, BASE, CONFIG), encoding="utf-8", errors="replace") as file:
+        with open(os.path.join(folder, BASE, CONFIG), encoding="utf-8", errors="replace", opener=regular) as file:
             usual = file.read()
     except OSError:
         pass

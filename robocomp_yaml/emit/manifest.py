@@ -9,6 +9,7 @@ from contextlib import suppress
 import msgspec
 
 from robocomp_yaml.emit.places import STATE
+from robocomp_yaml.source.regular import regular
 
 PATH = f"{STATE}/manifest.json"
 BASE = f"{STATE}/base"
@@ -60,7 +61,7 @@ def any_has(file: str, hash_: str) -> bool:
     """Whether a manifest in a folder above the file says that rcyaml wrote it with this digest."""
     above, path = os.path.split(file)
     while path:
-        with suppress(OSError, Unusable), open(os.path.join(above, PATH), "rb") as stream:
+        with suppress(OSError, Unusable), open(os.path.join(above, PATH), "rb", opener=regular) as stream:
             entry = read(stream.read()).files.get(path)
             if entry and not entry.once and entry.hash == hash_:
                 return True

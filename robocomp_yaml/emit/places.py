@@ -8,6 +8,8 @@ import stat
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.source.regular import regular
+
 STATE = ".rcyaml"
 """The folder of a root in which rcyaml keeps what it must remember."""
 
@@ -100,7 +102,7 @@ class Root:
 
 
 def contents(path: str) -> bytes:
-    with open(path, "rb", buffering=0) as file:
+    with open(path, "rb", buffering=0, opener=regular) as file:
         return file.read()
 
 

@@ -21,6 +21,7 @@ from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, defaul
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
 from robocomp_yaml.source.properties import Entry
+from robocomp_yaml.source.regular import regular
 
 
 class Ports(msgspec.Struct):
@@ -125,7 +126,7 @@ def _given(values: LinkedValues) -> dict[str, str]:
 
 def _raw(linked: LinkedComponent) -> bytes | None:
     try:
-        with open(config_path(linked), "rb") as file:
+        with open(config_path(linked), "rb", opener=regular) as file:
             return file.read()
     except OSError:
         return None

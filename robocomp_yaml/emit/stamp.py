@@ -21,6 +21,7 @@ import robocomp_yaml
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.discover import documents_in
 from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.source.regular import regular
 
 FOLDER = ".rcyaml/stamps"
 _KEPT = 32
@@ -101,7 +102,7 @@ def is_current(stamp: Stamp, find: Callable[[str], Iterable[str]]) -> bool:
 def load(folder: str, name: str) -> Stamp | None:
     """The stamp that a run with this key left below a folder, or None."""
     try:
-        with open(_file(folder, name), "rb") as file:
+        with open(_file(folder, name), "rb", opener=regular) as file:
             return msgspec.convert(json.load(file), Stamp)
     except (OSError, ValueError, RecursionError):
         return None
@@ -191,7 +192,7 @@ def _readers(status: os.stat_result) -> int:
 
 
 def _state(path: str) -> str:
-    with open(path, "rb", buffering=0) as file:
+    with open(path, "rb", buffering=0, opener=regular) as file:
         return f"{digest(file.read())} {_readers(os.fstat(file.fileno())):o}"
 
 

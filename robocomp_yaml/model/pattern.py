@@ -8,9 +8,10 @@ read differently: classes as sorted ranges, shorthands spelled out (ASCII), anch
 from __future__ import annotations
 
 import re
-from functools import cache
 
 import msgspec
+
+from robocomp_yaml.model.pattern_match import MAX_PLACES, TooLarge, matcher
 
 MAX_COUNT = 1000
 _SHORTHANDS = {
@@ -39,17 +40,12 @@ class Pattern(msgspec.Struct, frozen=True):
     portable: str
 
     def matches(self, value: str) -> bool:
-        return _compiled(self.portable).fullmatch(value) is not None
+        return matcher(self.portable).matches(value)
 
     @property
     def anchored(self) -> str:
         """For engines that search. Python's `$` also matches before a last line end: the look-ahead forbids that."""
         return f"^(?:{self.portable})$(?!\\n)"
-
-
-@cache
-def _compiled(portable: str) -> re.Pattern[str]:
-    return re.compile(portable)
 
 
 def parse(text: str) -> Pattern:
@@ -63,6 +59,10 @@ def parse(text: str) -> Pattern:
     portable = parser.alternatives()
     if parser.at < len(body):
         raise NotPortable("a ')' has no '(' before it", parser.at + shift)
+    try:
+        matcher(portable)
+    except TooLarge:
+        raise NotPortable(f"its counts come to more than {MAX_PLACES} characters", 0) from None
     return Pattern(text, portable)
 
 

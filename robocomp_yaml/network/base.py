@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
-from pathlib import Path
 
 import msgspec
 
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import LinkedValues
 from robocomp_yaml.source import properties
+from robocomp_yaml.source.regular import regular
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, dialect, given
 
@@ -75,9 +74,10 @@ def base_of(instance: LinkedInstance, read: Read) -> Base:
 
 
 def from_disk(path: str) -> bytes | None:
-    """The bytes of a file; special files are never opened, for they may block."""
+    """The bytes of a file."""
     try:
-        return Path(path).read_bytes() if os.path.isfile(path) else None
+        with open(path, "rb", opener=regular) as file:
+            return file.read()
     except OSError:
         return None
 

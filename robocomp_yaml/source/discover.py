@@ -12,6 +12,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
+from robocomp_yaml.source.regular import regular
 
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config")
 _MODELINE = re.compile(
@@ -45,7 +46,7 @@ def _is_ours(path: str) -> bool:
         if any(name == "cdsl.yaml" or name.endswith(".cdsl.yaml") for name in names):
             return True
     try:
-        with open(path, "rb") as file:
+        with open(path, "rb", opener=regular) as file:
             return _MODELINE.match(file.read(1 << 12)) is not None
     except OSError:
         return False

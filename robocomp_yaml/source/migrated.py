@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import os
 
+from robocomp_yaml.source.regular import regular
+
 MEMORY = ".rcyaml/migrated.json"  # at the root of what was migrated; digests by path
 
 
@@ -14,7 +16,7 @@ def is_migrated(path: str) -> bool:
     folder = os.path.dirname(path)
     while True:
         try:
-            with open(os.path.join(folder, MEMORY), encoding="utf-8") as file:
+            with open(os.path.join(folder, MEMORY), encoding="utf-8", opener=regular) as file:
                 return os.path.relpath(path, folder).replace(os.sep, "/") in json.load(file)["files"]
         except (ValueError, LookupError, TypeError):
             return False

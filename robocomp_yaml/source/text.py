@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import re
-import stat
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source.regular import regular
 
 MAX_DOCUMENT = 16 << 20
 MAX_SCALAR = 1 << 20
@@ -55,10 +55,7 @@ def read_bytes(path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list
     """The bytes of a file no larger than `limit`. Pipes and devices are not read: they may have no end, or never
     begin."""
     try:
-        mode = os.stat(path).st_mode
-        if not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
-            return None, [codes.UNREADABLE.at(Span(path), reason="it is no regular file")]
-        with open(path, "rb") as file:
+        with open(path, "rb", opener=regular) as file:
             status = os.fstat(file.fileno())
             raw = file.read(limit + 1) if status.st_size <= limit else b""
             size = max(status.st_size, len(raw))

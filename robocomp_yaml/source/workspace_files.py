@@ -10,6 +10,7 @@ from robocomp_yaml import resources
 from robocomp_yaml.source import whole_file
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.json_comments import Unreadable, with_members
+from robocomp_yaml.source.regular import regular
 
 FOLDER = ".rcyaml/schemas"
 SETTINGS = ".vscode/settings.json"
@@ -73,7 +74,8 @@ def _wired(folder: Path) -> str:
     if not stays_inside(str(folder), SETTINGS):
         raise Unreadable("a link leads out of the workspace")
     try:
-        text = settings.read_text(encoding="utf-8")
+        with open(settings, encoding="utf-8", opener=regular) as file:
+            text = file.read()
     except FileNotFoundError:
         text = ""
     except ValueError:
@@ -86,8 +88,9 @@ def _write(path: Path, text: str) -> bool:
     """Writes a file whole or not at all, and only if that changes it."""
     data = text.encode("utf-8")
     try:
-        if path.read_bytes() == data:
-            return False
+        with open(path, "rb", opener=regular) as file:
+            if file.read() == data:
+                return False
     except FileNotFoundError:
         path.parent.mkdir(parents=True, exist_ok=True)
     whole_file.replace(path, data)

@@ -23,6 +23,7 @@ from robocomp_yaml.model.parameters import (
 )
 from robocomp_yaml.model.pdsl import Spelling
 from robocomp_yaml.source.properties import unquoted
+from robocomp_yaml.source.regular import regular
 from robocomp_yaml.values import references, rows
 from robocomp_yaml.values.normalize import as_data
 from robocomp_yaml.values.paths import unescaped
@@ -197,7 +198,7 @@ def _resolved(reference: dict[str, str]) -> str | None:
     if references.ENV in reference:
         return os.environ.get(reference[references.ENV])
     try:
-        with open(os.path.expanduser(reference[references.FILE]), encoding="utf-8", newline="") as file:
+        with open(os.path.expanduser(reference[references.FILE]), encoding="utf-8", newline="", opener=regular) as file:
             text = file.read()
     except (OSError, ValueError):
         return None

@@ -80,9 +80,9 @@ class ParameterValidator(Validator):  # type: ignore[misc]  # cerberus has no ty
 
     def _validate_pattern(self, expression: str, field: str, value: object) -> None:
         """{'type': 'string'}"""
-        import re
+        from robocomp_yaml.model.pattern_match import matcher
 
-        if isinstance(value, str) and not re.fullmatch(expression, value):
+        if isinstance(value, str) and not matcher(expression).matches(value):
             self._error(field, f"must match {expression}")
 
     def _validate_distinct(self, wanted: bool, field: str, value: list[object]) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import stat
 import subprocess
 import sys
 from pathlib import Path
@@ -17,7 +18,7 @@ from conftest import ROOT, Tree, read_tree, write_tree
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.legacy import grammar, reading
 from robocomp_yaml.link import deployment_sizes, parameters
-from robocomp_yaml.model import expression, pattern
+from robocomp_yaml.model import expression, pattern, pattern_match
 from robocomp_yaml.source import syntax, text, tree, xml
 
 SPEECH = "module: RoboCompSpeech\ninterfaces: {Speech: {methods: {say: {in: {text: string}}}}}\n"
@@ -131,6 +132,29 @@ def test_nothing_is_run_and_nothing_is_written_outside(name: str, tmp_path: Path
     assert [*(tmp_path / "home").iterdir(), *(tmp_path / "tmp").iterdir()] == []
 
 
+READ_ALONG = (
+    "speech/etc/config", "speech/src/specificworker.py", "speech/.rcyaml/manifest.json", "speech/generated/main.py",
+    "slice/.rcyaml/manifest.json", ".rcyaml/migrated.json", ".vscode/settings.json", ".rcyaml/schemas/idsl.schema.json",
+    "old/src/specificworker.cpp", "old/src/specificworker.py",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("how", ["pipe", "endless", "socket"])
+def test_what_never_ends_is_not_waited_for(how: str, tmp_path: Path) -> None:
+    robot = write_tree(tmp_path / "robot", {**ROBOT, "old/old.cdsl": "Component Old { language Python; };\n"})
+    for name in READ_ALONG:
+        (robot / name).parent.mkdir(parents=True, exist_ok=True)
+        if how == "pipe":
+            os.mkfifo(robot / name)
+        elif how == "endless":
+            (robot / name).symlink_to("/dev/zero")
+        else:
+            os.mknod(robot / name, stat.S_IFSOCK | 0o600)
+    (tmp_path / "tmp").mkdir()
+    did = watched(("check .", "migrate .", "compile .", "config new speech", "graph ."), robot)
+    assert did["started"] == []
+
+
 def test_the_watch_sees(tmp_path: Path) -> None:
     """A write outside would be found: that of the templates' cache is."""
     robot = write_tree(tmp_path / "robot", ROBOT)
@@ -146,6 +170,7 @@ LIMITS = {
     "values that aliases repeat": tree.MAX_ALIASED, "elements of an XML file": xml.MAX_ELEMENTS,
     "plain values of a component's parameters": parameters.MAX_VALUES, "types inside of types": parameters.MAX_DEPTH,
     "a constraint": expression.MAX_LENGTH, "nesting of a constraint": expression.MAX_DEPTH, "a count in a `pattern:`": pattern.MAX_COUNT,
+    "what the counts of a `pattern:` come to, together": pattern_match.MAX_PLACES,
     "processes of a deployment": deployment_sizes.MOST, "includes inside of each other": deployment_sizes.DEEPEST,
 }  # fmt: skip
 

@@ -42,3 +42,20 @@ def test_without_ice(tmp_path: Path) -> None:
     assert done.returncode == 1
     assert "10 documents: nothing wrong\n" in done.stdout and "deploy up" not in done.stdout
     assert done.stderr.startswith("make: RCYAML_PYTHON names /no/such/python, which is not there")
+
+
+def test_a_call_of_nobody_says_so(tmp_path: Path) -> None:
+    """What one who follows the README by hand may do too early."""
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+
+    def called(*words: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([sys.executable, "examples/say.py", *words], cwd=tmp_path, capture_output=True, text=True)
+
+    assert "usage: say.py" in called().stderr
+    early = called("speech:tcp -h 127.0.0.1 -p 9", "Hello")
+    assert (early.returncode, early.stdout) == (1, "") and "talkinghead is not compiled" in early.stderr
+    for command in ("migrate", "compile"):
+        subprocess.run([sys.executable, "-m", "robocomp_yaml", "-q", command, "examples/talkinghead"], cwd=tmp_path, check=True)
+    nobody = called("speech:tcp -h 127.0.0.1 -p 9", "Hello")
+    assert nobody.returncode == 1
+    assert nobody.stderr == "say.py: nobody answers at 'speech:tcp -h 127.0.0.1 -p 9': Connection refused\n"

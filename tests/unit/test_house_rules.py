@@ -62,6 +62,29 @@ def test_text_meets_a_terminal_in_one_place() -> None:
                     assert is_ours, f"{named(path)}:{node.lineno}: what is asked is a text of ours"
 
 
+# What these read is the project's own, has been looked at, or was named by the user.
+READING_OTHERWISE = {"legacy/settings/corrections.py", "link/options.py"}
+
+
+def test_only_what_has_an_end_is_opened() -> None:
+    """A pipe in somebody's folder, or a link to /dev/zero, would be waited for."""
+    for layer in ("source", "link", "values", "network", "check", "emit", "legacy"):
+        for path in sorted((ROOT / "robocomp_yaml" / layer).rglob("*.py")):
+            if "targets" in path.parts or str(path.relative_to(ROOT / "robocomp_yaml")) in READING_OTHERWISE:
+                continue
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Call):
+                    assert is_bounded(node), f"{named(path)}:{node.lineno}: use source.regular as the opener"
+
+
+def is_bounded(call: ast.Call) -> bool:
+    what = ast.unparse(call.func)
+    if what != "open":
+        return not what.endswith((".read_text", ".read_bytes")) or what == "text.read_bytes"
+    mode = ast.unparse(call.args[1]) if len(call.args) > 1 else "'r'"
+    return bool(set(mode) & set("wax")) or any(keyword.arg == "opener" for keyword in call.keywords)
+
+
 def test_help_imports_nothing_heavy() -> None:
     script = (
         "import sys\nfrom robocomp_yaml.cli import group\n"

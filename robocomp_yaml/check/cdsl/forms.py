@@ -11,6 +11,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.model.component import Gui
 from robocomp_yaml.source.form import Form, read
+from robocomp_yaml.source.regular import regular
 
 FORM = os.path.join("src", "mainUI.ui")
 CLASS = "guiDlg"
@@ -26,7 +27,7 @@ def _form(linked: LinkedComponent, gui: Gui) -> Iterator[Diagnostic]:
     """Nothing where there is no form yet: `compile` writes one."""
     path = os.path.normpath(os.path.join(os.path.dirname(linked.component.path), FORM))
     try:
-        with open(path, "rb") as file:
+        with open(path, "rb", opener=regular) as file:
             raw = file.read()
     except FileNotFoundError:
         return

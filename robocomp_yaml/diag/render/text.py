@@ -110,6 +110,7 @@ class _Lines:
 
     def __init__(self) -> None:
         self._files: dict[str, list[str] | None] = {}
+        self._secrets: dict[str, dict[int, list[Part]]] = {}
 
     def get(self, file: str, line: int) -> str | None:
         if file not in self._files:
@@ -121,7 +122,9 @@ class _Lines:
         """What is hidden of a line by the names in it; in code and in types, names stand for other things."""
         if span.file.endswith(_CODE):
             return []
-        return parts_of_lines(self._files[span.file] or []).get(span.line - 1, [])
+        if span.file not in self._secrets:
+            self._secrets[span.file] = parts_of_lines(self._files[span.file] or [])
+        return self._secrets[span.file].get(span.line - 1, [])
 
 
 def _read(file: str) -> list[str] | None:

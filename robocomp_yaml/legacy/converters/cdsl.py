@@ -15,6 +15,7 @@ from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
 from robocomp_yaml.legacy.draft import Draft, MachineDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
+from robocomp_yaml.source.regular import regular
 
 LISTS = ("implements", "requires", "publishes", "subscribesto")
 
@@ -66,8 +67,9 @@ class _Converter:
         folder = Path(self.reader.source.path).parent
         for name, pattern in self.reader.rules.code.items():
             with suppress(OSError):  # it is not there, or it is none of our business
-                if re.search(pattern, (folder / name).read_text(encoding="utf-8", errors="replace")):
-                    return True
+                with open(folder / name, encoding="utf-8", errors="replace", opener=regular) as file:
+                    if re.search(pattern, file.read()):
+                        return True
         return False
 
     def _once(self, clause: Tree[Token]) -> None:

@@ -198,6 +198,23 @@ def test_wrong_usage_is_refused_and_writes_nothing(rcyaml: Run, workspace: Path,
     assert read_tree(workspace) == before
 
 
+@pytest.mark.parametrize(("name", "meant"), [("ArmCmp", "ArmComp"), ("armcmp", "armcomp"), ("Armcomp2", "armcomp")])
+def test_parameters_of_a_misspelled_component(rcyaml: Run, workspace: Path, name: str, meant: str) -> None:
+    rcyaml("new", "component", "ArmComp")
+    before = read_tree(workspace)
+    said = rcyaml("new", "parameters", name)
+    assert (said.exit_code, read_tree(workspace)) == (2, before)
+    assert f"there is no component '{name}'; did you mean '{meant}'?" in " ".join(said.stderr.split())
+
+
+def test_parameters_may_come_before_their_component(rcyaml: Run, workspace: Path) -> None:
+    assert rcyaml("new", "component", "ArmComp").exit_code == 0
+    assert rcyaml("new", "parameters", "Gripper").exit_code == 0
+    assert rcyaml("new", "parameters", "ArmComp").exit_code == 0
+    assert rcyaml("new", "parameters", "ArmComp2").exit_code == 0, "the one that it is like has its own"
+    assert rcyaml("check").exit_code == 0
+
+
 def test_a_component_that_is_there_stays(rcyaml: Run, workspace: Path) -> None:
     rcyaml("new", "component", "TalkComp")
     before = read_tree(workspace)
