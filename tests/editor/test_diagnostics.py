@@ -47,6 +47,8 @@ IDSL: list[tuple[str, list[str]]] = [
     ("module: A\nconstants: {c: {type: in t, value: 1}}", [f"2:23 {TYPE}"]),
     ("module: A\nconstants: {1c: {type: int, value: 1}}", [f"2:13 a name has {NAME}"]),
     ("module: A\nconstants: {c: {type: int, value: 1, unit: 3}}", ["2:44 unit: is text, such as m/s"]),
+    ('module: A\nconstants: {c: {type: int, value: 1, unit: "m\\t"}}',
+     ["2:44 this is one line of text, without control characters"]),
     ("module: A\ntypes: P",
      ["2:8 types: is a mapping of names to types, such as Pose: {struct: {x: float, y: float}}"]),
     ("module: A\ntypes: {P: int}",
