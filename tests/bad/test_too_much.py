@@ -100,7 +100,12 @@ def test_an_output_folder_that_cannot_be_written(
     def refuse(*args: object, **kwargs: object) -> None:
         raise OSError(number, words)
 
-    monkeypatch.setattr(atomic.os, "open", refuse)
+    def refuse_to_write(path: str, flags: int, *args: int, opened: Callable[..., int] = os.open, **kwargs: int) -> int:
+        if flags & (os.O_WRONLY | os.O_RDWR | os.O_CREAT):
+            refuse()
+        return opened(path, flags, *args, **kwargs)
+
+    monkeypatch.setattr(atomic.os, "open", refuse_to_write)
     monkeypatch.setattr(atomic.os, "makedirs", refuse)
     monkeypatch.setattr(atomic.os, "mkdir", refuse)
     result = rcyaml("compile")
