@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,7 +12,6 @@ import msgspec
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._outcome import File, Outcome
-from robocomp_yaml.diag.codes import machines, values
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.emit import stamp, writer
@@ -24,17 +23,12 @@ from robocomp_yaml.emit.specific.review import Review, review
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import documents_below
+from robocomp_yaml.source.disk import NOTHING
 from robocomp_yaml.source.regular import regular
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.ports import Ports
     from robocomp_yaml.link.program import LinkedComponent
-
-
-_OF_CONTENTS = (
-    "RC0002", "RC0003", "RC01", "RC02", "RC10", "RC11", "RC20", "RC21", "RC22", "RC31", "RC33"
-)  # fmt: skip
-_OF_THE_DISK = {machines.UNREADABLE.id, machines.XML_TOO_LARGE.id, machines.BAD_SOURCE.id, values.NO_LAYER.id}
 
 
 class Run(msgspec.Struct):
@@ -103,32 +97,32 @@ class Run(msgspec.Struct):
                     self._schemas[path] = file.read()
 
     def _stamp(self, analysis: Analysis, own: Review, changes: Changes, again: Outcome) -> stamp.Stamp | None:
-        """What the same run made again would come to, errors too; None where that depends on more than what was
-        read."""
-        faulty = [one for one in again.diagnostics if one.severity == ERROR]
-        unresolved = any(linked.unresolved for linked in analysis.program.modules.values())
-        broken = any(linked.broken for linked in analysis.program.components.values())
-        if not all(_is_of_contents(one) for one in faulty) or ((unresolved or broken) and not faulty):
+        """What the same run made again would come to, errors too; None where something could not be read: that may
+        change without any trace."""
+        disk = analysis.disk
+        walked = {folder: stamp.walked(folder) for folder in disk.walked}  # there may be new roots since this run
+        if disk.unreadable or any(walked[folder][: len(found)] != found for folder, found in disk.walked.items()):
             return None
         settled = {os.path.join(root.root, path): data for root in changes.roots for path, data in root.settled.items()}
         once = [os.path.join(root.root, path) for root in changes.roots for path in root.once]
         ours = {os.path.normpath(path) for path in settled}
         there = ours | {os.path.normpath(path) for path in once}  # since this run
+        there |= {folder for path in there for folder in _above(path)}
+        states = disk.states | dict.fromkeys((*own.absent, *changes.journals), NOTHING)
         return stamp.take(
-            inputs={path: raw for path, raw in (analysis.contents | own.contents).items() if path not in ours},
-            absent={path for path in analysis.absent | own.absent | set(changes.journals) if path not in there},
-            folders={folder: _options.find_below(folder) for folder in analysis.found.folders},
-            names=analysis.linker.search.listed() if faulty else {},
+            inputs={path: raw for path, raw in (disk.contents | own.contents).items() if path not in ours},
+            states={path: state for path, state in states.items() if os.path.normpath(path) not in there},
+            listed=disk.listed,
+            walked=walked,
             outputs=settled | self._schemas,
             present=once,
             replay=again.as_data(),
         )
 
 
-def _is_of_contents(error: Diagnostic) -> bool:
-    """Whether an error is the same as long as the documents are, and the names beside them that an import might have
-    meant: not so for files that are missing, or cannot be read."""
-    return error.code.startswith(_OF_CONTENTS) and error.code not in _OF_THE_DISK
+def _above(path: str) -> Iterator[str]:
+    while (path := os.path.dirname(path)) not in ("", "/"):
+        yield path
 
 
 def _outcome_of(

@@ -23,7 +23,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.component_references import beside
+from robocomp_yaml.link.component_references import References
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type, is_secret
 from robocomp_yaml.pipeline import Analysis, analyse
@@ -31,6 +31,7 @@ from robocomp_yaml.secrets import HIDDEN, hidden_lines
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source import whole_file
 from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values import paths
 from robocomp_yaml.values import show as values_show
@@ -317,7 +318,7 @@ def _component_near(file: str) -> str:
     folder = os.path.dirname(file)
     for where in (folder, os.path.normpath(os.path.join(folder, os.pardir))):
         for kind in ("cdsl", "pdsl"):
-            found = beside(where, kind)
+            found = References(Disk()).beside(where, kind)
             if len(found) == 1:
                 return found[0]
             if found:

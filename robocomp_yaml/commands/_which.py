@@ -9,8 +9,9 @@ from collections.abc import Callable
 import click
 
 from robocomp_yaml.diag.suggest import suggest
-from robocomp_yaml.link.component_references import beside, stem
+from robocomp_yaml.link.component_references import References, stem
 from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import component_in
 
 VALUES = os.path.join("etc", "config.yaml")
@@ -44,6 +45,7 @@ def values(said: str) -> str:
 
 def _of_folder(folder: str) -> str:
     """The component of a folder: the only one in it, else the only one below it."""
+    beside = References(Disk()).beside
     nearest = (beside(folder, "cdsl"), beside(folder, "pdsl"), _below(folder, "cdsl"), _below(folder, "pdsl"))
     for found in nearest:
         if len(found) == 1:

@@ -46,7 +46,7 @@ def _on_disk(analysis: Analysis, environment: bool) -> Iterator[Diagnostic]:
         from robocomp_yaml.emit import ports
         from robocomp_yaml.emit.specific.written import of_written
 
-        yield from ports.clashes(analysis.program.components.values())
+        yield from ports.clashes(analysis.program.components.values(), analysis.disk)
         yield from of_written(analysis.program, analysis.diagnostics, analysis.linker)
     if analysis.networks:
         from robocomp_yaml.check.networks import of_environment

@@ -44,7 +44,7 @@ def component_plan(
         made = list(_configs(linked, program, lambda: options.ports(linked)))
         plan.files += made
         if all(file.path != CONFIG for file in made):
-            table = assign([linked]) if _is_complete(root, linked) else options.ports(linked)
+            table = assign([linked], program.disk) if _is_complete(root, linked) else options.ports(linked)
             plan.files.append(config.plan(linked, table))
     if options.wants("docs"):
         plan.files += parameter_files.docs(linked)

@@ -24,7 +24,7 @@ def of_written(program: Program, diagnostics: Sequence[Diagnostic], linker: Link
 
     languages = {program.components[real].component.language.name for real in program.asked_components()}
     options = Options(
-        None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked]),
+        None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked], program.disk),
         only=_is_written,
     )  # fmt: skip
     plans: Iterable[RootPlan] = build(program, diagnostics, options).plans
