@@ -68,7 +68,7 @@ class Run(msgspec.Struct):
         outcome = _outcome_of(analysis, built, changes, in_order(told), with_diff=with_diff)
         outcome.planned = self.look_only
         passing = [one for one in told if one not in lasting]
-        if self.look_only or has_errors(passing) or own.diagnostics or self.merge:
+        if self.look_only or has_errors(passing) or self.merge:
             return outcome, None
         return outcome, self._stamp(analysis, own, changes, outcome.settled(lasting, changes))
 
@@ -113,6 +113,7 @@ class Run(msgspec.Struct):
             inputs={path: raw for path, raw in (disk.contents | own.contents).items() if path not in ours},
             states={path: state for path, state in states.items() if os.path.normpath(path) not in there},
             listed=disk.listed,
+            names=own.names,
             walked=walked,
             outputs=settled | self._schemas,
             present=once,

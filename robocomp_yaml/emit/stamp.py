@@ -32,15 +32,16 @@ class Stamp(msgspec.Struct, frozen=True):
     """All paths are as the run used them, relative to its working folder or absolute.
 
     `inputs`: of each file read, its real path and its digest with who may read it. `states` and `listed`: what else it
-    asked, as `source.disk.Disk` remembers it. `walked`: of each folder, what `walked` finds below it. `outputs`: of each file written, its digest and who may
-    read and run it. `present`: files whose contents are the user's. `replay`: what the run had to say, in the caller's
-    form.
+    asked, as `source.disk.Disk` remembers it. `names`: all names in folders. `walked`: of each folder, what `walked`
+    finds below it. `outputs`: of each file written, its digest and who may read and run it. `present`: files whose
+    contents are the user's. `replay`: what the run had to say, in the caller's form.
     """
 
     tool: str
     inputs: dict[str, tuple[str, str]]
     states: dict[str, str]
     listed: dict[str, list[str]]
+    names: dict[str, list[str]]
     walked: dict[str, list[str]]
     outputs: dict[str, tuple[str, str]]
     present: list[str]
@@ -57,6 +58,7 @@ def take(
     inputs: Mapping[str, bytes],
     states: Mapping[str, str],
     listed: Mapping[str, list[str]],
+    names: Mapping[str, list[str]],
     walked: Mapping[str, list[str]],
     outputs: Mapping[str, bytes],
     present: Iterable[str],
@@ -71,6 +73,7 @@ def take(
             {path: (real.path(path), f"{digest(data)} {_readers(os.stat(path)):o}") for path, data in inputs.items()},
             dict(states),
             dict(listed),
+            dict(names),
             dict(walked),
             {path: (digest(data), _may(os.lstat(path))) for path, data in outputs.items()},
             sorted(present),
@@ -88,6 +91,7 @@ def is_current(stamp: Stamp) -> bool:
             all(state_of(path) == state for path, state in stamp.states.items())
             and all(os.path.lexists(path) for path in stamp.present)
             and all(names_in(folder) == found for folder, found in stamp.listed.items())
+            and all(sorted(os.listdir(folder)) == found for folder, found in stamp.names.items())
             and all(walked(folder) == found for folder, found in stamp.walked.items())
             and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())

@@ -11,17 +11,19 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.manifest import BASE
 from robocomp_yaml.emit.places import Root
 from robocomp_yaml.emit.plan import ONCE, SOURCES, Merge, Merges, RootPlan
-from robocomp_yaml.emit.specific import entries
+from robocomp_yaml.emit.specific import entries, sources
 from robocomp_yaml.emit.specific.own import Own
+from robocomp_yaml.emit.specific.reading import is_code
 
 
 class Review(msgspec.Struct):
-    """`contents` and `absent` are what it read and looked for in vain."""
+    """`contents` and `absent` are what it read and looked for in vain, `names` what it saw in folders."""
 
     diagnostics: list[Diagnostic] = []
     merges: Merges = msgspec.field(default_factory=Merges)
     contents: dict[str, bytes] = {}
     absent: set[str] = set()
+    names: dict[str, list[str]] = {}
 
 
 def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
@@ -42,8 +44,18 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
                 continue
             result.merges.files.update({(root.real, path): one for path, one in merged.items()})
             files = [_after(file, merged.get(file.plan.path)) for file in files]
-        result.diagnostics += telling.tell(root, files, root.shown(plan.owner))
+        found = list(telling.tell(root, files, root.shown(plan.owner)))
+        if found:
+            _remember_code(result, root, files)
+        result.diagnostics += found
     return result
+
+
+def _remember_code(result: Review, root: Root, files: Iterable[Own]) -> None:
+    """Parts of the class that it is about may stand in any file beside it."""
+    for folder in {file.plan.path.rpartition("/")[0] for file in files if is_code(file.plan.path)}:
+        result.names[root.shown(folder)] = sources.names(root, folder)
+        result.contents.update((root.shown(path), data) for path, data in sources.code_in(root, folder))
 
 
 def _own(plan: RootPlan, root: Root, every: bool, result: Review) -> Iterator[Own]:

@@ -37,7 +37,7 @@ def run() -> stamp.Stamp | None:
     return stamp.take(
         inputs={"docs/a.idsl.yaml": b"a", "docs/b.idsl.yaml": b"b", "docs/far/real.idsl.yaml": b"b"},
         states={"docs/c.idsl.yaml": NOTHING, "elsewhere/c.idsl.yaml": NOTHING, "docs": FOLDER},
-        listed={"docs/far": ["real.idsl.yaml"], "nowhere": []}, walked={"docs": stamp.walked("docs")},
+        listed={"docs/far": ["real.idsl.yaml"], "nowhere": []}, names={"docs/far": ["real.idsl.yaml"]}, walked={"docs": stamp.walked("docs")},
         outputs={"out/bin/run": b"#!"}, present=["out/mine"], replay={"told": ["é"], "exit": 0},
     )
 
@@ -88,7 +88,7 @@ def relink(path: str, target: str) -> None:
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("{"),
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("[1]"),
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text(
-        '{"tool": 1, "inputs": {}, "states": [[]], "listed": {}, "walked": {}, "outputs": {}, "present": [], "replay": {}}'
+        '{"tool": 1, "inputs": {}, "states": [[]], "listed": {}, "names": {}, "walked": {}, "outputs": {}, "present": [], "replay": {}}'
     ),
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text('{"inputs": {"a": 1}}'),
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("[" * 100_000),
@@ -170,7 +170,7 @@ def test_what_was_read_counts_not_what_stands_there_now() -> None:
     taken = run()
     assert taken is not None
     Path("docs/a.idsl.yaml").write_text("a changed")
-    late = stamp.take(inputs={"docs/a.idsl.yaml": b"a"}, states={}, listed={}, walked={}, outputs={}, present=[], replay={})
+    late = stamp.take(inputs={"docs/a.idsl.yaml": b"a"}, states={}, listed={}, names={}, walked={}, outputs={}, present=[], replay={})
     assert late is not None and not stamp.is_current(late)
 
 
