@@ -318,7 +318,7 @@ def _names_nearby(path: str, disk: Disk) -> Iterator[str]:
     """What the documents of parameters beside a document, and one folder up, call secret."""
     folder = os.path.dirname(path) or "."
     for where in (folder, os.path.join(folder, os.pardir)):
-        names = [name for name in disk.names(where) if name.endswith("pdsl.yaml")]
+        names = [name for name in disk.documents(where) if name.endswith("pdsl.yaml")]
         for name in names[:20]:
             raw, _ = disk.read(os.path.join(where, name))
             text = decode(path, raw)[0] if raw is not None else None

@@ -113,7 +113,7 @@ class Run(msgspec.Struct):
             inputs={path: raw for path, raw in (disk.contents | own.contents).items() if path not in ours},
             states={path: state for path, state in states.items() if os.path.normpath(path) not in there},
             listed=disk.listed,
-            names=own.names,
+            names=disk.seen | own.names,
             walked=walked,
             outputs=settled | self._schemas,
             present=once,

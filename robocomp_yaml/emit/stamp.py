@@ -19,7 +19,7 @@ from msgspec.structs import asdict
 import robocomp_yaml
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.discover import documents_below
-from robocomp_yaml.source.disk import names_in, state_of
+from robocomp_yaml.source.disk import documents_in, names_in, state_of
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.regular import regular
 
@@ -90,8 +90,8 @@ def is_current(stamp: Stamp) -> bool:
         return (
             all(state_of(path) == state for path, state in stamp.states.items())
             and all(os.path.lexists(path) for path in stamp.present)
-            and all(names_in(folder) == found for folder, found in stamp.listed.items())
-            and all(sorted(os.listdir(folder)) == found for folder, found in stamp.names.items())
+            and all(documents_in(names_in(folder)) == found for folder, found in stamp.listed.items())
+            and all(names_in(folder) == found for folder, found in stamp.names.items())
             and all(walked(folder) == found for folder, found in stamp.walked.items())
             and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())

@@ -30,7 +30,7 @@ class References(msgspec.Struct, frozen=True):
 
     def beside(self, folder: str, kind: str) -> list[str]:
         """The documents of a kind in a folder, sorted."""
-        paths = (os.path.normpath(os.path.join(folder, name)) for name in self.disk.names(folder))
+        paths = (os.path.normpath(os.path.join(folder, name)) for name in self.disk.documents(folder))
         return [path for path in paths if self.is_document(path, (kind,))]
 
     def components_of(self, values: str) -> list[str]:

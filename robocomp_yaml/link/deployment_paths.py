@@ -23,7 +23,7 @@ def components_at(deployment: Deployment, text: str, disk: Disk) -> list[str]:
     """The component's document at a path, or those in a folder; none where there is nothing of the kind."""
     path = joined(folder_of(deployment), text)
     if disk.has_folder(path):
-        names = (name for name in disk.names(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
+        names = (name for name in disk.documents(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
         return [os.path.join(path, name) for name in names]
     is_component = disk.has_file(path) and f"{os.sep}{path}".endswith(COMPONENT_SUFFIXES)
     return [path] if is_component else []

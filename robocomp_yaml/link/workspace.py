@@ -119,6 +119,6 @@ class Search(msgspec.Struct):
         """The names in a path's folder, and the same by their lower case."""
         folder = os.path.dirname(path)
         if folder not in self._names:
-            names = self.disk.names(folder)
+            names = self.disk.documents(folder)
             self._names[folder] = frozenset(names), {name.lower(): name for name in names}
         return self._names[folder]

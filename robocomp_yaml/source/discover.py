@@ -39,7 +39,7 @@ def _is_ours(path: str, disk: Disk) -> bool:
     above its content, where editors look for it."""
     folder = os.path.dirname(path)
     if os.path.basename(os.path.abspath(folder)) == "etc":
-        names = disk.names(os.path.join(folder, os.pardir))
+        names = disk.documents(os.path.join(folder, os.pardir))
         if any(name == "cdsl.yaml" or name.endswith(".cdsl.yaml") for name in names):
             return True
     return _MODELINE.match(disk.peek(path, 1 << 12)) is not None

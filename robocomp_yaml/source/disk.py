@@ -23,7 +23,7 @@ class Disk:
 
     All that it was asked is remembered, by the path that was asked for: `contents`, the bytes of each file that was
     read; `states`, what there was (FILE, FOLDER, OTHER such as a pipe or a link to nowhere, NOTHING); `listed`, the
-    documents in a folder; `walked`, what `documents_below` found there. `unreadable` says that something could not be
+    documents in a folder; `seen`, all names in a folder; `walked`, what `documents_below` found there. `unreadable` says that something could not be
     read, which may become otherwise without any trace.
     """
 
@@ -33,6 +33,7 @@ class Disk:
         self.contents: dict[str, bytes] = {}
         self.states: dict[str, str] = {}
         self.listed: dict[str, list[str]] = {}
+        self.seen: dict[str, list[str]] = {}
         self.walked: dict[str, list[str]] = {}
         self.unreadable = False
 
@@ -77,13 +78,22 @@ class Disk:
     def has_folder(self, path: str) -> bool:
         return self.state(path) == FOLDER
 
-    def names(self, folder: str) -> list[str]:
+    def documents(self, folder: str) -> list[str]:
         """The names in a folder that documents may have, sorted. '' is the working folder."""
+        self.listed[folder] = documents_in(self._names(folder))
+        return self.listed[folder]
+
+    def names(self, folder: str) -> list[str]:
+        """All names in a folder, sorted: for hints alone, since any other file there makes the answer another one."""
+        self.seen[folder] = sorted(self._names(folder))
+        return self.seen[folder]
+
+    def _names(self, folder: str) -> set[str]:
         names = set(names_in(folder))
         if self._overlay:
-            names |= set(documents_in(_inside(os.path.realpath(folder), self._overlay)))
-        self.listed[folder] = sorted(names)
-        return self.listed[folder]
+            real = os.path.realpath(folder)
+            names |= {*_inside(real, self._folders), *_inside(real, self._overlay)}
+        return names
 
     def walk(
         self, folder: str, on_error: Callable[[OSError], None] | None = None
@@ -123,9 +133,9 @@ def state_of(path: str) -> str:
 
 
 def names_in(folder: str) -> list[str]:
-    """The names that documents may have in a folder of the disk; none where it cannot be looked into."""
+    """The names in a folder of the disk, sorted; none where it cannot be looked into."""
     try:
-        return documents_in(os.listdir(folder or "."))
+        return sorted(os.listdir(folder or "."))
     except OSError:
         return []
 

@@ -44,10 +44,8 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
                 continue
             result.merges.files.update({(root.real, path): one for path, one in merged.items()})
             files = [_after(file, merged.get(file.plan.path)) for file in files]
-        found = list(telling.tell(root, files, root.shown(plan.owner)))
-        if found:
-            _remember_code(result, root, files)
-        result.diagnostics += found
+        _remember_code(result, root, files)
+        result.diagnostics += telling.tell(root, files, root.shown(plan.owner))
     return result
 
 

@@ -78,7 +78,7 @@ def test_clashes_are_told_at_their_line() -> None:
         a="Mouth.Endpoints=tcp -p 12000\nX.Endpoints=udp -p 12000\n",
         b="# mine\n\n  Mouth.Endpoints=tcp -p 12000\nCommonBehavior.Endpoints=tcp -p 12001\n",
     )
-    (said,) = ports.clashes(linked.values())
+    (said,) = ports.clashes(linked.values(), Disk())
     assert (said.code, said.severity) == ("RC6008", "warning")
     assert (said.span.file, said.span.line, said.span.column, said.span.end_column) == ("b/etc/config", 3, 3, 18)
     assert said.message == "port 12000 of B's Mouth is that of A's Mouth, too"
@@ -88,13 +88,13 @@ def test_clashes_are_told_at_their_line() -> None:
 def test_hosts_that_differ_do_not_clash() -> None:
     documents = {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Mouth]")}
     linked = workspace(documents, a="Mouth.Endpoints=tcp -h x -p 1\n", b="Mouth.Endpoints=tcp -h y -p 1\n")
-    assert not ports.clashes(linked.values())
+    assert not ports.clashes(linked.values(), Disk())
     linked = workspace(documents, a="Mouth.Endpoints=tcp -h x -p 1\n", b="Mouth.Endpoints=tcp -p 1\n")
-    assert len(ports.clashes(linked.values())) == 1
+    assert len(ports.clashes(linked.values(), Disk())) == 1
 
 
 def test_a_config_that_cannot_be_read_is_none(tmp_path: Path) -> None:
     linked = workspace({"a": component("A")})
     (tmp_path / "a/etc/config").mkdir(parents=True)
-    assert not ports.clashes(linked.values())
+    assert not ports.clashes(linked.values(), Disk())
     assert ports.assign(linked.values(), Disk()).endpoints
