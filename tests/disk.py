@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit import atomic, journal, writer
-from robocomp_yaml.emit.changes import Changes
-from robocomp_yaml.emit.plan import ALWAYS, ONCE, FilePlan, RootPlan
+from robocomp_yaml.transactions import atomic, journal, writer
+from robocomp_yaml.transactions.changes import Changes
+from robocomp_yaml.transactions.plan import ALWAYS, ONCE, FilePlan, RootPlan
 
 OWNER = "speech.cdsl.yaml"
 

@@ -15,16 +15,16 @@ from robocomp_yaml.commands._outcome import File, Outcome
 from robocomp_yaml.diag.codes import machines, values
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.hidden import Hidden
-from robocomp_yaml.emit import stamp, writer
 from robocomp_yaml.emit.fences import Fences
 from robocomp_yaml.emit.build import Build, build
-from robocomp_yaml.emit.changes import Changes
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.specific.review import Review, review
+from robocomp_yaml.link import workspace_files
 from robocomp_yaml.pipeline import Analysis, analyse
-from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import documents_below
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions import stamp, writer
+from robocomp_yaml.transactions.changes import Changes
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.ports import Ports

@@ -8,12 +8,12 @@ from collections.abc import Callable, Iterable, Iterator
 from robocomp_yaml import resources
 from robocomp_yaml.emit import config, parameter_files
 from robocomp_yaml.emit.options import Options
-from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
 from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.emit.targets import target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.model.pdsl import ValuesDocument
+from robocomp_yaml.transactions.plan import CONFIG, FilePlan, RootPlan
 
 
 def component_plan(

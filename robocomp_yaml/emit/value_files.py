@@ -6,9 +6,9 @@ import os
 from collections.abc import Callable, Iterator
 
 from robocomp_yaml.emit import config
-from robocomp_yaml.emit.plan import CONFIG, FilePlan
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
+from robocomp_yaml.transactions.plan import CONFIG, FilePlan
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties, secret_keys
 from robocomp_yaml.values.property_text import property_text

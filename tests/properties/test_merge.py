@@ -19,11 +19,11 @@ from verdicts import CASES
 
 from robocomp_yaml.diag.codes.specific import CONFLICT
 from robocomp_yaml.diag.diagnostic import has_errors
-from robocomp_yaml.emit import writer
-from robocomp_yaml.emit.plan import RootPlan
 from robocomp_yaml.emit.specific import threeway
 from robocomp_yaml.emit.specific.reading import read
 from robocomp_yaml.emit.specific.review import review
+from robocomp_yaml.transactions import writer
+from robocomp_yaml.transactions.plan import RootPlan
 
 CHUNKS, PAIRS, EDITS = 20, 10, max(CASES // 100, 1)
 REFUSED = 0.25  # of all merges, at most: what two sides changed can be too much

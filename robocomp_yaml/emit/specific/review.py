@@ -8,11 +8,11 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit.manifest import BASE
-from robocomp_yaml.emit.places import Root
-from robocomp_yaml.emit.plan import ONCE, SOURCES, Merge, Merges, RootPlan
 from robocomp_yaml.emit.specific import entries
 from robocomp_yaml.emit.specific.own import Own
+from robocomp_yaml.transactions.manifest import BASE
+from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.plan import ONCE, SOURCES, Merge, Merges, RootPlan
 
 
 class Review(msgspec.Struct):

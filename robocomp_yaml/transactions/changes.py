@@ -10,8 +10,8 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit.atomic import Step
-from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE
+from robocomp_yaml.transactions.atomic import Step
+from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE
 
 CREATE, UPDATE, ADOPT, EDITED, MERGE = "create", "update", "adopt", "edited", "merge"
 REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", "refused"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from disk import OWNER, actions, always, carry_out, codes, files, once, plan, tree
 
-from robocomp_yaml.emit import manifest, writer
+from robocomp_yaml.transactions import manifest, writer
 
 
 def test_a_file_no_longer_planned_is_removed_with_its_folder(tmp_path: Path) -> None:

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 from disk import OWNER, Disk, always, carry_out, codes, killed_in, once, plan, tree
 
-from robocomp_yaml.emit import atomic, writer
-from robocomp_yaml.emit.plan import RootPlan
+from robocomp_yaml.transactions import atomic, writer
+from robocomp_yaml.transactions.plan import RootPlan
 
 
 def before(tmp_path: Path) -> None:
@@ -187,8 +187,8 @@ def test_two_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 _COMPILE = """
 import sys
-from robocomp_yaml.emit import writer
-from robocomp_yaml.emit.plan import FilePlan, RootPlan
+from robocomp_yaml.transactions import writer
+from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 root, text = sys.argv[1:]
 plans = [RootPlan(root, "o", [FilePlan(f"generated/{n}", text) for n in range(200)])]
 print(flush=True)

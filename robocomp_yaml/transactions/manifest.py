@@ -8,8 +8,8 @@ from contextlib import suppress
 
 import msgspec
 
-from robocomp_yaml.emit.places import STATE
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions.places import STATE
 
 PATH = f"{STATE}/manifest.json"
 BASE = f"{STATE}/base"

@@ -10,8 +10,8 @@ import pytest
 from disk import actions, always, carry_out, codes, files, once, plan, tree
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit import writer
-from robocomp_yaml.emit.plan import CONFIG, Merge, Merges
+from robocomp_yaml.transactions import writer
+from robocomp_yaml.transactions.plan import CONFIG, Merge, Merges
 
 
 def test_the_first_compile_writes_everything(tmp_path: Path) -> None:

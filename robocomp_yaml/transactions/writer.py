@@ -11,14 +11,14 @@ from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.emit import atomic, changes, manifest, ownership
-from robocomp_yaml.emit.changes import Change, Changes, RootChanges
-from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, free_name
-from robocomp_yaml.emit.manifest import Entry, Manifest
-from robocomp_yaml.emit.places import Found
-from robocomp_yaml.emit.plan import ANYBODY, CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
-from robocomp_yaml.emit.wanted import WantedRoot, by_root
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.transactions import atomic, changes, manifest, ownership
+from robocomp_yaml.transactions.changes import Change, Changes, RootChanges
+from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, free_name
+from robocomp_yaml.transactions.manifest import Entry, Manifest
+from robocomp_yaml.transactions.places import Found
+from robocomp_yaml.transactions.plan import ANYBODY, CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
+from robocomp_yaml.transactions.wanted import WantedRoot, by_root
 
 
 def prepare(

@@ -11,9 +11,9 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.manifest import Entry
-from robocomp_yaml.emit.places import Root
-from robocomp_yaml.emit.plan import FilePlan, RootPlan
+from robocomp_yaml.transactions.manifest import Entry
+from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 
 class Wanted(msgspec.Struct):
