@@ -6,9 +6,9 @@ from pathlib import Path
 
 from conftest import write_tree
 
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.pipeline import analyse
-from robocomp_yaml.transactions.plan import CONFIG
 
 INTERFACES = """\
 module: RoboCompTalk

@@ -17,6 +17,7 @@ from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_orde
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.emit.fences import Fences
 from robocomp_yaml.emit.build import Build, build
+from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.specific.review import Review, review
 from robocomp_yaml.link import workspace_files
@@ -66,11 +67,11 @@ class Run(msgspec.Struct):
         recovered = [] if self.look_only else writer.recover(built.plans, others)
         own = review(built.plans, merge=self.merge)
         changes = writer.prepare(built.plans, adopt=self.adopt, others=others, merges=own.merges)
+        if not self.look_only:
+            changes = writer.commit(changes)
+            self._refresh_schemas(analysis)
         lasting = analysis.with_more([*built.diagnostics, *own.diagnostics])
         told = [*lasting, *recovered, *changes.diagnostics]
-        if not self.look_only:
-            told += writer.commit(changes)
-            self._refresh_schemas(analysis)
         outcome = _outcome_of(analysis, built, changes, in_order(told), with_diff=with_diff)
         outcome.planned = self.look_only
         passing = [one for one in told if one not in lasting]
@@ -110,12 +111,11 @@ class Run(msgspec.Struct):
         broken = any(linked.broken for linked in analysis.program.components.values())
         if not all(_is_of_contents(one) for one in faulty) or ((unresolved or broken) and not faulty):
             return None
-        settled = {os.path.join(root.root, path): data for root in changes.roots for path, data in root.settled.items()}
-        once = [os.path.join(root.root, path) for root in changes.roots for path in root.once]
+        settled, once = changes.settled, changes.once
         ours = {os.path.normpath(path) for path in settled}
         there = ours | {os.path.normpath(path) for path in once}  # since this run
         return stamp.take(
-            inputs={path: raw for path, raw in (analysis.contents | own.contents).items() if path not in ours},
+            inputs={path: raw for path, raw in {**analysis.contents, **own.contents}.items() if path not in ours},
             absent={path for path in analysis.absent | own.absent | set(changes.journals) if path not in there},
             folders={folder: _options.find_below(folder) for folder in analysis.found.folders},
             names=analysis.linker.search.listed() if faulty else {},
@@ -137,7 +137,8 @@ def _outcome_of(
     hidden = analysis.hidden() if with_diff else Hidden()
     files = [
         File(
-            root.root, change.path, change.action, change.orig, hidden.without(change.diff()) if with_diff else ""
+            root.root, change.path, change.action, change.orig,
+            hidden.without(change.diff(properties=is_settings(change.path))) if with_diff else "",
         )  # fmt: skip
         for root in changes.roots
         for change in root.changes

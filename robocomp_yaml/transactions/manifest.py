@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 from contextlib import suppress
 
 import msgspec
@@ -29,8 +30,8 @@ class Entry(msgspec.Struct, frozen=True):
     once: bool = False
 
 
-class Manifest(msgspec.Struct):
-    files: dict[str, Entry] = {}
+class Manifest(msgspec.Struct, frozen=True):
+    files: Mapping[str, Entry] = {}
 
     def text(self) -> str:
         """One line a file, so that versions compare well."""

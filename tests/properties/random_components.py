@@ -65,7 +65,7 @@ def plan(model: Model, language: str, folder: Path, root: Path) -> RootPlan:
     analysis = pipeline.analyse([str(folder)])
     assert not [d for d in analysis.diagnostics if d.severity == ERROR], analysis.diagnostics
     (linked,) = analysis.program.components.values()
-    files = [file for file in target(language).plan(linked) if file.policy == ONCE]
+    files = tuple(file for file in target(language).plan(linked) if file.policy == ONCE)
     return RootPlan(str(root), "robot.cdsl.yaml", files)
 
 

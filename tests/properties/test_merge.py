@@ -106,7 +106,7 @@ def _methods(text: str) -> list[str]:
 def _write(plan: RootPlan, *, merge: bool) -> list:
     own = review([plan], merge=merge)
     changes = writer.prepare([plan], merges=own.merges)
-    return [*own.diagnostics, *changes.diagnostics, *writer.commit(changes)]
+    return [*own.diagnostics, *writer.commit(changes).diagnostics]
 
 
 def _skeletons(plan: RootPlan) -> Files:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.source import properties
-from robocomp_yaml.transactions.plan import CONFIG
 
 _NEEDED = r"(?P<name>.+?)(?:Topic)?\.Endpoints|(?P<proxy>.+)Proxy|(?P<manager>TopicManager)\.Proxy"
 

@@ -6,9 +6,9 @@ import os
 from collections.abc import Iterable, Iterator, Sequence
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Program
-from robocomp_yaml.transactions.plan import SOURCES
 
 
 def of_written(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

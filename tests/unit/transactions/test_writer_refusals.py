@@ -84,7 +84,7 @@ def test_a_root_that_is_a_file(tmp_path: Path) -> None:
     (tmp_path / "out").write_text("a file\n")
     from robocomp_yaml.transactions.plan import RootPlan
 
-    _, said = carry_out(RootPlan(str(tmp_path / "out"), "../x.idsl.yaml", [always("a", "1\n")]))
+    _, said = carry_out(RootPlan(str(tmp_path / "out"), "../x.idsl.yaml", (always("a", "1\n"),)))
     assert codes(said) == ["RC6005"]
 
 
