@@ -14,17 +14,18 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._outcome import File, Outcome
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.hidden import Hidden
-from robocomp_yaml.emit import stamp, writer
 from robocomp_yaml.emit.fences import Fences
 from robocomp_yaml.emit.build import Build, build
-from robocomp_yaml.emit.changes import Changes
+from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.specific.review import Review, review
+from robocomp_yaml.link import workspace_files
 from robocomp_yaml.pipeline import Analysis, analyse
-from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import documents_below
 from robocomp_yaml.source.disk import NOTHING
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions import stamp, writer
+from robocomp_yaml.transactions.changes import Changes
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.ports import Ports
@@ -60,11 +61,11 @@ class Run(msgspec.Struct):
         recovered = [] if self.look_only else writer.recover(built.plans, others)
         own = review(built.plans, merge=self.merge)
         changes = writer.prepare(built.plans, adopt=self.adopt, others=others, merges=own.merges)
+        if not self.look_only:
+            changes = writer.commit(changes)
+            self._refresh_schemas(analysis)
         lasting = analysis.with_more([*built.diagnostics, *own.diagnostics])
         told = [*lasting, *recovered, *changes.diagnostics]
-        if not self.look_only:
-            told += writer.commit(changes)
-            self._refresh_schemas(analysis)
         outcome = _outcome_of(analysis, built, changes, in_order(told), with_diff=with_diff)
         outcome.planned = self.look_only
         passing = [one for one in told if one not in lasting]
@@ -103,17 +104,16 @@ class Run(msgspec.Struct):
         walked = {folder: stamp.walked(folder) for folder in disk.walked}  # there may be new roots since this run
         if disk.unreadable or any(walked[folder][: len(found)] != found for folder, found in disk.walked.items()):
             return None
-        settled = {os.path.join(root.root, path): data for root in changes.roots for path, data in root.settled.items()}
-        once = [os.path.join(root.root, path) for root in changes.roots for path in root.once]
+        settled, once = changes.settled, changes.once
         ours = {os.path.normpath(path) for path in settled}
         there = ours | {os.path.normpath(path) for path in once}  # since this run
         there |= {folder for path in there for folder in _above(path)}
         states = disk.states | dict.fromkeys((*own.absent, *changes.journals), NOTHING)
         return stamp.take(
-            inputs={path: raw for path, raw in (disk.contents | own.contents).items() if path not in ours},
+            inputs={path: raw for path, raw in {**disk.contents, **own.contents}.items() if path not in ours},
             states={path: state for path, state in states.items() if os.path.normpath(path) not in there},
             listed=disk.listed,
-            names=disk.seen | own.names,
+            names={**disk.seen, **own.names},
             walked=walked,
             outputs=settled | self._schemas,
             present=once,
@@ -132,7 +132,8 @@ def _outcome_of(
     hidden = analysis.hidden() if with_diff else Hidden()
     files = [
         File(
-            root.root, change.path, change.action, change.orig, hidden.without(change.diff()) if with_diff else ""
+            root.root, change.path, change.action, change.orig,
+            hidden.without(change.diff(properties=is_settings(change.path))) if with_diff else "",
         )  # fmt: skip
         for root in changes.roots
         for change in root.changes

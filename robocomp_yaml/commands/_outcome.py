@@ -18,7 +18,7 @@ from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps, run_as_data
 
 if TYPE_CHECKING:
-    from robocomp_yaml.emit.changes import Changes
+    from robocomp_yaml.transactions.changes import Changes
 
 SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
 
@@ -36,7 +36,7 @@ _WOULD = {
 
 
 class File(msgspec.Struct, frozen=True):
-    """One file and what became of it: `action` as in `emit.changes`, `orig` where an earlier text is kept, `diff` its
+    """One file and what became of it: `action` as in `changes`, `orig` where an earlier text is kept, `diff` its
     changes when they were asked for."""
 
     root: str

@@ -29,10 +29,10 @@ from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
 from robocomp_yaml.source import text as source_text
-from robocomp_yaml.source import whole_file
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
+from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.values import paths
 from robocomp_yaml.values import show as values_show
 from robocomp_yaml.values.edit import NotEditable

@@ -34,7 +34,7 @@ def command(
     interface changed is named, with the text to paste; --merge puts it in.
     """
     from robocomp_yaml.commands import _outcome
-    from robocomp_yaml.emit import stamp
+    from robocomp_yaml.transactions import stamp
 
     paths = paths or (".",)
     look_only = dry_run or diff or check

@@ -12,7 +12,7 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._only_deployment import deployments_of, one_of
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.emit.graphs.forms import forms
-from robocomp_yaml.source import whole_file
+from robocomp_yaml.transactions import whole_file
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.graphs.picture import Picture

@@ -27,7 +27,7 @@ class DeploymentView(msgspec.Struct, frozen=True):
 def deployment_document(root: Path, name: str) -> tuple[Path, str]:
     """Path and text: in the workspace's folder of deployments."""
     from robocomp_yaml.emit.render import render
-    from robocomp_yaml.source.workspace_files import modeline
+    from robocomp_yaml.link.workspace_files import modeline
 
     path = root / "deployments" / f"{name.lower()}.ddsl.yaml"
     components = _components(root)

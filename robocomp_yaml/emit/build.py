@@ -17,11 +17,12 @@ from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
+from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import Options
-from robocomp_yaml.emit.plan import FilePlan, RootPlan
 from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 if TYPE_CHECKING:
     from robocomp_yaml.model.component import Component
@@ -61,7 +62,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             root = slice_root(linked)
             owner = os.path.relpath(linked.module.path, root)
             needed = [linked, *_imports(linked, lambda other, root=root: other in asked and slice_root(other) == root)]
-            result.plans.append(RootPlan(root, owner, list(slices(needed))))
+            result.plans.append(RootPlan(root, owner, tuple(slices(needed))))
         else:
             result.left_out.add(asked[linked])
     for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
@@ -74,12 +75,12 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
 
             plan = component_plan(component, options, slices, program)
             sources = _documents_of(component)
-            plan.files = [replace(file, sources=(*sources, *file.sources)) for file in plan.files]
+            files = [replace(file, sources=(*sources, *file.sources)) for file in plan.files]
             if any(document.path in state.faulty for document in values_of(component, program)):
                 # What is wrong has been said; what the values wrote before stays until they are right again.
-                files = [file for file in plan.files if not file.path.startswith("etc/")]
-                plan = RootPlan(plan.root, plan.owner, files, partial=True)
-            result.plans.append(plan)
+                files = [file for file in files if not is_settings(file.path)]
+                plan = replace(plan, partial=True)
+            result.plans.append(replace(plan, files=tuple(files)))
         else:
             result.left_out.add(real)
     result.left_out |= _unused(program, state, result.left_out)

@@ -15,7 +15,7 @@ import msgspec
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.plan import CONFIG
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, default_port, next_free
 from robocomp_yaml.source import properties

@@ -23,8 +23,8 @@ class Disk:
 
     All that it was asked is remembered, by the path that was asked for: `contents`, the bytes of each file that was
     read; `states`, what there was (FILE, FOLDER, OTHER such as a pipe or a link to nowhere, NOTHING); `listed`, the
-    documents in a folder; `seen`, all names in a folder; `walked`, what `documents_below` found there. `unreadable` says that something could not be
-    read, which may become otherwise without any trace.
+    documents in a folder; `seen`, all names in a folder; `walked`, what `documents_below` found there. `unreadable`
+    says that something could not be read, which may become otherwise without any trace.
     """
 
     def __init__(self, overlay: Mapping[str, bytes] | None = None) -> None:

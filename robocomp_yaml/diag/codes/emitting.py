@@ -15,6 +15,9 @@ _DOCUMENTS = {
 _OTHER = "component: OtherComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n"
 _OURS = '{{"version": 1, "files": {{"slice/Speech.ice": {{"hash": "{}", "owners": ["speech.cdsl.yaml"]}}}}}}\n'
 
+APART = "give each component a folder of its own, and each interface document a name of its own"
+USERS_PLACES = "what is yours belongs in src/ and etc/"
+
 NOT_OURS = Code(
     "RC6001",
     "error",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from robocomp_yaml.emit.plan import CONFIG
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.source import properties
 
 _NEEDED = r"(?P<name>.+?)(?:Topic)?\.Endpoints|(?P<proxy>.+)Proxy|(?P<manager>TopicManager)\.Proxy"

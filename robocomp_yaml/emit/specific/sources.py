@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Iterator
 
-from robocomp_yaml.emit.places import Root
 from robocomp_yaml.emit.specific.code import CLASS, Code
 from robocomp_yaml.emit.specific.reading import is_code, read
+from robocomp_yaml.transactions.places import Root
 
 _LARGEST = 1_000_000  # bytes; a larger file is data, not the user's code
 

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable, Iterator, Sequence
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit.plan import SOURCES
+from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Program
 
@@ -18,9 +18,9 @@ def of_written(program: Program, diagnostics: Sequence[Diagnostic], linker: Link
         return
     from robocomp_yaml.emit.build import build
     from robocomp_yaml.emit.options import Options
-    from robocomp_yaml.emit.plan import RootPlan
     from robocomp_yaml.emit.ports import assign
     from robocomp_yaml.emit.specific.review import review
+    from robocomp_yaml.transactions.plan import RootPlan
 
     languages = {program.components[real].component.language.name for real in program.asked_components()}
     options = Options(

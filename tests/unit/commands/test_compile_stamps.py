@@ -13,7 +13,7 @@ from robocomp_yaml.commands._compiling import Run
 from robocomp_yaml.commands._outcome import Outcome
 from robocomp_yaml.diag.code import Code, Files, Repeated
 from robocomp_yaml.diag.codes import table
-from robocomp_yaml.emit import stamp
+from robocomp_yaml.transactions import stamp
 
 # What cannot be read may become readable without any trace; whether programs are there is for `check` alone; of files
 # that a compile refuses to write, more is looked at than is remembered.

@@ -8,11 +8,11 @@ import pytest
 from talk import component, workspace
 
 from robocomp_yaml.emit import config, ports
-from robocomp_yaml.emit.plan import ONCE
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.transactions.plan import ONCE
 
 @pytest.fixture(autouse=True)
 def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -64,7 +64,7 @@ def test_what_was_read_and_missed_is_remembered(tmp_path: Path) -> None:
     write_tree(tmp_path, {"x.yaml": "", "e/y.YAML": ""})
     os.symlink("nowhere", tmp_path / "link")
     assert disk.names(str(tmp_path)) == ["a", "b", "e", "link", "new", "x.yaml"]
-    assert disk.documents(str(tmp_path)) == ["x.yaml"] and disk.documents(d) == [] and disk.documents(str(tmp_path / "e")) == ["y.YAML"]
+    assert [disk.documents(path) for path in (str(tmp_path), d, str(tmp_path / "e"))] == [["x.yaml"], [], ["y.YAML"]]
     assert disk.listed == {str(tmp_path): ["x.yaml"], d: [], str(tmp_path / "e"): ["y.YAML"]}
     assert disk.state(str(tmp_path / "link")) == OTHER and disk.state(str(tmp_path / "new")) == FOLDER
     assert disk.has_folder(str(tmp_path / "new")) and not disk.has_folder(str(tmp_path / "old"))

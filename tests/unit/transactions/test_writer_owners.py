@@ -6,7 +6,7 @@ from pathlib import Path
 
 from disk import OWNER, actions, always, carry_out, codes, files, once, plan, tree
 
-from robocomp_yaml.emit import manifest, writer
+from robocomp_yaml.transactions import manifest, writer
 
 
 def test_a_file_no_longer_planned_is_removed_with_its_folder(tmp_path: Path) -> None:
@@ -76,7 +76,7 @@ def test_a_root_nobody_plans_for_is_swept_when_asked(tmp_path: Path) -> None:
     (tmp_path / OWNER).unlink()
     changes = writer.prepare([], others=[str(tmp_path)])
     assert actions(changes, tmp_path) == {"generated/a": "remove", "src/b": "left"}
-    assert not writer.commit(changes)
+    assert not writer.commit(changes).diagnostics
     assert files(tmp_path) == {"src/b": "2\n"}
     assert (tmp_path / ".rcyaml/base/src/b").exists(), "a merge may still need it"
 

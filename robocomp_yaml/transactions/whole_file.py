@@ -1,6 +1,6 @@
 """One file written whole or not at all, even where the disk is full or the process is killed in the middle.
 
-What many files have to do together is `emit.atomic`'s.
+What many files have to do together is `atomic`'s.
 """
 
 from __future__ import annotations

@@ -8,8 +8,8 @@ import pytest
 from disk import actions, always, carry_out, codes, once, plan, tree
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit import manifest
-from robocomp_yaml.emit.plan import FilePlan
+from robocomp_yaml.transactions import manifest
+from robocomp_yaml.transactions.plan import FilePlan
 
 
 @pytest.fixture
@@ -82,9 +82,9 @@ def test_things_in_the_way(root: Path) -> None:
 
 def test_a_root_that_is_a_file(tmp_path: Path) -> None:
     (tmp_path / "out").write_text("a file\n")
-    from robocomp_yaml.emit.plan import RootPlan
+    from robocomp_yaml.transactions.plan import RootPlan
 
-    _, said = carry_out(RootPlan(str(tmp_path / "out"), "../x.idsl.yaml", [always("a", "1\n")]))
+    _, said = carry_out(RootPlan(str(tmp_path / "out"), "../x.idsl.yaml", (always("a", "1\n"),)))
     assert codes(said) == ["RC6005"]
 
 

@@ -10,8 +10,15 @@ import pytest
 from disk import actions, always, carry_out, codes, files, once, plan, tree
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit import writer
-from robocomp_yaml.emit.plan import CONFIG, Merge, Merges
+from robocomp_yaml.transactions import writer
+from robocomp_yaml.transactions.plan import FilePlan, Merge, Merges
+
+CONFIG = "etc/config"
+
+
+def stated(text: str) -> FilePlan:
+    """A property file of ours, which a document of the user says."""
+    return FilePlan(CONFIG, text, stated_in=f"{CONFIG}.yaml")
 
 
 def test_the_first_compile_writes_everything(tmp_path: Path) -> None:
@@ -113,7 +120,7 @@ def test_a_config_with_the_same_properties_is_adopted(tmp_path: Path, mine: str 
     (tmp_path / "etc").mkdir()
     mine = mine.encode() if isinstance(mine, str) else mine
     (tmp_path / CONFIG).write_bytes(mine)
-    _, said = carry_out(plan(tmp_path, always(CONFIG, "a=1\nb=2\n")))
+    _, said = carry_out(plan(tmp_path, stated("a=1\nb=2\n")))
     assert codes(said) == ([] if taken else ["RC6001"])
     assert (tmp_path / CONFIG).read_bytes() == (b"a=1\nb=2\n" if taken else mine)
     if taken:
@@ -123,11 +130,11 @@ def test_a_config_with_the_same_properties_is_adopted(tmp_path: Path, mine: str 
 def test_a_once_file_that_becomes_ours(tmp_path: Path) -> None:
     """`etc/config` does, when a values document appears: rewritten if nobody edited it, else it is the user's."""
     carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
-    _, said = carry_out(plan(tmp_path, always(CONFIG, "a=2\n")))
+    _, said = carry_out(plan(tmp_path, stated("a=2\n")))
     assert not said and (tmp_path / CONFIG).read_text() == "a=2\n"
     carry_out(plan(tmp_path, once(CONFIG, "a=3\n")))
     (tmp_path / CONFIG).write_text("a=4\n")
-    _, said = carry_out(plan(tmp_path, always(CONFIG, "a=5\n")))
+    _, said = carry_out(plan(tmp_path, stated("a=5\n")))
     assert codes(said) == ["RC6010"] and (tmp_path / CONFIG).read_text() == "a=4\n"
     assert f"bring a into {tmp_path / 'etc/config.yaml'};" in said[0].hint
 
@@ -136,14 +143,14 @@ def merge(root: Path, text: str, skeleton: str) -> list[Diagnostic]:
     """As `rcyaml compile --merge` does with one file."""
     merges = Merges({(str(root), CONFIG): Merge((root / CONFIG).read_bytes(), text.encode(), skeleton.encode())})
     prepared = writer.prepare([plan(root, once(CONFIG, skeleton))], merges=merges)
-    return [*prepared.diagnostics, *writer.commit(prepared)]
+    return list(writer.commit(prepared).diagnostics)
 
 
 def test_a_merged_file_that_nobody_edited_is_ours(tmp_path: Path) -> None:
     carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
     assert not merge(tmp_path, "a=1\n\nb=1\n", "a=9\nb=1\n")
     assert not merge(tmp_path, "a=1\n\nb=1\n\nc=1\n", "a=9\nb=1\nc=1\n")
-    _, said = carry_out(plan(tmp_path, always(CONFIG, "z=0\n")))
+    _, said = carry_out(plan(tmp_path, stated("z=0\n")))
     assert not said and (tmp_path / CONFIG).read_text() == "z=0\n"
     assert not list(tmp_path.rglob("*.orig"))
 
@@ -154,10 +161,10 @@ def test_a_merge_does_not_make_the_users_lines_ours(tmp_path: Path, first: str) 
     (tmp_path / CONFIG).write_text(first)
     assert not merge(tmp_path, f"{first}\nb=1\n", "a=1\nb=1\n")
     assert not merge(tmp_path, f"{first}\nb=1\n\nc=1\n", "a=1\nb=1\nc=1\n")
-    _, said = carry_out(plan(tmp_path, always(CONFIG, "a=1\nb=1\n")))
+    _, said = carry_out(plan(tmp_path, stated("a=1\nb=1\n")))
     assert codes(said) == ["RC6010"] and "mine=1" in (tmp_path / CONFIG).read_text()
     assert "bring mine into" in said[0].hint
-    _, said = carry_out(plan(tmp_path, always(CONFIG, "mine=1\nz=0\n")))
+    _, said = carry_out(plan(tmp_path, stated("mine=1\nz=0\n")))
     assert not said and "mine=1" in (tmp_path / "etc/config.orig").read_text()
 
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 from contextlib import suppress
 
 import msgspec
 
-from robocomp_yaml.emit.places import STATE
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions.places import STATE
 
 PATH = f"{STATE}/manifest.json"
 BASE = f"{STATE}/base"
@@ -29,8 +30,8 @@ class Entry(msgspec.Struct, frozen=True):
     once: bool = False
 
 
-class Manifest(msgspec.Struct):
-    files: dict[str, Entry] = {}
+class Manifest(msgspec.Struct, frozen=True):
+    files: Mapping[str, Entry] = {}
 
     def text(self) -> str:
         """One line a file, so that versions compare well."""

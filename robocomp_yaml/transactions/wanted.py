@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import msgspec
 from msgspec.structs import replace
@@ -11,23 +11,24 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.manifest import Entry
-from robocomp_yaml.emit.places import Root
-from robocomp_yaml.emit.plan import FilePlan, RootPlan
+from robocomp_yaml.transactions.manifest import Entry
+from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 
-class Wanted(msgspec.Struct):
+class Wanted(msgspec.Struct, frozen=True):
     plan: FilePlan
-    owners: list[str]
+    owners: tuple[str, ...]
 
 
-class WantedRoot(msgspec.Struct):
-    """All plans for one root. `owners` says of each owner whether its plan was partial."""
+class WantedRoot(msgspec.Struct, frozen=True):
+    """All plans for one root. `owners` says of each owner whether its plan was partial; `contested` are the paths that
+    two of them want with different contents."""
 
     root: Root
-    files: dict[str, Wanted] = {}
-    owners: dict[str, bool] = {}
-    contested: dict[tuple[str, str], list[str]] = {}
+    files: Mapping[str, Wanted] = {}
+    owners: Mapping[str, bool] = {}
+    contested: Mapping[tuple[str, str], Sequence[str]] = {}
 
     def diagnostics(self) -> Iterator[Diagnostic]:
         """One for each two documents that want the same files with different contents, whatever the number."""
@@ -37,7 +38,7 @@ class WantedRoot(msgspec.Struct):
             yield codes.CONTESTED.at(
                 Span(documents[1]), path=f"'{self.root.shown(paths[0])}'{more}", one=documents[0], other=documents[1],
                 related=[Related("the other document", Span(documents[0]))],
-                hint="give each component a folder of its own, and each interface document a name of its own",
+                hint=codes.APART,
             )
 
     def holders(self, path: str, entry: Entry | None) -> tuple[str, ...]:
@@ -72,31 +73,40 @@ def _is_gone(path: str) -> bool:
 
 def by_root(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[WantedRoot]:
     """One for each root, sorted; `others` are roots to look at though nothing is planned there."""
-    roots: dict[str, WantedRoot] = {}
-    spelled: dict[str, WantedRoot] = {}
+    roots: dict[str, tuple[Root, list[RootPlan]]] = {}
+    spelled: dict[str, list[RootPlan]] = {}
 
-    def of(path: str) -> WantedRoot:
+    def plans_of(path: str) -> list[RootPlan]:
         if path not in spelled:
             root = Root(path)
-            spelled[path] = roots.setdefault(root.real, WantedRoot(root))
+            spelled[path] = roots.setdefault(root.real, (root, []))[1]
         return spelled[path]
 
     for path in others:
-        of(path)
+        plans_of(path)
     for plan in plans:
-        wanted = of(plan.root)
-        wanted.owners[plan.owner] = plan.partial
+        plans_of(plan.root).append(plan)
+    return [_together(*roots[real]) for real in sorted(roots)]
+
+
+def _together(root: Root, plans: Iterable[RootPlan]) -> WantedRoot:
+    files: dict[str, Wanted] = {}
+    owners: dict[str, bool] = {}
+    contested: dict[tuple[str, str], list[str]] = {}
+    for plan in plans:
+        owners[plan.owner] = plan.partial
         for file in plan.files:
-            _want(wanted, file, plan.owner)
-    return [roots[real] for real in sorted(roots)]
-
-
-def _want(wanted: WantedRoot, file: FilePlan, owner: str) -> None:
-    first = wanted.files.setdefault(file.path, Wanted(file, []))
-    sources = tuple(dict.fromkeys((*first.plan.sources, *file.sources)))
-    if sources != first.plan.sources:  # the same text may come from several documents
-        first.plan = replace(first.plan, sources=sources)
-    if first.plan != replace(file, sources=sources):
-        wanted.contested.setdefault((first.owners[0], owner), []).append(file.path)
-    elif owner not in first.owners:
-        first.owners.append(owner)
+            first = files.get(file.path)
+            if first is None:
+                files[file.path] = Wanted(file, (plan.owner,))
+                continue
+            # The same text may come from several documents.
+            sources = tuple(dict.fromkeys((*first.plan.sources, *file.sources)))
+            joined = first.plan if sources == first.plan.sources else replace(first.plan, sources=sources)
+            holders = first.owners
+            if joined != replace(file, sources=sources):
+                contested.setdefault((first.owners[0], plan.owner), []).append(file.path)
+            elif plan.owner not in holders:
+                holders = (*holders, plan.owner)
+            files[file.path] = Wanted(joined, holders)
+    return WantedRoot(root, files, owners, contested)

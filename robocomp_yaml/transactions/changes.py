@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit.atomic import Step
-from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE
+from robocomp_yaml.transactions.atomic import Step
+from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE
 
 CREATE, UPDATE, ADOPT, EDITED, MERGE = "create", "update", "adopt", "edited", "merge"
 REMOVE, UNCHANGED, KEPT, LEFT, REFUSED = "remove", "unchanged", "kept", "left", "refused"
@@ -37,17 +37,16 @@ class Change(msgspec.Struct, frozen=True):
     orig: str = ""
     secrets: tuple[str, ...] = ()
 
-    def diff(self) -> str:
-        """A unified diff, which `patch` takes: bytes that are no text stay what they are. Secrets of property files are
-        hidden."""
+    def diff(self, *, properties: bool = False) -> str:
+        """A unified diff, which `patch` takes: bytes that are no text stay what they are. Where the lines of the file
+        are `properties`, secrets in them are hidden."""
         before, after = ((data or b"").decode("utf-8", "surrogateescape") for data in (self.before, self.after))
         found = unified(
             before, after,
             os.devnull if self.before is None else f"a/{self.path}",
             os.devnull if self.after is None else f"b/{self.path}",
         )
-        is_config = os.path.basename(os.path.dirname(self.path)) == "etc"
-        return "".join(map(self._shown, found.splitlines(keepends=True))) if is_config else found
+        return "".join(map(self._shown, found.splitlines(keepends=True))) if properties else found
 
     def _shown(self, line: str) -> str:
         key, equals, value = line[1:].partition("=")
@@ -58,30 +57,31 @@ class Change(msgspec.Struct, frozen=True):
         return line if said == value.strip() else f"{line[0]}{key}={said}{end}"
 
 
-class RootChanges(msgspec.Struct):
-    """The changes below one output root, with the steps that make them. A `refused` root gets no steps.
+class RootChanges(msgspec.Struct, frozen=True):
+    """The changes below one output root, with the steps that make them. A `refused` root has no steps.
 
     `settled` are the files that then hold what rcyaml wrote, with their content; `once` those that must only exist.
     """
 
     root: str
     real: str
-    changes: list[Change] = []
-    steps: list[Step] = []
-    settled: dict[str, bytes] = {}
-    once: list[str] = []
+    changes: tuple[Change, ...] = ()
+    steps: tuple[Step, ...] = ()
+    settled: Mapping[str, bytes] = {}
+    once: tuple[str, ...] = ()
     refused: bool = False
 
-    def refuse(self) -> None:
-        """Nothing of this root is written."""
-        self.refused = True
-        self.steps.clear()
-        self.changes = [replace(c, action=REFUSED, orig="") if c.action in WRITING else c for c in self.changes]
+    def as_refused(self) -> RootChanges:
+        """The same where nothing of this root is written."""
+        changes = [replace(c, action=REFUSED, orig="") if c.action in WRITING else c for c in self.changes]
+        return replace(self, changes=tuple(changes), steps=(), refused=True)
 
 
-class Changes(msgspec.Struct):
-    roots: list[RootChanges] = []
-    diagnostics: list[Diagnostic] = []
+class Changes(msgspec.Struct, frozen=True):
+    """What happens below all roots, and what there is to say of it."""
+
+    roots: tuple[RootChanges, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
 
     def __iter__(self) -> Iterator[Change]:
         for root in self.roots:

@@ -12,10 +12,10 @@ import time
 from pathlib import Path
 
 import pytest
-from disk import OWNER, Disk, always, carry_out, codes, killed_in, once, plan, tree
+from disk import OWNER, Disk, always, carry_out, codes, commit, killed_in, once, plan, tree
 
-from robocomp_yaml.emit import atomic, writer
-from robocomp_yaml.emit.plan import RootPlan
+from robocomp_yaml.transactions import atomic, writer
+from robocomp_yaml.transactions.plan import RootPlan
 
 
 def before(tmp_path: Path) -> None:
@@ -31,7 +31,7 @@ def plans(tmp_path: Path) -> list[RootPlan]:
     changing = (always("generated/a", "2\n"), always("generated/same", "1\n"), once("src/c", "2\n"),
                 once("new/deep/d", "2\n"), always("bin/e", "2\n", executable=True))
     return [plan(tmp_path / "one", *changing), plan(tmp_path / "two", *changing),
-            RootPlan(str(tmp_path / "three/deep"), "../../one/" + OWNER, [always("x/y", "2\n")])]
+            RootPlan(str(tmp_path / "three/deep"), "../../one/" + OWNER, (always("x/y", "2\n"),))]
 
 
 def stamps(root: Path) -> dict[Path, int]:
@@ -42,7 +42,7 @@ def calls_of_a_commit(tmp_path: Path) -> list[str]:
     before(tmp_path)
     changes = writer.prepare(plans(tmp_path))
     with Disk().seen_by_commits() as disk:
-        assert not writer.commit(changes)
+        assert not commit(changes)
     return disk.calls
 
 
@@ -58,7 +58,7 @@ def test_a_failure_at_any_call_leaves_everything_as_it_was(tmp_path: Path) -> No
         error = OSError((errno.ENOSPC, errno.EACCES, errno.EIO)[number % 3], "the disk says no")
         changes = writer.prepare(planned)
         with Disk(number, error).seen_by_commits() as disk:
-            said = writer.commit(changes)
+            said = commit(changes)
         if disk.calls[number - 1] == "unlink" and not said:
             break  # only remnants were left to remove: the new state counted already
         counted += 1
@@ -149,7 +149,7 @@ def test_a_disk_without_links(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     was, when = tree(tmp_path, state=True), stamps(tmp_path)
     with Disk().seen_by_commits() as disk:
         monkeypatch.setattr(atomic._Commit, "finish", no_links)
-        assert codes(writer.commit(changes)) == ["RC6005"]
+        assert codes(commit(changes)) == ["RC6005"]
     assert "replace" in disk.calls
     assert (tree(tmp_path, state=True), stamps(tmp_path)) == (was, when)
 
@@ -158,9 +158,9 @@ def test_a_file_that_changes_between_look_and_write(tmp_path: Path) -> None:
     carry_out(plan(tmp_path, always("a", "1\n")))
     changes = writer.prepare([plan(tmp_path, always("a", "2\n"), always("b", "2\n"))])
     (tmp_path / "a").write_text("mine\n")
-    said = writer.commit(changes)
-    assert codes(said) == ["RC6005"] and "run it again" in said[0].message
-    assert [change.action for change in changes] == ["refused", "refused"]
+    done = writer.commit(changes)
+    assert codes(done.diagnostics) == ["RC6005"] and "run it again" in done.diagnostics[0].message
+    assert [change.action for change in done] == ["refused", "refused"]
     assert tree(tmp_path) == {OWNER: "", "a": "mine\n"}
 
 
@@ -169,7 +169,7 @@ def test_a_folder_that_becomes_a_link_between_look_and_write(tmp_path: Path) -> 
     outside.mkdir()
     changes = writer.prepare([plan(root, always("generated/a", "2\n"))])
     (root / "generated").symlink_to(outside)
-    assert codes(writer.commit(changes)) == ["RC6005"]
+    assert codes(commit(changes)) == ["RC6005"]
     assert not list(outside.iterdir())
 
 
@@ -187,10 +187,10 @@ def test_two_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 _COMPILE = """
 import sys
-from robocomp_yaml.emit import writer
-from robocomp_yaml.emit.plan import FilePlan, RootPlan
+from robocomp_yaml.transactions import writer
+from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 root, text = sys.argv[1:]
-plans = [RootPlan(root, "o", [FilePlan(f"generated/{n}", text) for n in range(200)])]
+plans = [RootPlan(root, "o", tuple(FilePlan(f"generated/{n}", text) for n in range(200)))]
 print(flush=True)
 for _ in range(50):
     writer.recover(plans)
@@ -212,7 +212,7 @@ def test_a_real_kill(tmp_path: Path) -> None:
     one.communicate()
     said = two.communicate()[1]
     assert two.returncode == 0, said
-    planned = RootPlan(str(tmp_path), "o", [always(f"generated/{n}", "end\n") for n in range(200)])
+    planned = RootPlan(str(tmp_path), "o", tuple(always(f"generated/{n}", "end\n") for n in range(200)))
     assert not carry_out(planned)[1]
     texts = tree(tmp_path / "generated")
     assert {text for name, text in texts.items() if not name.endswith(".orig")} == {"end\n"}

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robocomp_yaml.emit import manifest
-from robocomp_yaml.emit.manifest import Entry, Manifest
+from robocomp_yaml.transactions import manifest
+from robocomp_yaml.transactions.manifest import Entry, Manifest
 
 entries = st.builds(Entry, st.text(), st.lists(st.text()).map(tuple), st.booleans())
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_yaml.source import whole_file
+from robocomp_yaml.transactions import whole_file
 
 
 def without_nameless_files(monkeypatch: pytest.MonkeyPatch) -> None:

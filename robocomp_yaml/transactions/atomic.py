@@ -12,11 +12,11 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
-from robocomp_yaml.emit.places import STATE, Root, contents, in_words
-from robocomp_yaml.emit.plan import ANYBODY
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
+from robocomp_yaml.transactions.places import STATE, Root, contents, in_words
+from robocomp_yaml.transactions.plan import ANYBODY
 
 PATIENCE = 10.0
 """Seconds to wait for another rcyaml that writes into the same root."""

@@ -13,8 +13,8 @@ import msgspec
 import pytest
 
 from conftest import write_tree
-from robocomp_yaml.emit import stamp
 from robocomp_yaml.source.disk import FOLDER, NOTHING
+from robocomp_yaml.transactions import stamp
 
 KEY = "0" * 8
 
@@ -202,7 +202,7 @@ def test_old_stamps_go() -> None:
 
 
 def test_little_is_imported() -> None:
-    code = "import sys, robocomp_yaml.emit.stamp as s; print(*(m.partition('.')[0] for m in sys.modules))"
+    code = "import sys, robocomp_yaml.transactions.stamp as s; print(*(m.partition('.')[0] for m in sys.modules))"
     out = subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, check=True, env={
         "PYTHONPATH": f"{Path(stamp.__file__).parents[2]}:{Path(msgspec.__file__).parents[1]}"
     })

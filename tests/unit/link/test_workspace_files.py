@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_yaml.source import workspace_files
+from robocomp_yaml.link import workspace_files
 
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")
 EVERYTHING = {*(f".rcyaml/schemas/{kind}.schema.json" for kind in KINDS), ".vscode/settings.json"}

@@ -1,4 +1,4 @@
-"""The writer: looks what a plan would change on the disk (`prepare`), and changes it, all or nothing (`commit`)."""
+"""The writer: looks what plans would change on the disk (`prepare`), and changes it, all or nothing (`commit`)."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.emit import atomic, changes, manifest, ownership
-from robocomp_yaml.emit.changes import Change, Changes, RootChanges
-from robocomp_yaml.emit.journal import JOURNAL, JOURNAL_DONE, free_name
-from robocomp_yaml.emit.manifest import Entry, Manifest
-from robocomp_yaml.emit.places import Found
-from robocomp_yaml.emit.plan import ANYBODY, CONFIG, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
-from robocomp_yaml.emit.wanted import WantedRoot, by_root
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.transactions import atomic, changes, manifest, ownership
+from robocomp_yaml.transactions.changes import Change, Changes, RootChanges
+from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, free_name
+from robocomp_yaml.transactions.manifest import Entry, Manifest
+from robocomp_yaml.transactions.places import Found
+from robocomp_yaml.transactions.plan import ANYBODY, ONCE, FilePlan, Merge, Merges, RootPlan, rights_of
+from robocomp_yaml.transactions.wanted import WantedRoot, by_root
 
 
 def prepare(
@@ -29,35 +29,30 @@ def prepare(
     `adopt` also takes over files that rcyaml did not write. `others` are roots with a manifest for which nothing is
     planned: what they hold for documents that are gone is removed. `merges` are those of the user's own files.
     """
-    result = Changes()
     roots = by_root(plans, others)
     planned = {
         f"{wanted.root.real}/{path}": (wanted.root.real, file.plan.text)
         for wanted in roots for path, file in wanted.files.items()
     }  # fmt: skip
-    for wanted in roots:
-        root = _Root(wanted, adopt, merges or Merges(), planned)
-        root.prepare()
-        result.roots.append(root.result)
-        result.diagnostics += root.diagnostics
-    return result
+    looks = [_Root(wanted, adopt, merges or Merges(), planned) for wanted in roots]
+    found = tuple(look.prepare() for look in looks)
+    return Changes(found, tuple(diagnostic for look in looks for diagnostic in look.diagnostics))
 
 
-def commit(prepared: Changes) -> list[Diagnostic]:
-    """Makes the changes of all roots that had no refusal; where one of them cannot be made, none is, and all of
-    `prepared` are refused."""
-    batches = [atomic.Batch(root.real, tuple(root.steps)) for root in prepared.roots if root.steps]
+def commit(prepared: Changes) -> Changes:
+    """Makes the changes of all roots that had no refusal, and says what came of them: where one of them cannot be made,
+    none is, and all are refused."""
+    batches = [atomic.Batch(root.real, root.steps) for root in prepared.roots if root.steps]
     try:
         atomic.carry_out(batches)
     except atomic.WriteFailed as failure:
-        for root in prepared.roots:
-            root.refuse()
         shown = next((root.root for root in prepared.roots if root.real == failure.root), failure.root)
         path = os.path.normpath(os.path.join(shown, failure.path))
-        return [codes.CANNOT_WRITE.at(
+        said = codes.CANNOT_WRITE.at(
             Span(path), path=path, reason=failure.reason, hint="nothing was changed by this run"
-        )]
-    return []
+        )
+        return Changes(tuple(root.as_refused() for root in prepared.roots), (*prepared.diagnostics, said))
+    return prepared
 
 
 def recover(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Diagnostic]:
@@ -96,16 +91,18 @@ class _Root:
         self.merges = merges
         self.planned = planned
         self.old = Manifest()
-        self.new = Manifest()
+        self.entries: dict[str, Entry] = {}
         self.diagnostics = list(wanted.diagnostics())
         self.culprits: set[str] = set()
-        self.result = RootChanges(wanted.root.path, wanted.root.real)
+        self.changes: list[Change] = []
+        self.steps: list[atomic.Step] = []
+        self.settled: dict[str, bytes] = {}
+        self.once: list[str] = []
 
-    def prepare(self) -> None:
+    def prepare(self) -> RootChanges:
         manifest_found = self.root.look(manifest.PATH)
         if not self._usable(manifest_found):
-            self.result.refuse()
-            return
+            return self._result().as_refused()
         for path in sorted({*self.wanted.files, *self.old.files}):
             wanted, entry = self.wanted.files.get(path), self.old.files.get(path)
             if wanted is None:
@@ -116,7 +113,13 @@ class _Root:
                 self._always(wanted.plan, entry)
         self._manifest(manifest_found)
         if any(diagnostic.severity == "error" for diagnostic in self.diagnostics) or self._cannot_merge():
-            self.result.refuse()
+            return self._result().as_refused()
+        return self._result()
+
+    def _result(self) -> RootChanges:
+        return RootChanges(
+            self.root.path, self.root.real, tuple(self.changes), tuple(self.steps), self.settled, tuple(self.once)
+        )
 
     def _usable(self, found: Found) -> bool:
         if found.problem:
@@ -140,7 +143,7 @@ class _Root:
         merge = self.merges.files.get((self.root.real, plan.path))
         found = self.root.look(plan.path, read=entry is None or merge is not None)
         text = plan.text.encode()
-        self.result.once.append(plan.path)
+        self.once.append(plan.path)
         if merge and found.data == merge.before:
             self._merge(plan, found, merge, entry)
         elif found.exists:
@@ -188,13 +191,13 @@ class _Root:
         elif entry and not entry.once:
             change = self._write(plan, found, changes.EDITED)
             self._warn_edited(plan.path, f"it is kept as '{os.path.basename(change.orig)}'")
-        elif self.adopt or self._loses_nothing(plan.path, found.data or b"", text):
+        elif self.adopt or self._loses_nothing(plan, found.data or b"", text):
             self._write(plan, found, changes.ADOPT)
         else:
             self._note(plan.path, changes.REFUSED, found.data, text)
-            self.diagnostics.append(self._not_ours(plan.path, found.data or b"", text, entry))
+            self.diagnostics.append(self._not_ours(plan, found.data or b"", text, entry))
             return
-        self.result.settled[plan.path] = text
+        self.settled[plan.path] = text
         self._own(plan.path, digest(text))
         if entry and entry.once:
             self._drop_base(plan.path)
@@ -208,32 +211,32 @@ class _Root:
         """Whether rcyaml wrote it, for this root or for another one that has it, too."""
         return ownership.is_as_put(entry, data) or manifest.any_has(f"{self.root.real}/{path}", digest(data))
 
-    def _loses_nothing(self, path: str, data: bytes, text: bytes) -> bool:
-        """Whether a configuration that is the user's has no entry of its own that another text would not have."""
-        if path != CONFIG:
+    def _loses_nothing(self, plan: FilePlan, data: bytes, text: bytes) -> bool:
+        """Whether a property file that is the user's has no entry of its own that another text would not have."""
+        if not plan.stated_in:
             return False
-        base = self._base(path)
+        base = self._base(plan.path)
         return ownership.lost(base, data, text) == [] and (base is not None or ownership.lost(None, text, data) == [])
 
     def _base(self, path: str) -> bytes | None:
         return self.root.look(f"{manifest.BASE}/{path}").data if path in self.old.files else None
 
-    def _not_ours(self, path: str, data: bytes, text: bytes, entry: Entry | None) -> Diagnostic:
-        span = Span(self.root.shown(path))
-        adopt = typed("rcyaml", "compile", "--adopt", self.root.shown(self.wanted.files[path].owners[0]))
-        if entry is None or path != CONFIG:
-            return codes.NOT_OURS.at(span, path=path, hint=f"`{adopt}` writes it, and keeps yours as .orig")
-        keys = ", ".join(ownership.lost(self._base(path), data, text) or ["them"])
+    def _not_ours(self, plan: FilePlan, data: bytes, text: bytes, entry: Entry | None) -> Diagnostic:
+        span = Span(self.root.shown(plan.path))
+        adopt = typed("rcyaml", "compile", "--adopt", self.root.shown(self.wanted.files[plan.path].owners[0]))
+        if entry is None or not plan.stated_in:
+            return codes.NOT_OURS.at(span, path=plan.path, hint=f"`{adopt}` writes it, and keeps yours as .orig")
+        keys = ", ".join(ownership.lost(self._base(plan.path), data, text) or ["them"])
         return codes.CHANGED.at(
-            span, path=path, hint=f"bring {keys} into {span.file}.yaml; `{adopt}` then rewrites the file, and keeps "
-            "yours as .orig",
+            span, path=plan.path, hint=f"bring {keys} into {self.root.shown(plan.stated_in)}; `{adopt}` then rewrites "
+            "the file, and keeps yours as .orig",
         )
 
     def _unwanted(self, path: str, entry: Entry) -> None:
         """A file of the manifest that no plan asks for: it stays as long as some document may still want it."""
         owners = self.wanted.holders(path, entry)
         if owners:
-            self.new.files[path] = replace(entry, owners=owners)
+            self.entries[path] = replace(entry, owners=owners)
             return
         if f"{self.root.real}/{path}" in self.planned:
             return
@@ -247,11 +250,11 @@ class _Root:
             return
         elif self._is_ours(path, found.data or b"", entry):
             self._note(path, changes.REMOVE, found.data)
-            self.result.steps.append(atomic.Step(path, found.data, None))
+            self.steps.append(atomic.Step(path, found.data, None))
         else:
             orig = free_name(f"{self.root.real}/{path}")[len(self.root.real) + 1 :]
             self._note(path, changes.EDITED, found.data, orig=orig)
-            self.result.steps.append(atomic.Step(path, found.data, None, orig=orig))
+            self.steps.append(atomic.Step(path, found.data, None, orig=orig))
             self._warn_edited(path, f"it is no longer generated, and kept as '{os.path.basename(orig)}'")
 
     def _write(self, plan: FilePlan, found: Found, action: str, text: bytes | None = None) -> Change:
@@ -265,7 +268,7 @@ class _Root:
             # Whoever may read it may run it.
             mode |= (mode & 0o444) >> 2
         if not self._has_another(plan):
-            self.result.steps.append(atomic.Step(
+            self.steps.append(atomic.Step(
                 plan.path, found.data if found.exists else None, text, plan.executable, mode, orig,
                 rights_of(plan.sources),
             ))
@@ -278,11 +281,11 @@ class _Root:
         wanted = self.wanted.files.get(path)
         secrets = wanted.plan.secrets if wanted else ()
         change = Change(shown(path), action, before, after, shown(orig) if orig else "", secrets)
-        self.result.changes.append(change)
+        self.changes.append(change)
         return change
 
     def _own(self, path: str, hash_: str, *, once: bool = False) -> None:
-        self.new.files[path] = Entry(hash_, self.wanted.holders(path, self.old.files.get(path)), once)
+        self.entries[path] = Entry(hash_, self.wanted.holders(path, self.old.files.get(path)), once)
 
     def _refuse(self, path: str, found: Found) -> None:
         self._note(path, changes.REFUSED)
@@ -293,7 +296,7 @@ class _Root:
 
     def _warn_edited(self, path: str, what: str) -> None:
         self.diagnostics.append(codes.EDITED.at(
-            Span(self.root.shown(path)), path=path, what=what, hint="what is yours belongs in src/ and etc/"
+            Span(self.root.shown(path)), path=path, what=what, hint=codes.USERS_PLACES
         ))
 
     def _keep_base(self, plan: FilePlan, text: bytes) -> None:
@@ -305,11 +308,12 @@ class _Root:
 
     def _manifest(self, found: Found) -> None:
         text = found.data
-        if self.new != self.old or not self.new.files:
-            text = self.new.text().encode() if self.new.files else None
+        new = Manifest(self.entries)
+        if new != self.old or not new.files:
+            text = new.text().encode() if new.files else None
             self._remember(manifest.PATH, text)
         if text is not None:
-            self.result.settled[manifest.PATH] = text
+            self.settled[manifest.PATH] = text
 
     def _remember(self, path: str, text: bytes | None, rights: int = ANYBODY) -> None:
         """A file of our own, which no report mentions."""
@@ -318,4 +322,4 @@ class _Root:
             self._refuse(path, found)
         elif found.data != text:
             before = found.data if found.exists else None
-            self.result.steps.append(atomic.Step(path, before, text, mode=found.mode or None, rights=rights))
+            self.steps.append(atomic.Step(path, before, text, mode=found.mode or None, rights=rights))

@@ -8,10 +8,10 @@ unchanged counts only once a document asks for it to be rewritten, as `etc/confi
 
 from __future__ import annotations
 
-from robocomp_yaml.emit.manifest import Entry
-from robocomp_yaml.emit.plan import Merge
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.transactions.manifest import Entry
+from robocomp_yaml.transactions.plan import Merge
 
 
 def is_as_put(entry: Entry | None, data: bytes) -> bool:

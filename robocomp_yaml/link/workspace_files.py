@@ -7,10 +7,10 @@ import os
 from pathlib import Path
 
 from robocomp_yaml import resources
-from robocomp_yaml.source import whole_file
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.json_comments import Unreadable, with_members
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions import whole_file
 
 FOLDER = ".rcyaml/schemas"
 SETTINGS = ".vscode/settings.json"

@@ -1,16 +1,14 @@
-"""The emit plan: files to be, each with its text and its policy. Pure data; `writer` carries it out."""
+"""What is wanted below some folders: files, each with its text and its policy. Pure data; `writer` carries it out."""
 
 from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Set
 
 import msgspec
 
 ALWAYS, ONCE = "always", "once"
-
-CONFIG, SOURCES = "etc/config", "src"
 
 ANYBODY = 0o066
 """The rights of a file that is nobody's secret."""
@@ -19,7 +17,8 @@ ANYBODY = 0o066
 class FilePlan(msgspec.Struct, frozen=True):
     """One file below an output root. `path` is relative, with '/'. `policy` ALWAYS: ours, rewritten whenever it
     changes. ONCE: written if it is missing, then the user's. `sources` are documents that it is made of: who cannot
-    read those cannot read it. `secrets` are properties in it that are not to be shown."""
+    read those cannot read it. `secrets` are properties in it that are not to be shown. `stated_in` is, of a property
+    file, the path of the user's document that says what it holds: where to bring entries that would be lost."""
 
     path: str
     text: str
@@ -27,6 +26,7 @@ class FilePlan(msgspec.Struct, frozen=True):
     executable: bool = False
     sources: tuple[str, ...] = ()
     secrets: tuple[str, ...] = ()
+    stated_in: str = ""
 
 
 def rights_of(sources: Iterable[str]) -> int:
@@ -48,14 +48,14 @@ class Merge(msgspec.Struct, frozen=True):
     base: bytes
 
 
-class Merges(msgspec.Struct):
+class Merges(msgspec.Struct, frozen=True):
     """Merges by real root and path; in a `refused` root nothing may be written."""
 
-    files: dict[tuple[str, str], Merge] = {}
-    refused: set[str] = set()
+    files: Mapping[tuple[str, str], Merge] = {}
+    refused: Set[str] = frozenset()
 
 
-class RootPlan(msgspec.Struct):
+class RootPlan(msgspec.Struct, frozen=True):
     """All that one owner (the path of a document relative to `root`, with '/') puts below the folder `root`.
 
     `partial` when only some of it was asked for (one target of several): what is not in `files` then stays.
@@ -63,5 +63,5 @@ class RootPlan(msgspec.Struct):
 
     root: str
     owner: str
-    files: list[FilePlan] = []
+    files: tuple[FilePlan, ...] = ()
     partial: bool = False
