@@ -83,16 +83,26 @@ def take(
 def is_current(stamp: Stamp, find: Callable[[str], Iterable[str]]) -> bool:
     """Whether the run would read, find and leave the same again. `find` lists what is below a folder asked, as it did
     for the run."""
+    try:
+        return (
+            all(os.path.lexists(path) for path in stamp.present)
+            and reads_the_same(stamp, find)
+            and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
+        )
+    except (OSError, ValueError, TypeError):
+        return False
+
+
+def reads_the_same(stamp: Stamp, find: Callable[[str], Iterable[str]]) -> bool:
+    """Whether the run would read and find the same again, whatever became of what it left."""
     real = _Real()
     try:
         return (
             not any(os.path.lexists(path) for path in stamp.absent)
-            and all(os.path.lexists(path) for path in stamp.present)
             and all(list(find(folder)) == found for folder, found in stamp.folders.items())
             and all(documents_in(os.listdir(folder)) == found for folder, found in stamp.names.items())
             and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
-            and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
             and stamp.tool == tool()
         )
     except (OSError, ValueError, TypeError):

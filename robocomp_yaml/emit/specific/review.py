@@ -42,7 +42,7 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
                 continue
             result.merges.files.update({(root.real, path): one for path, one in merged.items()})
             files = [_after(file, merged.get(file.plan.path)) for file in files]
-        result.diagnostics += telling.tell(root, files, root.shown(plan.owner))
+        result.diagnostics += telling.tell(root, files, root.shown(plan.owner), result.contents)
     return result
 
 

@@ -17,18 +17,21 @@ from robocomp_yaml.emit.specific.own import Own
 from robocomp_yaml.emit.specific.reading import is_code, read
 
 
-def tell(root: Root, files: Sequence[Own], document: str) -> Iterator[Diagnostic]:
-    """All that is to be said of the files of the component that a document describes."""
+def tell(root: Root, files: Sequence[Own], document: str, looked: dict[str, bytes]) -> Iterator[Diagnostic]:
+    """All that is to be said of the files of the component that a document describes. `looked` is given the other
+    files of the user that were read for it."""
     merge = f"paste what follows, or let `{typed('rcyaml', 'compile', '--merge', document)}` put it in"
     code = [file for file in files if file.yours is not None and is_code(file.plan.path)]
     if any(not file.is_settled for file in code):
-        yield from _about_class(root, code, merge)
+        yield from _about_class(root, code, merge, looked)
     for file in files:
         if entries.is_entries(file.plan.path) and file.yours is not None and not file.is_settled:
             yield from _about_entries(root, file, merge)
 
 
-def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagnostic]:
+def _about_class(
+    root: Root, files: Sequence[Own], merge: str, looked: dict[str, bytes]
+) -> Iterator[Diagnostic]:
     new = [code for file in files if (code := read(file.plan.path, file.plan.text))]
     base = {file.plan.path: code for file in files if file.base and (code := read(file.plan.path, file.base))}
     yours = [code for file in files if (code := read(file.plan.path, file.yours or ""))]
@@ -37,7 +40,7 @@ def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagn
         # Parts of the class may stand in other files.
         folders = sorted({file.plan.path.rpartition("/")[0] for file in files})
         known = {file.plan.path for file in files}
-        yours += [code for folder in folders for code in sources.others(root, folder, known)]
+        yours += [code for folder in folders for code in sources.others(root, folder, known, looked)]
         found = compare(new, base, yours)
     home = next((code for code in yours if code.place), None)
     if home is None or home.place is None:
