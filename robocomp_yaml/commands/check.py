@@ -35,19 +35,24 @@ def command(
     paths = paths or (".",)
     with _options.progress("reading", paths) as on_read:
         analysis = analyse(paths, include, on_read)
-    told = analysis.with_more([*_on_disk(analysis, environment), *(_missing(analysis) if environment else ())])
+    on_disk = _on_disk(analysis, paths, include, environment)
+    told = analysis.with_more([*on_disk, *(_missing(analysis) if environment else ())])
     _options.report(ctx, format_, told, analysis.program.documents, fail_on)
 
 
-def _on_disk(analysis: Analysis, environment: bool) -> Iterator[Diagnostic]:
+def _on_disk(
+    analysis: Analysis, paths: tuple[str, ...], include: tuple[str, ...], environment: bool
+) -> Iterator[Diagnostic]:
     """What files say that are no documents: each component's `etc/config` and code, and the executables of
     deployments."""
     if analysis.program.components:
+        from robocomp_yaml.commands import _made_already
         from robocomp_yaml.emit import ports
         from robocomp_yaml.emit.specific.written import of_written
 
         yield from ports.clashes(analysis.program.components.values(), analysis.disk)
-        yield from of_written(analysis.program, analysis.diagnostics, analysis.linker)
+        told = _made_already.told_of_code(paths, include)
+        yield from of_written(analysis.program, analysis.diagnostics, analysis.linker) if told is None else told
     if analysis.networks:
         from robocomp_yaml.check.networks import of_environment
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import click
 
 from robocomp_yaml.commands import _fail_on, _options
@@ -33,14 +31,13 @@ def command(
     folder: generated/ is always rewritten, src/ is yours and written only once. What your class lacks after an
     interface changed is named, with the text to paste; --merge puts it in.
     """
-    from robocomp_yaml.commands import _outcome
+    from robocomp_yaml.commands import _made_already, _outcome
     from robocomp_yaml.transactions import stamp
 
     paths = paths or (".",)
     look_only = dry_run or diff or check
     # A run that was made already, of which nothing changed since, is not made again: only told of.
-    name = stamp.key([*paths, "-o", output or "", "-I", *include, "-t", *targets])
-    folder = output or (paths[0] if os.path.isdir(paths[0]) else os.path.dirname(paths[0])) or "."
+    folder, name = _made_already.place(paths, include, output, targets)
     made = None if diff or merge or ctx.obj.verbosity > 0 else stamp.load(folder, name)
     if made is not None and stamp.is_current(made):
         outcome = _outcome.Outcome.of_data(made.replay)

@@ -85,17 +85,27 @@ def take(
 
 def is_current(stamp: Stamp) -> bool:
     """Whether the run would read, find and leave the same again."""
+    try:
+        return (
+            all(os.path.lexists(path) for path in stamp.present)
+            and reads_the_same(stamp)
+            and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
+        )
+    except (OSError, ValueError, TypeError):
+        return False
+
+
+def reads_the_same(stamp: Stamp) -> bool:
+    """Whether the run would read and find the same again, whatever became of what it left."""
     real = _Real()
     try:
         return (
             all(state_of(path) == state for path, state in stamp.states.items())
-            and all(os.path.lexists(path) for path in stamp.present)
             and all(documents_in(names_in(folder)) == found for folder, found in stamp.listed.items())
             and all(names_in(folder) == found for folder, found in stamp.names.items())
             and all(walked(folder) == found for folder, found in stamp.walked.items())
             and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
-            and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
             and stamp.tool == tool()
         )
     except (OSError, ValueError, TypeError):

@@ -16,7 +16,7 @@ from robocomp_yaml.link.references import Name, exceptions_of, groups, kind_of, 
 from robocomp_yaml.model.component import DEFAULT_STANDARD
 from robocomp_yaml.model.cpp_globals import GLOBALS
 from robocomp_yaml.model.cpp_macros import EVER, FAMILIES, is_macro
-from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Struct, TypeRef
+from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Module, Struct, TypeRef
 from robocomp_yaml.source.migrated import is_migrated
 
 _GENERATED = frozenset(("GenericWorker", "Parameters", "SpecificWorker", "Worker", "main"))
@@ -30,6 +30,13 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 users[id(scope)].append(component)
     for linked in program.modules.values():
         yield from _Module(linked, users[id(linked)]).check()
+
+
+def has_taken(module: Module) -> bool:
+    """Whether some component in C++ could not be built with the names of a module."""
+    linked = LinkedModule(module)
+    names = (name.text for definition in module.definitions for group in groups(definition) for name in group)
+    return any(_Module(linked, []).check()) or any(name.startswith(FAMILIES) for name in names)
 
 
 class _Module(msgspec.Struct):
