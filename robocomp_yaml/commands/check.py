@@ -46,13 +46,16 @@ def _on_disk(
     """What files say that are no documents: each component's `etc/config` and code, and the executables of
     deployments."""
     if analysis.program.components:
-        from robocomp_yaml.commands import _made_already
         from robocomp_yaml.emit import ports
-        from robocomp_yaml.emit.specific.written import of_written
+        from robocomp_yaml.emit.specific import written
 
         yield from ports.clashes(analysis.program.components.values(), analysis.disk)
-        told = _made_already.told_of_code(paths, include)
-        yield from of_written(analysis.program, analysis.diagnostics, analysis.linker) if told is None else told
+        if written.has_code(analysis.program):
+            from robocomp_yaml.commands import _made_already
+
+            told = _made_already.told_of_code(paths, include)
+            found = written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
+            yield from found if told is None else told
     if analysis.networks:
         from robocomp_yaml.check.networks import of_environment
 

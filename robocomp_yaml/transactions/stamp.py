@@ -21,7 +21,7 @@ from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.discover import documents_below
 from robocomp_yaml.source.disk import documents_in, names_in, state_of
 from robocomp_yaml.source.inside import stays_inside
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import regular, whole
 
 FOLDER = ".rcyaml/stamps"
 _KEPT = 32
@@ -197,8 +197,10 @@ def walked(folder: str) -> list[str]:
 
 
 def _is_as_written(path: str, hash_: str, may: str) -> bool:
-    status = os.lstat(path)
-    return stat.S_ISREG(status.st_mode) and _may(status) == may and _state(path).split()[0] == hash_
+    if os.path.islink(path):
+        return False
+    data, status = whole(path)
+    return _may(status) == may and digest(data) == hash_
 
 
 def _may(status: os.stat_result) -> str:
@@ -211,8 +213,8 @@ def _readers(status: os.stat_result) -> int:
 
 
 def _state(path: str) -> str:
-    with open(path, "rb", buffering=0, opener=regular) as file:
-        return f"{digest(file.read())} {_readers(os.fstat(file.fileno())):o}"
+    data, status = whole(path)
+    return f"{digest(data)} {_readers(status):o}"
 
 
 def _file(folder: str, name: str) -> str:
