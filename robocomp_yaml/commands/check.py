@@ -54,8 +54,9 @@ def _on_disk(
             from robocomp_yaml.commands import _made_already
 
             told = _made_already.told_of_code(paths, include)
-            found = written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
-            yield from found if told is None else told
+            if told is None:
+                told = written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
+            yield from told
     if analysis.networks:
         from robocomp_yaml.check.networks import of_environment
 
