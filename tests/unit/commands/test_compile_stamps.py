@@ -9,11 +9,10 @@ from pathlib import Path
 import pytest
 
 from conftest import write_tree
-from robocomp_yaml.commands._compiling import Run
-from robocomp_yaml.commands._outcome import Outcome
+from robocomp_yaml import api
+from robocomp_yaml.api import made_already
 from robocomp_yaml.diag.code import Code, Files, Repeated
 from robocomp_yaml.diag.codes import table
-from robocomp_yaml.transactions import stamp
 
 # What cannot be read may become readable without any trace; whether programs are there is for `check` alone; of files
 # that a compile refuses to write, more is looked at than is remembered.
@@ -32,11 +31,11 @@ def _plain(files: Files) -> dict[str, str | bytes | None]:
     return {name: str(it) if isinstance(it, Repeated) else it for name, it in files.items()}
 
 
-def _run(paths: list[str]) -> tuple[Outcome, stamp.Stamp | None]:
-    return Run(tuple(paths), (), None, ()).carry_out()
+def _run(paths: list[str]) -> api.Outcome:
+    return api.load(*paths).compile().apply()
 
 
-def _told(outcome: Outcome) -> object:
+def _told(outcome: api.Outcome) -> object:
     return outcome.diagnostics, sorted((file.path, file.action) for file in outcome.files), outcome.left_out
 
 
@@ -45,11 +44,12 @@ def test_documents_with_errors(row: Code, tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.chdir(write_tree(tmp_path, _plain(row.wrong)))
     paths = _paths(row)
     _run(paths)
-    again, kept = _run(paths)
-    assert kept is not None and stamp.is_current(kept), "every run is made again"
-    assert _told(Outcome.of_data(kept.replay)) == _told(again)
+    again = _run(paths)
+    kept = made_already.outcome(paths, ())
+    assert kept is not None, "every run is made again"
+    assert _told(kept) == _told(again)
     for name in {*row.wrong} - {*row.right}:
         if os.path.lexists(name):
             os.unlink(name) if not os.path.isdir(name) or os.path.islink(name) else os.rmdir(name)
     write_tree(tmp_path, {name: it for name, it in _plain(row.right).items() if row.wrong.get(name) != it})
-    assert not stamp.is_current(kept), "an error stays though its cause has gone"
+    assert made_already.outcome(paths, ()) is None, "an error stays though its cause has gone"
