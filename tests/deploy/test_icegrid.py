@@ -183,8 +183,7 @@ def test_a_killed_node_is_started_again_on_its_host(talk: Deployment, ready: dic
 
 def test_a_host_that_is_cut_off_works_on(talk: Deployment, ready: dict[str, int]) -> None:
     """Nobody knows how it is meanwhile; when it is back, it is found as it was, and nothing is doubled."""
-    if not talk.hosts.prefix:
-        pytest.skip("network namespaces are not permitted here: there is no cable to pull")
+    talk.hosts.need_a_network("so no cable to pull")
     talk.hosts.link("arm", "down")
     try:
         until(lambda: talk.status()["hearer"]["state"] == "lost", "the host does not answer")
