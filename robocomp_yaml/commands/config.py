@@ -7,6 +7,7 @@ import os
 import click
 
 from robocomp_yaml.commands import _options
+from robocomp_yaml.commands._group import Group
 
 
 def _meant(ctx: click.Context, param: click.Parameter, said: str) -> str:
@@ -33,7 +34,7 @@ format_ = click.option("--format", "format_", type=click.Choice(["text", "json"]
 reveal = click.option("--reveal", is_flag=True, help="Show secrets too.")
 
 
-@click.group(short_help="Values of parameters: check, show, change, export.")
+@click.group(cls=Group, short_help="Values of parameters: check, show, change, export.")
 def command() -> None:
     """The values of a component's parameters: without a build, and without a robot.
 
