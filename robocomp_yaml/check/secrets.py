@@ -99,6 +99,7 @@ def hidden(program: Program, documents: Iterable[Document], files: set[str]) -> 
 
 _MORE = {"ddsl": ("set",), "pdsl": ("default",)}
 """Names of keys below which a secret can stand that has another name, where nobody can tell."""
+_ALLOWED = {"values", "enum", "one-of"}
 _COMMENT = ("#", ";", "//", "<!--")
 _KINDS = ("config", "ddsl", "pdsl")
 
@@ -161,6 +162,7 @@ class _Finder:
             yield from self._of_deployment(document, tree)
         else:
             yield from map(Secret, self._of_parameters(document))
+            yield from _of_allowed(tree)
 
     def _of_values(self, document: Document, tree: Mapping) -> Iterator[Scalar]:
         values = self.program.values.get(document.real)
@@ -231,14 +233,29 @@ def _of_defaults(node: Node) -> Iterator[Secret]:
             yield from _of_defaults(item)
 
 
+def _of_allowed(node: Node) -> Iterator[Secret]:
+    """The values that a secret may have: one of them it is."""
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            if isinstance(value, Mapping) and (secrets.is_secret(key.lexeme) or "secret" in value.entries):
+                for word in _ALLOWED & value.entries.keys():
+                    yield from _unsure(value.entries[word][1])
+            yield from _of_allowed(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _of_allowed(item)
+
+
 def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
     """Arguments that are secrets, or hold one."""
     if isinstance(node, Mapping):
         node = node.get("command")
     if not isinstance(node, Sequence):
         return
+    is_value = False  # of the option before it
     for item in node.items:
-        yield from map(Secret, named_nodes(item))
+        yield from map(Secret, plain_below(item) if is_value else named_nodes(item))
+        is_value = isinstance(item, Scalar) and item.lexeme.startswith("-") and secrets.is_one_of(item.lexeme, names)
     words = [item for item in node.items if isinstance(item, Scalar)]
     for item, shown in zip(words, secrets.words((item.lexeme for item in words), names), strict=True):
         if shown != item.lexeme:

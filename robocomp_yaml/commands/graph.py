@@ -13,6 +13,7 @@ from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Command
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.emit.graphs.forms import forms
+from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.transactions import whole_file
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def _picture(path: str, analysis: Analysis) -> Picture | None:
     if not os.path.isdir(path):
         real = os.path.realpath(path)
         network = analysis.networks.get(real)
-        if network is None and not path.endswith("ddsl.yaml"):
+        if network is None and kind_of(path) != "ddsl":
             raise click.UsageError(f"'{path}' is no deployment document (NAME.ddsl.yaml), and no folder")
         return of_network.picture_of(network, analysis.diagnostics) if network is not None else None
     readable = [one for one in deployments_of(path, analysis=analysis) if os.path.realpath(one) in analysis.networks]

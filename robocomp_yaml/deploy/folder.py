@@ -10,6 +10,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 
+from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import regular
 
 _NAME = re.compile(r"""^["']?deployment["']?[ \t]*:[ \t]*["']?([_A-Za-z][-A-Za-z0-9_]*)""", re.MULTILINE)
@@ -91,6 +92,6 @@ def document_in(folder: str, deployment: str) -> str:
     with contextlib.suppress(OSError):
         for name in sorted(os.listdir(folder)):
             path = os.path.join(folder, name)
-            if name.endswith("ddsl.yaml") and deployment_in(path) == deployment:
+            if kind_of(name) == "ddsl" and deployment_in(path) == deployment:
                 return path
     return folder
