@@ -7,8 +7,8 @@ import re
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy.document import Map, Notes
-from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.document import Notes
+from robocomp_yaml.legacy.draft import ConfigDraft, Reader
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.settings.entries import (
     CLASSIC,
@@ -27,7 +27,7 @@ _CLASSIC_KEY = re.compile(r"\.Endpoints$|Proxy\d*$")
 _PROTECTED = re.compile(r'\s*"(?P<value>[^"]*#[^"]*)"\s*(?:#(?P<comment>.*))?$')
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> ConfigDraft | None:
     """The settings of a file. Lines that set nothing stay as comments above the next setting."""
     tree = reader.parsed.tree
     assert tree is not None
@@ -63,7 +63,7 @@ def convert(reader: Reader) -> Draft | None:
         waiting += [*notes.head, *_as_comment(reader, node, notes)]
     around.foot[:0] = waiting
     settle_head(found, around)
-    return Draft(Map(), [], around, settings=found)
+    return ConfigDraft(found, around)
 
 
 def _too_long(key: str) -> str:
