@@ -15,7 +15,7 @@ from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.legacy import syntax_error
+from robocomp_yaml.legacy import flat, syntax_error
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
 
@@ -75,6 +75,9 @@ def _parser(grammar: str) -> _Parser:
 
 def parse(source: Source, rules: Rules) -> Parsed:
     """After an error, the statement it stands in is blanked out and all is parsed again, for the next one."""
+    if not rules.grammar:
+        lines, comments = flat.parse(source)
+        return Parsed(lines, tuple(comments))
     parser = _parser(rules.grammar)
     text: str | None = source.text
     said: list[Diagnostic] = []
