@@ -34,6 +34,7 @@ def command(
     interface changed is named, with the text to paste; --merge puts it in.
     """
     from robocomp_yaml.commands import _outcome
+    from robocomp_yaml.source.discover import documents_in
     from robocomp_yaml.transactions import stamp
 
     paths = paths or (".",)
@@ -42,7 +43,7 @@ def command(
     name = stamp.key([*paths, "-o", output or "", "-I", *include, "-t", *targets])
     folder = output or (paths[0] if os.path.isdir(paths[0]) else os.path.dirname(paths[0])) or "."
     made = None if diff or merge or ctx.obj.verbosity > 0 else stamp.load(folder, name)
-    if made is not None and stamp.is_current(made, _options.find_below):
+    if made is not None and stamp.is_current(made, _options.find_below, documents_in):
         outcome = _outcome.Outcome.of_data(made.replay)
         outcome.planned = look_only
     else:

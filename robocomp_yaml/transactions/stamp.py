@@ -19,9 +19,9 @@ from msgspec.structs import asdict
 
 import robocomp_yaml
 from robocomp_yaml.source.digest import digest
-from robocomp_yaml.source.discover import documents_in
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions import whole_file
 
 FOLDER = ".rcyaml/stamps"
 _KEPT = 32
@@ -32,7 +32,7 @@ class Stamp(msgspec.Struct, frozen=True):
     """All paths are as the run used them, relative to its working folder or absolute.
 
     `inputs`: of each file read, its real path and its digest with who may read it. `absent`: where it looked in vain.
-    `folders`: of each folder asked, what was found below. `names`: of folders, the documents in them. `outputs`: of
+    `folders`: of each folder asked, what was found below. `names`: of folders, what was found in them. `outputs`: of
     each file written, its digest and who may read and run it. `present`: files whose contents are the user's.
     `replay`: what the run had to say, in the caller's form.
     """
@@ -80,16 +80,18 @@ def take(
         return None
 
 
-def is_current(stamp: Stamp, find: Callable[[str], Iterable[str]]) -> bool:
-    """Whether the run would read, find and leave the same again. `find` lists what is below a folder asked, as it did
-    for the run."""
+def is_current(
+    stamp: Stamp, find: Callable[[str], Iterable[str]], pick: Callable[[Iterable[str]], list[str]]
+) -> bool:
+    """Whether the run would read, find and leave the same again. `find` lists what is below a folder asked, and `pick`
+    tells what counts of the names in a folder, as they did for the run."""
     real = _Real()
     try:
         return (
             not any(os.path.lexists(path) for path in stamp.absent)
             and all(os.path.lexists(path) for path in stamp.present)
             and all(list(find(folder)) == found for folder, found in stamp.folders.items())
-            and all(documents_in(os.listdir(folder)) == found for folder, found in stamp.names.items())
+            and all(pick(os.listdir(folder)) == found for folder, found in stamp.names.items())
             and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
             and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
@@ -113,17 +115,10 @@ def save(folder: str, name: str, stamp: Stamp) -> None:
     path = _file(folder, name)
     if not stays_inside(folder or ".", os.path.join(FOLDER, f"{name}.json")):
         return
-    part = f"{path}.{os.getpid()}"
     with contextlib.suppress(OSError):
         os.makedirs(os.path.dirname(path), exist_ok=True)
         _ignored_by_git(os.path.dirname(path))
-        try:
-            with open(part, "w", encoding="utf-8") as file:
-                file.write(json.dumps(asdict(stamp), separators=(",", ":")))
-            os.replace(part, path)
-        finally:
-            with contextlib.suppress(FileNotFoundError):
-                os.unlink(part)
+        whole_file.put(path, json.dumps(asdict(stamp), separators=(",", ":")).encode())
         _forget_old(os.path.dirname(path))
 
 

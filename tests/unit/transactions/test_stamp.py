@@ -13,7 +13,7 @@ import msgspec
 import pytest
 
 from conftest import write_tree
-from robocomp_yaml.source.discover import documents_below
+from robocomp_yaml.source.discover import documents_below, documents_in
 from robocomp_yaml.transactions import stamp
 
 KEY = "0" * 8
@@ -43,7 +43,7 @@ def run() -> stamp.Stamp | None:
 
 def current() -> bool:
     kept = stamp.load("out", KEY)
-    return kept is not None and stamp.is_current(kept, documents_below)
+    return kept is not None and stamp.is_current(kept, documents_below, documents_in)
 
 
 def test_an_untouched_tree_is_current() -> None:
@@ -166,7 +166,7 @@ def test_what_was_read_counts_not_what_stands_there_now() -> None:
     assert taken is not None
     Path("docs/a.idsl.yaml").write_text("a changed")
     late = stamp.take(inputs={"docs/a.idsl.yaml": b"a"}, absent=[], folders={}, outputs={}, present=[], replay={})
-    assert late is not None and not stamp.is_current(late, documents_below)
+    assert late is not None and not stamp.is_current(late, documents_below, documents_in)
 
 
 def test_runs_of_another_kind_have_another_key(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
