@@ -72,8 +72,8 @@ def load(ctx: click.Context, file: str, include: tuple[str, ...], overlay: dict[
                                "or NAME.config.yaml")
     if values is not None:
         # The component's own values document is read with it; what is wrong there is none of this one's business.
-        ours = {id(layer) for layer in values.layers()}
-        others = {other.document.path for other in program.values.values() if id(other) not in ours}
+        ours = set(values.layers())
+        others = {other.document.path for other in program.values.values() if other not in ours}
         told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
     if values is not None and values.parameters is not None and check.is_only_layer(values):
         told += check.of_document(values, complete=True)

@@ -22,7 +22,7 @@ _PARTS = ("implements", "requires", "publishes", "subscribes")
 Good = Sequence[tuple[LegacyFile, Entry]]
 
 
-class Component(msgspec.Struct):
+class Component(msgspec.Struct, eq=False):
     """A component with its configs. `document`: its CDSL; '' where it has none, and is called as its config.
     `declared`: what the PDSL at `parameters` says already; None where it is to be inferred."""
 
@@ -83,7 +83,7 @@ class Components:
 
     def all(self) -> list[Component]:
         """The components that have configs."""
-        found: dict[int, Component] = {}
+        found: dict[Component, None] = {}
         own: dict[str, Component] = {}
         paths = {file.path for file, entry in self.good if isinstance(entry.file.draft, ConfigDraft)}
         for file, entry in self.good:
@@ -103,8 +103,8 @@ class Components:
                     if not self.is_ours(file, path):
                         component.declared = declared.of_document(path)
             component.configs.append((file, entry))
-            found[id(component)] = component
-        return list(found.values())
+            found[component] = None
+        return list(found)
 
     def _of(self, file: LegacyFile) -> Component | None:
         """The component in a config's folder, or in the one above: the only one, or the one of its name."""
