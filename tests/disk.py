@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.transactions import atomic, journal, writer
+from robocomp_yaml.transactions import atomic, journal, whole_file, writer
 from robocomp_yaml.transactions.changes import Changes
 from robocomp_yaml.transactions.plan import ALWAYS, ONCE, FilePlan, RootPlan
 
@@ -100,7 +100,7 @@ class Disk:
     @contextlib.contextmanager
     def seen_by_commits(self) -> Iterator[Disk]:
         with pytest.MonkeyPatch.context() as patch:
-            for module in (atomic, journal):
+            for module in (atomic, journal, whole_file):
                 patch.setattr(module, "os", self)
             yield self
 

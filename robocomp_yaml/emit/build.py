@@ -41,14 +41,14 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
     """Plans for every asked document without errors, in its own text or in what it imports."""
     result = Build()
     state = _State.of(diagnostics)
-    texts: dict[int, FilePlan] = {}
+    texts: dict[LinkedModule, FilePlan] = {}
 
     def slices(modules: Iterable[LinkedModule], folder: str = "") -> Iterator[FilePlan]:
         for linked in modules:
-            if id(linked) not in texts:
+            if linked not in texts:
                 text, sources = slice_target.text(linked), (linked.module.path,)
-                texts[id(linked)] = FilePlan(slice_target.file_name(linked), text, sources=sources)
-            plain = texts[id(linked)]
+                texts[linked] = FilePlan(slice_target.file_name(linked), text, sources=sources)
+            plain = texts[linked]
             yield replace(plain, path=folder + plain.path) if folder else plain
 
     def slice_root(linked: LinkedModule) -> str:
@@ -95,8 +95,8 @@ def _documents_of(linked: LinkedComponent) -> tuple[str, ...]:
 
 def _unused(program: Program, state: _State, left_out: set[str]) -> set[str]:
     """Other documents that were of no use: they could not be read, they have errors, or their component has."""
-    lost = {id(program.components[real]) for real in left_out & program.components.keys()}
-    broken = {real for real, component in program.documents_of_components().items() if id(component) in lost}
+    lost = {program.components[real] for real in left_out & program.components.keys()}
+    broken = {real for real, component in program.documents_of_components().items() if component in lost}
     paths = {real: linked.document.path for real, linked in program.parameters.items() if linked.document}
     paths |= {real: linked.document.path for real, linked in program.values.items()}
     paths |= {real: linked.deployment.path for real, linked in program.deployments.items()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from robocomp_yaml.check.idsl import cpp
 from robocomp_yaml.diag.codes import cdsl, idsl, machines, pdsl
@@ -15,6 +15,7 @@ from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.document import Notes
+from robocomp_yaml.legacy.draft import ConfigDraft, DeploymentDraft, MachineDraft
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
 from robocomp_yaml.legacy.networks.settle import settle as settle_networks
@@ -52,7 +53,7 @@ def migrate(
     by_file: list[tuple[LegacyFile, Entry]] = []
     for file in progress(found.files):
         entry = Entry(convert(file.path), skipped=bool(file.preferred))
-        entry.diagnostics = entry.file.diagnostics
+        entry.diagnostics = [*entry.file.diagnostics]
         if file.preferred:
             entry.diagnostics = [codes.PREFERRED.at(Span(file.path), other=file.preferred)]
         by_file.append((file, entry))
@@ -67,9 +68,9 @@ def migrate(
     chosen, said = names([(file, entry.file.rules) for file, entry in good if entry.file.rules is not None])
     _tell(run, said)
     _link(run, good, chosen, known, extra)
-    settle_networks([entry for _, entry in good], chosen, known)
-    inferred = settle(good, chosen, run.remembers, guesses, exact=exact)
-    _plan(run, good, chosen, known, inferred, force)
+    networks = settle_networks([entry for _, entry in good], chosen, known)
+    settled = settle(good, chosen, run.remembers, guesses, exact=exact)
+    _plan(run, good, chosen, known, networks | dict(settled.documents), settled.inferred, force)
     upgrade(run, paths)
     return run
 
@@ -136,15 +137,20 @@ def _link(
 
 def _plan(
     run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
-    inferred: Sequence[Inferred], force: bool,
+    settled: Mapping[str, yaml.Map], inferred: Sequence[Inferred], force: bool,
 ) -> None:  # fmt: skip
+    """`settled` are the documents that were made for several files together, by the path of each."""
     written: dict[str, list[tuple[str, str, yaml.Map]]] = {folder: [] for folder in known.new}
     planned: list[tuple[LegacyFile, Entry, str, str, yaml.Map, Notes, str]] = []
     for file, entry in good:
         rules, draft = entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
-        document = chosen[file.path]
-        planned.append((file, entry, rules.kind, document, draft.document, draft.around, draft.text))
+        kind, document = rules.kind, chosen[file.path]
+        if isinstance(draft, MachineDraft):
+            planned.append((file, entry, kind, document, yaml.Map(), Notes(), draft.text))
+        else:
+            content = settled[file.path] if isinstance(draft, ConfigDraft | DeploymentDraft) else draft.document
+            planned.append((file, entry, kind, document, content, draft.around, ""))
     planned += [(made.file, made.entry, "pdsl", made.path, made.document, Notes(), "") for made in inferred]
     for file, entry, kind, document, content, around, raw in planned:
         home = known.of(document).root

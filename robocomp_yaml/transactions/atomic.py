@@ -14,6 +14,7 @@ import msgspec
 
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
 from robocomp_yaml.transactions.places import STATE, Root, contents, in_words
 from robocomp_yaml.transactions.plan import ANYBODY
@@ -193,7 +194,7 @@ class _Commit(msgspec.Struct):
             if step.after is not None:
                 default = limited(0o777 if step.executable else 0o666, step.rights)
                 mode = None if step.mode is None else limited(step.mode, step.rights)
-                _create(os.path.join(self.root, mark.new), step.after, mode, default)
+                whole_file.stage(os.path.join(self.root, mark.new), step.after, mode, default)
             if mark.old:
                 _second_name(os.path.join(self.root, step.path), os.path.join(self.root, mark.old))
 
@@ -250,19 +251,6 @@ def limited(mode: int, rights: int) -> int:
     return mode & (0o7700 | rights | (rights & 0o044) >> 2)
 
 
-def _create(path: str, data: bytes, mode: int | None, default: int) -> None:
-    first = default if mode is None else mode & 0o700  # never more than it may have in the end
-    file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, first)
-    try:
-        if mode is not None:
-            os.fchmod(file, mode)
-        rest = memoryview(data)
-        while rest:
-            rest = rest[os.write(file, rest) :]
-    finally:
-        os.close(file)
-
-
 def _second_name(path: str, name: str) -> None:
     """Keeps what stands at a path under another name too: a second link, or a copy where there are no links."""
     try:
@@ -274,7 +262,7 @@ def _second_name(path: str, name: str) -> None:
             os.symlink(os.readlink(path), name)
             return
         status = os.stat(path)
-        _create(name + PART, contents(path), status.st_mode & 0o7777, 0o600)
+        whole_file.stage(name + PART, contents(path), status.st_mode & 0o7777)
         os.utime(name + PART, ns=(status.st_atime_ns, status.st_mtime_ns))
         # Whole or not at all: a second name is what puts the first one back.
         os.rename(name + PART, name)

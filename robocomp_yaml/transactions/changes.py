@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.source.hidden_properties import without_secret
 from robocomp_yaml.transactions.atomic import Step
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE
 
@@ -46,15 +47,15 @@ class Change(msgspec.Struct, frozen=True):
             os.devnull if self.before is None else f"a/{self.path}",
             os.devnull if self.after is None else f"b/{self.path}",
         )
-        return "".join(map(self._shown, found.splitlines(keepends=True))) if properties else found
+        if not properties or not found:
+            return found
+        old, new, *lines = found.split("\n")
+        return "\n".join((old, new, *map(self._shown, lines)))
 
     def _shown(self, line: str) -> str:
-        key, equals, value = line[1:].partition("=")
-        if not equals or line.startswith(("---", "+++", "@@")):
+        if line[:1] not in (" ", "+", "-"):
             return line
-        end = "\n" if line.endswith("\n") else ""
-        said = secrets.value(key.strip(), value.strip(), self.secrets)
-        return line if said == value.strip() else f"{line[0]}{key}={said}{end}"
+        return "".join((line[0], *secrets.hidden_lines(without_secret(line[1:], self.secrets), self.secrets)))
 
 
 class RootChanges(msgspec.Struct, frozen=True):

@@ -22,6 +22,7 @@ from robocomp_yaml.source.discover import documents_below
 from robocomp_yaml.source.disk import documents_in, names_in, state_of
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.regular import regular, whole
+from robocomp_yaml.transactions import whole_file
 
 FOLDER = ".rcyaml/stamps"
 _KEPT = 32
@@ -126,17 +127,10 @@ def save(folder: str, name: str, stamp: Stamp) -> None:
     path = _file(folder, name)
     if not stays_inside(folder or ".", os.path.join(FOLDER, f"{name}.json")):
         return
-    part = f"{path}.{os.getpid()}"
     with contextlib.suppress(OSError):
         os.makedirs(os.path.dirname(path), exist_ok=True)
         _ignored_by_git(os.path.dirname(path))
-        try:
-            with open(part, "w", encoding="utf-8") as file:
-                file.write(json.dumps(asdict(stamp), separators=(",", ":")))
-            os.replace(part, path)
-        finally:
-            with contextlib.suppress(FileNotFoundError):
-                os.unlink(part)
+        whole_file.put(path, json.dumps(asdict(stamp), separators=(",", ":")).encode())
         _forget_old(os.path.dirname(path))
 
 

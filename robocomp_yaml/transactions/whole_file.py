@@ -1,6 +1,6 @@
 """One file written whole or not at all, even where the disk is full or the process is killed in the middle.
 
-What many files have to do together is `atomic`'s.
+What many files have to do together is `atomic`'s, which stages them by the same means.
 """
 
 from __future__ import annotations
@@ -44,6 +44,13 @@ def _create_from_nameless(target: str, content: bytes) -> None:
         os.link(f"/proc/self/fd/{opened}", target, src_dir_fd=opened, follow_symlinks=True)
 
 
+def put(path: str | os.PathLike[str], content: bytes, mode: int | None = None) -> None:
+    """A file under a name, in the place of whatever stands there, a link too. Raises OSError."""
+    target = os.fspath(path)
+    with _part(target, content, mode) as part:
+        os.replace(part, target)
+
+
 def replace(path: str | os.PathLike[str], content: bytes) -> None:
     """Another content for a file, which keeps its permissions, or a first one. What is no file, such as a pipe, just
     gets it. Raises OSError."""
@@ -53,8 +60,22 @@ def replace(path: str | os.PathLike[str], content: bytes) -> None:
         with open(target, "wb") as file:
             file.write(content)
         return
-    with _part(target, content, None if mode is None else stat.S_IMODE(mode)) as part:
-        os.replace(part, target)
+    put(target, content, None if mode is None else stat.S_IMODE(mode))
+
+
+def stage(path: str, content: bytes, mode: int | None = None, default: int = 0o666) -> None:
+    """A first content for a name that only its owner knows: the file is not whole until this comes back. It gets the
+    permissions `mode`, else `default` as far as the user lets new files have them. Raises OSError."""
+    first = default if mode is None else mode & 0o700  # never more than it may have in the end
+    file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, first)
+    try:
+        if mode is not None:
+            os.fchmod(file, mode)
+        rest = memoryview(content)
+        while rest:
+            rest = rest[os.write(file, rest) :]
+    finally:
+        os.close(file)
 
 
 @contextlib.contextmanager
@@ -63,12 +84,8 @@ def _part(target: str, content: bytes, mode: int | None = None) -> Iterator[str]
     folder, name = os.path.split(target)
     _clean_up(folder, name)
     part = os.path.join(folder, f".{name}.{os.getpid()}.part")
-    opened = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666 if mode is None else 0o600)
     try:
-        with os.fdopen(opened, "wb") as file:
-            file.write(content)
-            if mode is not None:
-                os.fchmod(file.fileno(), mode)
+        stage(part, content, mode)
         yield part
     finally:
         with contextlib.suppress(FileNotFoundError):

@@ -65,3 +65,11 @@ def test_a_pipe_just_gets_it(tmp_path: Path) -> None:
     whole_file.replace(tmp_path / "pipe", b"hello")
     reader.join(5)
     assert got == ["hello"]
+
+
+def test_a_file_may_be_put_in_the_place_of_a_link(tmp_path: Path) -> None:
+    (tmp_path / "yours").write_text("1\n")
+    (tmp_path / "a").symlink_to("yours")
+    whole_file.put(tmp_path / "a", b"2\n", 0o600)
+    assert (tmp_path / "yours").read_text() == "1\n" and not (tmp_path / "a").is_symlink()
+    assert (tmp_path / "a").stat().st_mode & 0o777 == 0o600 and sorted(os.listdir(tmp_path)) == ["a", "yours"]

@@ -195,6 +195,20 @@ def test_dry_run_changes_nothing_and_shows_a_diff(tmp_path: Path) -> None:
     assert tree(tmp_path, state=True) == before
 
 
+def test_a_diff_of_properties_shows_no_secret(tmp_path: Path) -> None:
+    """However the line spells its key, and where it is commented out."""
+    old = "mail.password = hunter2 # old\n-- db.password=hunter3\nkeys=a\n"
+    new = "#mail.password=hunter4\nmy\\=password=hunter5#6\nkeys=b # plain\nmine=hunter7\n"
+    (tmp_path / CONFIG).parent.mkdir()
+    (tmp_path / CONFIG).write_text(old)
+    planned = FilePlan(CONFIG, new, secrets=("mine",))
+    (change,) = writer.prepare([plan(tmp_path, planned)], adopt=True)
+    diff = change.diff(properties=True)
+    assert "hunter" not in diff
+    assert {"-mail.password =***", "-keys=a", "+keys=b # plain", "+mine=***"} <= set(diff.splitlines())
+    assert "hunter2 # old" in change.diff()
+
+
 def test_the_bytes_do_not_depend_on_the_place(tmp_path: Path) -> None:
     for name in ("one", "two"):
         carry_out(plan(tmp_path / name, always("b", "1\n"), once("a", "é\n")))
