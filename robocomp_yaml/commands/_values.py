@@ -207,8 +207,8 @@ def set_value(ctx: click.Context, file: str, path: str, value: str, include: tup
     bom = raw[:3] if raw.startswith(b"\xef\xbb\xbf") else b""
     changed = bom + change.text.encode()
     after = load(ctx, file, include, {os.path.realpath(file): changed})
-    before = {(d.code, d.message) for d in loaded.diagnostics}
-    worse = [d for d in after.diagnostics if d.severity == "error" and (d.code, d.message) not in before]
+    before = {(d.code, d.facts) for d in loaded.diagnostics}
+    worse = [d for d in after.diagnostics if d.severity == "error" and (d.code, d.facts) not in before]
     if worse:
         _fail(ctx, worse, after.documents)
     try:
@@ -237,7 +237,7 @@ def _refuse_bad(
         reason = faults[0].message if faults else "it is empty"
         said = f"'{value}'" if not is_secret(type_) else HIDDEN
         _fail(ctx, _veiled(loaded, [file_codes.WRONG_SHAPE.at(span, problem=f"{said} is no value: {reason}")]), 1)
-    found = [replace(fault, span=span) for fault in judge(type_, node, tuple(steps), complete=False)]
+    found = [replace(fault, span=span, fixes=()) for fault in judge(type_, node, tuple(steps), complete=False)]
     if found:
         _fail(ctx, _veiled(loaded, found), 1)
 

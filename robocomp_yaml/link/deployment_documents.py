@@ -9,7 +9,8 @@ import msgspec
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link import deployment_groups
 from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.link.deployment_names import Names
@@ -127,14 +128,13 @@ def _counted(entry: Entry, text: Text) -> Iterable[Text]:
     return (Text(text.text.replace(INDEX, str(n)), span=text.span) for n in range(entry.instances))
 
 
-def _nearby(path: str, *suffixes: str) -> str:
+def _nearby(path: str, *suffixes: str) -> Hint:
     """What was probably meant: a name in the same folder."""
     folder, name = os.path.split(path)
     try:
         names = sorted(os.listdir(folder or "."))
     except OSError:
-        return f"there is no folder '{folder}'"
+        return Hint(f"there is no folder '{folder}'")
     if suffixes:
         names = [n for n in names if n.endswith(suffixes) or os.path.isdir(os.path.join(folder, n))]
-    meant = suggest(name, names)
-    return f"did you mean '{meant}'?" if meant else ""
+    return did_you_mean(name, names, open_=True)

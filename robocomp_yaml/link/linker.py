@@ -167,8 +167,10 @@ class Linker(msgspec.Struct):
     ) -> None:
         itself = os.path.basename(document.path).removesuffix(SUFFIX)
         known = [name for name in self.search.known(document.path, workspace) if name != itself]
-        hint = did_you_mean(imported.text, known, given) or (
-            "put its document beside this one, or name its folder under `interfaces:` in rcyaml.yaml, or with -I"
+        hint = did_you_mean(
+            imported.text, known, given, open_=True,
+            otherwise="put its document beside this one, or name its folder under `interfaces:` in rcyaml.yaml, or "
+            "with -I",
         )
         self.diagnostics.append(codes.UNRESOLVED_IMPORT.at(imported.span, name=imported.text, hint=hint))
 

@@ -14,6 +14,7 @@ import re
 import warnings
 from keyword import kwlist
 
+from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.model.located import Located
 
 MAX_LENGTH = 2000
@@ -37,7 +38,7 @@ _RESERVED = re.compile(
 class NotInLanguage(ValueError):
     """Says what an expression may not say, where (an index), and how to say it."""
 
-    def __init__(self, problem: str, index: int = 0, hint: str = "") -> None:
+    def __init__(self, problem: str, index: int = 0, hint: str | Hint = "") -> None:
         super().__init__(problem)
         self.index, self.hint = index, hint
 
@@ -225,11 +226,10 @@ class _Reader:
                             "here; docs/pdsl.md lists them")
 
     def call(self, function: str, arguments: list[ast.expr], at: int) -> Call:
-        from robocomp_yaml.diag.suggest import suggest
+        from robocomp_yaml.diag.suggest import did_you_mean
 
         if function not in FUNCTIONS:
-            meant = suggest(function, FUNCTIONS)
-            hint = f"did you mean '{meant}'?" if meant else f"there are: {', '.join(FUNCTIONS)}"
+            hint = did_you_mean(function, FUNCTIONS, otherwise=f"there are: {', '.join(FUNCTIONS)}")
             raise NotInLanguage(f"there is no function '{function}'", at, hint)
         if not arguments or (len(arguments) > 1 and function not in ("min", "max")):
             raise NotInLanguage(f"{function}() takes one argument", at)

@@ -18,6 +18,7 @@ import jsonschema_rs
 from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import NO_HINT, Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -80,9 +81,9 @@ _KEY_CODES = (codes.UNKNOWN_KEY.id, codes.MISSING_KEY.id, codes.WRONG_NAME.id)
 
 def _without_misspelled(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
     """A missing key whose misspelling stands there is one cause, not two."""
-    hints = " ".join(d.hint for d in diagnostics if d.code == codes.UNKNOWN_KEY.id)
+    meant = {d.fact("meant") for d in diagnostics if d.code == codes.UNKNOWN_KEY.id}
     return list(dict.fromkeys(
-        d for d in diagnostics if d.code != codes.MISSING_KEY.id or f"'{d.message.split(chr(39))[1]}'" not in hints
+        d for d in diagnostics if d.code != codes.MISSING_KEY.id or d.fact("key") not in meant
     ))
 
 
@@ -234,14 +235,13 @@ def _what(node: Node) -> str:
     return f"{kind}, '{shown}'" if kind == "text" else f"{kind}, {shown}"
 
 
-def _nearest(options: object, node: Node) -> str:
+def _nearest(options: object, node: Node) -> Hint:
     """The option that a word was meant to be, where one is near."""
     if not isinstance(options, list) or not isinstance(node, Scalar):
-        return ""
-    from robocomp_yaml.diag.suggest import suggest
+        return NO_HINT
+    from robocomp_yaml.diag.suggest import did_you_mean
 
-    meant = suggest(node.lexeme, [str(option) for option in options])
-    return f"did you mean '{meant}'?" if meant else ""
+    return did_you_mean(node.lexeme, [str(option) for option in options])
 
 
 def _name_hint(name: str) -> str:

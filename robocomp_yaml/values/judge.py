@@ -10,7 +10,8 @@ from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import hint_for_key, suggest
+from robocomp_yaml.diag.fix import NO_HINT, Hint
+from robocomp_yaml.diag.suggest import did_you_mean, hint_for_key
 from robocomp_yaml.model.parameters import (
     LIMITS,
     BasicType,
@@ -66,12 +67,12 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 
-def _at(code: Code, node: Node, key: Scalar | None, *, hint: str = "", **facts: str) -> Diagnostic:
+def _at(code: Code, node: Node, key: Scalar | None, *, hint: str | Hint = "", **facts: str) -> Diagnostic:
     """At the value; at its key where the value is empty or fills many lines."""
     span = node.span
     empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
     at_key = key is not None and (empty or span.line != span.end_line)
-    return code.at(key.span if key is not None and at_key else span, hint=hint, related=(), more="", **facts)
+    return code.at(key.span if key is not None and at_key else span, hint=hint, related=(), more="", fixes=(), **facts)
 
 
 def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
@@ -134,11 +135,10 @@ def _enumerated(type_: EnumType, node: Node, path: Path, key: Scalar | None) -> 
     if not isinstance(node.data, str):
         yield _wrong_type(type_, node, path, key)
         return
-    meant = None if type_.secret else suggest(node.data, type_.allowed)
     value = HIDDEN if type_.secret else f"'{node.data}'"
     yield _at(
         codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=kind_in_words(type_),
-        hint=f"did you mean '{meant}'?" if meant else "",
+        hint=NO_HINT if type_.secret else did_you_mean(node.data, type_.allowed),
     )
 
 
@@ -189,12 +189,11 @@ def _number(
 def _not_allowed(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
     allowed = [value.lexeme for value in type_.values]
     unit = f" {type_.unit}" if type_.unit else ""
-    meant = suggest(str(node.data), allowed) if type_.name == "string" and not type_.secret else None
     found = HIDDEN if type_.secret else _short(node.lexeme) if isinstance(node, Scalar) else ""
     value = f"{found!r}" if type_.name == "string" and not type_.secret else f"{found}{unit}"
     return _at(
         codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=f"one of {', '.join(allowed)}{unit}",
-        hint=f"did you mean '{meant}'?" if meant else "",
+        hint=did_you_mean(str(node.data), allowed) if type_.name == "string" and not type_.secret else NO_HINT,
     )
 
 

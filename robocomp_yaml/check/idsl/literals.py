@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link import numbers
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.model.interface import Enum, ExceptionType, Literal, Struct, TypeRef
@@ -59,13 +60,12 @@ def _arrives(type_name: str, value: Literal) -> Iterator[Diagnostic]:
         yield codes.NUMBER.at(value.span, value=_shown(value), reason=reason, hint=hint)
 
 
-def _of_enum(enum: Enum, value: Literal) -> tuple[str, str]:
+def _of_enum(enum: Enum, value: Literal) -> tuple[str, str | Hint]:
     names = [enumerator.name for enumerator in enum.enumerators]
     if value.lexeme in names:
         return "", ""
-    meant = suggest(value.lexeme, names)
     listed = ", ".join(names[:MOST_LISTED]) + (", …" if len(names) > MOST_LISTED else "")
-    return f"{enum.name} has no such enumerator", f"did you mean '{meant}'?" if meant else f"it has {listed}"
+    return f"{enum.name} has no such enumerator", did_you_mean(value.lexeme, names, otherwise=f"it has {listed}")
 
 
 def _of_basic(type_name: str, value: Literal) -> tuple[str, str]:
