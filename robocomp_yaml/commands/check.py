@@ -18,13 +18,16 @@ if TYPE_CHECKING:
 @click.command(short_help="Report everything that is wrong with the documents.")
 @_options.paths
 @click.option("--environment", is_flag=True, help="Also say which of the libraries they name are not installed.")
+@click.option("--fix", is_flag=True, help="Apply the fixes that leave only one possible meaning.")
+@click.option("--unsafe-fixes", is_flag=True, help="Apply the others, too: what was probably meant.")
+@click.option("--diff", is_flag=True, help="Show what the fixes would change, and write nothing.")
 @_fail_on.fail_on
 @_options.include
 @_options.format_
 @click.pass_context
 def command(
-    ctx: click.Context, paths: tuple[str, ...], environment: bool, fail_on: FailOn, include: tuple[str, ...],
-    format_: str,
+    ctx: click.Context, paths: tuple[str, ...], environment: bool, fix: bool, unsafe_fixes: bool, diff: bool,
+    fail_on: FailOn, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Report everything that is wrong with the documents at PATHS (by default, below this folder).
 
@@ -33,10 +36,21 @@ def command(
     from robocomp_yaml.pipeline import analyse
 
     paths = paths or (".",)
+    if fix or unsafe_fixes or diff:
+        from robocomp_yaml.commands import _fixing
+
+        fixing = _fixing.Fixing(
+            paths, lambda overlay: analyse(paths, include, overlay=overlay), lambda found: _told(found, environment),
+            unsafe=unsafe_fixes, look_only=diff,
+        )
+        _fixing.report(ctx, fixing, format_, fail_on)
     with _options.progress("reading", paths) as on_read:
         analysis = analyse(paths, include, on_read)
-    told = analysis.with_more([*_on_disk(analysis, environment), *(_missing(analysis) if environment else ())])
-    _options.report(ctx, format_, told, analysis.program.documents, fail_on)
+    _options.report(ctx, format_, _told(analysis, environment), analysis.program.documents, fail_on)
+
+
+def _told(analysis: Analysis, environment: bool) -> list[Diagnostic]:
+    return analysis.with_more([*_on_disk(analysis, environment), *(_missing(analysis) if environment else ())])
 
 
 def _on_disk(analysis: Analysis, environment: bool) -> Iterator[Diagnostic]:

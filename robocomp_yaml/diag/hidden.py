@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import message_of
 from robocomp_yaml.diag.diagnostic import Diagnostic, Fact, Facts, Related
+from robocomp_yaml.diag.fix import Fix
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.secrets import HIDDEN, Part, url
 
@@ -44,12 +45,19 @@ class Hidden(msgspec.Struct):
         hint = without(diagnostic.hint, texts)
         return replace(
             diagnostic, facts=_facts(diagnostic, texts), hint=hint if hint == url(diagnostic.hint) else "",
+            fixes=tuple(fix for fix in diagnostic.fixes if not _says(fix, texts)),
             more=without(diagnostic.more, texts), related=related, hidden=hidden if is_known else None,
         )  # fmt: skip
 
     def without(self, text: str) -> str:
         """A text about anything without any of the secrets."""
         return without(text, {secret for texts in self.texts.values() for secret in texts})
+
+
+def _says(fix: Fix, secrets: set[str]) -> bool:
+    """Whether a fix would repeat a secret."""
+    said = [fix.title, *(text for edit in fix.edits for text in (edit.text, edit.word))]
+    return any(text in secrets or without(text, secrets) != text for text in said if text)
 
 
 def _facts(diagnostic: Diagnostic, secrets: set[str]) -> Facts:

@@ -156,7 +156,7 @@ def _syntax(source: str, error: SyntaxError) -> NotInLanguage:
     for pattern, word in _FOREIGN:
         found = pattern.search(_without_texts(source))
         if found:
-            return NotInLanguage(f"'{found[0]}' means nothing here", found.start(), f"write '{word}'")
+            return NotInLanguage(f"'{found[0]}' means nothing here", found.start(), _instead(found[0], word))
     return NotInLanguage("this is no expression", max(0, (error.offset or 1) - 1))
 
 
@@ -254,6 +254,10 @@ class _Reader:
             raise NotInLanguage("a 'for' has one variable", self.at(loop.target))
         condition = self.read(loop.ifs[0]) if loop.ifs else None
         return Each(self.read(node.elt), loop.target.id, self.read(loop.iter), condition, at=at)
+
+
+def _instead(found: str, word: str) -> Hint:
+    return Hint(f"write '{word}'", found, f"{word} " if found == "!" else word, safe=True)
 
 
 def _refusal(node: ast.expr) -> str:

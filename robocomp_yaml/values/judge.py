@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import isfinite
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.fix import NO_HINT, Hint
+from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.suggest import did_you_mean, hint_for_key
 from robocomp_yaml.model.parameters import (
     LIMITS,
@@ -26,12 +26,12 @@ from robocomp_yaml.model.parameters import (
     kind_in_words,
 )
 from robocomp_yaml.secrets import HIDDEN, url
+from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 from robocomp_yaml.values import references
 from robocomp_yaml.values.paths import Step, in_words
 
 Path = tuple[Step, ...]
-_TRUTHS = {"yes": "true", "on": "true", "y": "true", "no": "false", "off": "false", "n": "false"}  # in YAML 1.1
 
 
 def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | None = None) -> Iterator[Diagnostic]:
@@ -67,12 +67,14 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 
-def _at(code: Code, node: Node, key: Scalar | None, *, hint: str | Hint = "", **facts: str) -> Diagnostic:
+def _at(code: Code, node: Node, key: Scalar | None, *, hint: str | Hint = "", fixes: Iterable[Fix] = (),
+        **facts: str) -> Diagnostic:
     """At the value; at its key where the value is empty or fills many lines."""
     span = node.span
     empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
     at_key = key is not None and (empty or span.line != span.end_line)
-    return code.at(key.span if key is not None and at_key else span, hint=hint, related=(), more="", fixes=(), **facts)
+    place = key.span if key is not None and at_key else span
+    return code.at(place, hint=hint, related=(), more="", fixes=fixes, **facts)
 
 
 def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
@@ -85,12 +87,24 @@ def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diag
             type_.name == "bool" and bare in ("true", "false", "True", "False")
         )):
             hint = f"without quotes: {bare}"
-        elif type_.name == "bool" and (meant := _TRUTHS.get(bare.lower())):
+        elif type_.name == "bool" and (meant := TRUTHS.get(bare.lower())):
             hint = f"write {meant}"
     elif isinstance(type_, BasicType) and type_.name == "string" and isinstance(node, Scalar) and node.lexeme:
         hint = f'text needs quotes here: "{node.lexeme}"'
     wanted = f"{kind_in_words(type_)}{_unit(type_)}"
-    return _at(codes.WRONG_TYPE, node, key, path=in_words(path), wanted=wanted, found=shown(node, type_), hint=hint)
+    return _at(
+        codes.WRONG_TYPE, node, key, path=in_words(path), wanted=wanted, found=shown(node, type_), hint=hint,
+        fixes=_retyped(type_, node),
+    )
+
+
+def _retyped(type_: Type, node: Node) -> tuple[Fix, ...]:
+    if not isinstance(node, Scalar) or not isinstance(type_, BasicType) or is_secret(type_):
+        return ()
+    wanted = BOOL if type_.name == "bool" else STRING if type_.name == "string" else (
+        INTEGER if type_.is_integer else NUMBER
+    )
+    return retyped([wanted], node.lexeme, node.data, node.span)
 
 
 def _unit(type_: Type) -> str:
@@ -208,7 +222,10 @@ def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar |
         if type_.unique:
             known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
             if known in seen:
-                yield codes.NOT_UNIQUE.at(item.span, path=in_words(path), value=shown(item, type_.element))
+                yield codes.NOT_UNIQUE.at(
+                    item.span, path=in_words(path), value=shown(item, type_.element),
+                    fixes=[removal(item.span, safe=False)],
+                )
             seen.add(known)
 
 

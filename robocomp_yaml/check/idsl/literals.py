@@ -12,8 +12,10 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link import numbers
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.model.interface import Enum, ExceptionType, Literal, Struct, TypeRef
+from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, retyped
 
 RANGES = {"byte": (0, 255), "short": (-(2**15), 2**15 - 1), "int": (-(2**31), 2**31 - 1), "long": (-(2**63), 2**63 - 1)}
+_WANTED = {"bool": BOOL, "string": STRING, "float": NUMBER, "double": NUMBER}
 LONGEST_STRING = 10_000  # characters; Slice's preprocessor dies of lines above 64 KiB
 MOST_LISTED = 8
 
@@ -42,7 +44,10 @@ def _fits(linked: LinkedModule, type_: TypeRef, value: Literal, *, default: bool
             return
     reason, hint = _of_enum(enum, value) if enum else _of_basic(type_.text, value)
     if reason:
-        yield codes.MISFIT.at(value.span, value=_shown(value), type=type_.text, reason=reason, hint=hint)
+        yield codes.MISFIT.at(
+            value.span, value=_shown(value), type=type_.text, reason=reason, hint=hint,
+            fixes=() if enum else retyped([_WANTED.get(type_.text, INTEGER)], value.lexeme, value.value, value.span),
+        )
     elif type_.text in ("float", "double"):
         yield from _arrives(type_.text, value)
 
