@@ -185,8 +185,9 @@ def _applied(fixes: list[Fix], contents: Mapping[str, bytes]) -> dict[str, bytes
 
 
 def _key(told: Diagnostic) -> Key:
-    """A diagnostic wherever it stands: other fixes move it."""
-    return (told.span.file, told.code, told.facts)
+    """A diagnostic wherever it stands, since other fixes move it, and whatever it proposes: that depends on how much
+    there is to say."""
+    return (told.span.file, told.code, tuple(fact for fact in told.facts if fact[0] != "meant"))
 
 
 class _Verdict(msgspec.Struct, frozen=True):
