@@ -19,7 +19,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.plan import FilePlan, RootPlan
-from robocomp_yaml.emit.targets import slice as slice_target
+from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
 

@@ -33,7 +33,7 @@ VERSION = Code(
 OTHER_LANGUAGE = Code(
     "RC2303",
     "warning",
-    "a component in Python does not build anything: `{key}` has no effect",
+    "a component in {language} does not build anything: `{key}` has no effect",
     "Sources, shared classes and libraries of CMake, pkg-config or the linker are for components in C++. A component "
     "in Python imports modules: its own from `src/`, those of others through pip.",
     _uses(_PYTHON, "libraries: [{cmake: OpenCV}]"),
