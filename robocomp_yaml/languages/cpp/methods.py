@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 import msgspec
 
+from robocomp_yaml.emit.lowering.types import scoped
 from robocomp_yaml.languages.cpp.names import ice_name, parameter
 from robocomp_yaml.languages.cpp.text import IN, comment, declaration, one_line
-from robocomp_yaml.languages.cpp.types import found, input_type, type_name, zero
+from robocomp_yaml.languages.cpp.types import input_type, type_name, zero
 from robocomp_yaml.link.program import LinkedModule, Port
-from robocomp_yaml.model.interface import Member, Method, TypeRef
+from robocomp_yaml.model.interface import Member, Method
 
 _NOT_PUBLISHED = (
     "throw Ice::OperationNotExistException(__FILE__, __LINE__, current.id, current.facet, current.operation);"
@@ -101,8 +102,3 @@ def _described(port: Port, method: Method) -> str:
 
 def _said(member: Member) -> str:
     return " ".join(part for part in (one_line(member.doc), f"[{member.unit}]" if member.unit else "") if part)
-
-
-def scoped(ref: TypeRef, scope: LinkedModule) -> tuple[str, str]:
-    home, definition = found(ref, scope)
-    return home.module.name, definition.name

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from robocomp_yaml.link.program import LinkedModule
+from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.ports import Spelling
 from robocomp_yaml.languages.cpp import KEYWORDS
 from robocomp_yaml.languages.cpp.macros import EVER
 
@@ -40,14 +42,11 @@ def parameter(name: str) -> str:
     return f"{name}_" if name in _KEYWORDS else name
 
 
-class Names:
-    """Hands out names, each once: a second taker gets it with an underscore at its end, and so a keyword."""
+PORTS = Spelling(
+    taken=frozenset(("parameters",)) | _KEYWORDS, published=("{name}_pubproxy",), called=ice_name,
+)
 
-    def __init__(self, taken: Iterable[str] = ()) -> None:
-        self._taken = {*taken, *_KEYWORDS}
 
-    def take(self, name: str) -> str:
-        while name in self._taken:
-            name += "_"
-        self._taken.add(name)
-        return name
+def names(taken: Iterable[str] = ()) -> Names:
+    """Hands out names that are no words of C++ either."""
+    return Names((*taken, *_KEYWORDS))

@@ -6,26 +6,32 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.emit.parameter_facts import inside, records
+from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
+from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.parameters import (
+    Spelling,
+    Types,
+    about_enum,
+    about_member,
+    capitals,
+    group_of,
+    path_of,
+)
+from robocomp_yaml.emit.parameter_facts import inside
 from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.cpp import LANGUAGE
-from robocomp_yaml.languages.cpp.kinds import kind, pattern_count, spelling
 from robocomp_yaml.languages.cpp.literals import number, string, value
 from robocomp_yaml.languages.cpp.literals import text as quoted
-from robocomp_yaml.languages.cpp.members import documented, plain_type, set_name
-from robocomp_yaml.languages.cpp.names import Names
+from robocomp_yaml.languages.cpp.names import names
 from robocomp_yaml.languages.cpp.text import IN, comment, folded, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.parameters import (
     BasicType,
     EnumType,
-    ListType,
-    MapType,
     Member,
     Parameters,
     RecordType,
-    Type,
 )
 
 _TYPES_TAKEN = ("Values", "table", "fromValue", "toValue", "of")
@@ -126,7 +132,8 @@ def _view(parameters: Parameters, name: str, source: str) -> View:
         headers=headers,
         root=types.functions["."],
         spellings=[
-            folded(f"{{{quoted(each.path)}, {spelling(each)}}},", 3 * IN) for each in parameters.spellings
+            folded(f"{{{quoted(each.path)}, runtime::Spelling{{{_BUILDERS.spelling(each)}}}}},", 3 * IN)
+            for each in parameters.spellings
         ],
         constraints=_constraints(parameters) if parameters.constraints else [],
     )
@@ -143,35 +150,46 @@ def _constraints(parameters: Parameters) -> list[ConstraintView]:
     ]
 
 
-class _Types:
+_SPELLING = Spelling(
+    basic={
+        "bool": "bool", "int": "int", "long": "long long", "float": "float", "double": "double",
+        "string": "std::string",
+    },
+    listing="std::vector<{}>",
+    mapping="std::map<std::string, {}>",
+    own="parameters::{}",
+)  # fmt: skip
+_BUILDERS = Builders(
+    prefix="runtime::",
+    text=quoted,
+    value=value,
+    listed=lambda items: f"{{{', '.join(items)}}}",
+    pattern=lambda pattern: f"runtime::pattern({string(pattern)})",
+)
+
+
+class _Types(Types):
     """The C++ types of all enums and records that the parameters use, with names that do not clash."""
 
     def __init__(self, root: RecordType) -> None:
+        taken = names(_TYPES_TAKEN)
+        super().__init__(root, taken, _SPELLING)
         self.root = root
-        self.records, self.enums = records(root)
-        names = Names(_TYPES_TAKEN)
-        self.names = {enum.name: names.take(enum.name) for enum in self.enums}
-        for path, record in self.records:
-            wanted = path if not record.is_group else f"{set_name('', path[1:])}Group"
-            self.names[path] = "Values" if path == "." else names.take(wanted)
-        self.functions = {path: names.take(f"kindOf{self.names[path]}") for path, _ in self.records}
+        self.functions = {path: taken.take(f"kindOf{self.of[path]}") for path, _ in self.records}
         self.enumerators = {enum.name: _enumerators(enum) for enum in self.enums}
-        self.tables = {enum.name: names.take(f"namesOf{self.names[enum.name]}") for enum in self.enums}
+        self.tables = {enum.name: taken.take(f"namesOf{self.of[enum.name]}") for enum in self.enums}
 
     def enum(self, enum: EnumType) -> EnumView:
-        words = [enum.doc or f"One of {len(enum.enumerators)} names."]
-        words += [f"{name}: {one_line(doc)}" for name, doc in enum.enumerators if doc]
         return EnumView(
-            self.names[enum.name], self.tables[enum.name], comment("\n".join(words)),
+            self.of[enum.name], self.tables[enum.name], comment("\n".join(about_enum(enum))),
             [f"{name}," for name in self.enumerators[enum.name].values()], [f"{quoted(name)}," for name in enum.names],
         )
 
     def record(self, path: str, record: RecordType) -> RecordView:
-        group = path if record.is_group else None
-        doc = record.doc or (f"The group {path[1:]}." if record.is_group else f"The record {record.name}.")
+        group = group_of(path, record)
         return RecordView(
-            self.names[path],
-            comment("All parameters, as they were at one moment." if path == "." else doc),
+            self.of[path],
+            comment(self.about_record(path, record)),
             self.functions[path],
             "runtime::group(" if record.is_group else f"runtime::record({quoted(record.name)}, ",
             [self.member(member, group) for member in record.members],
@@ -179,14 +197,14 @@ class _Types:
 
     def member(self, member: Member, group: str | None) -> MemberView:
         """`group` is the path of the group that it stands in, None in a struct."""
-        inner = None if group is None else inside(group, member.code_name)
+        inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), string(member.name)
-        made = f"runtime::Member({key}, {kind(member.type, self.functions, inner)})"
+        made = f"runtime::Member({key}, {_BUILDERS.kind(member.type, self.functions, inner)})"
         made += f".byDefault({value(member.default.data)})" if member.default is not None else ""
         made += "".join(f".{word}()" for word in ("optional", "editable") if getattr(member, word))
         initial = self.initial(member)
         return MemberView(
-            comment=documented(member, IN),
+            comment=comment(about_member(member, "\n"), IN),
             field=f"{self.member_type(member, inner)} {name}{f' = {initial}' if initial else '{}'};",
             kind=folded(f"{made},", 2 * IN),
             read=f"fromValue(value[{key}], to.{name});",
@@ -194,28 +212,15 @@ class _Types:
         )
 
     def member_type(self, member: Member, group: str | None) -> str:
-        made = self.type(member.type, group)
+        made = self.spelled(member.type, group)
         return f"std::optional<{made}>" if member.optional else made
-
-    def type(self, type_: Type, group: str | None) -> str:
-        match type_:
-            case BasicType(name=name):
-                return plain_type(name)
-            case EnumType(name=name):
-                return f"parameters::{self.names[name]}"
-            case ListType(element=element):
-                return f"std::vector<{self.type(element, None)}>"
-            case MapType(element=element):
-                return f"std::map<std::string, {self.type(element, None)}>"
-            case _:
-                return f"parameters::{self.names[type_.name or group or '']}"
 
     def initial(self, member: Member) -> str:
         """What stands there before the config is read, and in a record that code makes."""
         data = member.default.data if member.default is not None else None
         match member.type:
             case EnumType(name=name) if isinstance(data, str):
-                return f"parameters::{self.names[name]}::{self.enumerators[name][data]}"
+                return f"parameters::{self.of[name]}::{self.enumerators[name][data]}"
             case BasicType() if isinstance(data, bool):
                 return "true" if data else "false"
             case BasicType() if isinstance(data, str):
@@ -227,8 +232,8 @@ class _Types:
         return ""
 
     def getters(self) -> Iterator[GetterView]:
-        names = Names(_METHODS_TAKEN)
-        getters = {member.name: names.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
+        taken = names(_METHODS_TAKEN)
+        getters = {member.name: taken.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
         for member in self.root.members:
             group = inside(".", member.code_name)
             name, made = getters[member.name], self.member_type(member, group)
@@ -237,9 +242,9 @@ class _Types:
                 body = f"return live_.now().{field};"
             else:
                 made, body = f"runtime::Held<{made}>", f"return live_.held(&parameters::Values::{field});"
-            setters = list(self.setters(member, group, (member.name,), names))
+            setters = list(self.setters(member, group, (member.name,), taken))
             yield GetterView(
-                documented(member, IN),
+                comment(about_member(member, "\n"), IN),
                 f"{made} {name}() const;",
                 f"{made} Parameters::{name}() const\n{{\n{IN}{body}\n}}",
                 [f"void {setter}({type_} value);" for setter, type_, _ in setters],
@@ -247,22 +252,22 @@ class _Types:
             )
 
     def setters(
-        self, member: Member, group: str, path: tuple[str, ...], names: Names
+        self, member: Member, group: str, path: tuple[str, ...], taken: Names
     ) -> Iterator[tuple[str, str, str]]:
         """Name, type and path of each setter: of the member, or of what the group holds."""
         if member.is_group and isinstance(member.type, RecordType):
             for inner in member.type.members:
-                yield from self.setters(inner, inside(group, inner.code_name), (*path, inner.name), names)
+                yield from self.setters(inner, inside(group, inner.code_name), (*path, inner.name), taken)
         elif member.editable:
             made = self.member_type(member, None)
             is_small = isinstance(member.type, BasicType | EnumType) and made != "std::string" and not member.optional
-            yield names.take(set_name("set", group[1:])), made if is_small else f"const {made}&", ".".join(path)
+            yield taken.take(f"set{capitals(group[1:])}"), made if is_small else f"const {made}&", ".".join(path)
 
 
 def _enumerators(enum: EnumType) -> dict[str, str]:
     """The names in code of an enum's names."""
-    names = Names()
-    return {name: names.take(LANGUAGE.in_code(name)) for name in enum.names}
+    taken = names()
+    return {name: taken.take(LANGUAGE.in_code(name)) for name in enum.names}
 
 
 def _setter(name: str, type_: str, path: str) -> str:

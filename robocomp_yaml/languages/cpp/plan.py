@@ -6,26 +6,25 @@ small generated part, the user's skeleton and the files for CMake.
 
 from __future__ import annotations
 
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from robocomp_yaml.emit import windows
 from robocomp_yaml.emit.copied import copied
+from robocomp_yaml.emit.lowering.component import lower
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.cpp import LANGUAGE, parameters, qt
 from robocomp_yaml.languages.cpp.ports import AccessorView, Ports, ServiceView
 from robocomp_yaml.languages.cpp.qt import QtView, RobocompView
 from robocomp_yaml.languages.cpp.text import comment, one_line, quoted
-from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
 
 if TYPE_CHECKING:
     from robocomp_yaml.languages.cpp.statemachine import MachineView
 
-DEFAULT_PERIOD = 100
-BEHAVIOR = "RoboCompCommonBehavior"
 _TOPICS = frozenset(("topics.cpp", "topics.h"))  # of the run time, only where a component has topics
 # Targets that CMake makes by itself.
 _CMAKE_TARGETS = frozenset(
@@ -64,7 +63,7 @@ class View(msgspec.Struct, frozen=True):
 def plan(component: LinkedComponent) -> list[FilePlan]:
     """The component's files but for `slice/` and `etc/`."""
     of_qt = windows.files(component, of_machines=qt.MACHINE_FILES, of_windows=qt.WINDOW_FILES)
-    parts = [*_machine_files(component), *of_qt]
+    parts = [*(_machine().files(component.machine) if component.machine else []), *of_qt]
     view = _view(component, parts)
     if view.robocomp:
         return _robocomp(component, view, parts)
@@ -83,20 +82,10 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     ]
 
 
-def _machine_files(linked: LinkedComponent) -> list[FilePlan]:
-    if linked.machine is None:
-        return []
+def _machine() -> ModuleType:
     from robocomp_yaml.languages.cpp import statemachine  # with all about machines, which few have
 
-    return statemachine.files(linked.machine)
-
-
-def _machine_view(linked: LinkedComponent) -> MachineView | None:
-    if linked.machine is None:
-        return None
-    from robocomp_yaml.languages.cpp import statemachine
-
-    return statemachine.view(linked.machine)
+    return statemachine
 
 
 def _unused(component: LinkedComponent) -> frozenset[str]:
@@ -142,20 +131,18 @@ def _view(linked: LinkedComponent, parts: list[FilePlan]) -> View:
     ports = Ports(linked)
     has_topics = bool(ports.publishes or ports.subscribes)
     has_services = bool(ports.implements or ports.subscribes)
-    files = list(dict.fromkeys(file_name(scope) for scope in linked.modules()))
-    if all(scope.module.name != BEHAVIOR for scope in linked.modules()):
-        files.append("CommonBehavior.ice")
-    doc = f"{component.name}: {component.doc}" if component.doc else component.name
+    lowered = lower(linked)
+    files = lowered.files
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if has_services else "/*services*/"
     sources = [file.path.removeprefix("generated/") for file in (*copied("cpp", "runtime", _unused(linked)), *parts)]
     ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
-        source=one_line(component.path.rpartition("/")[2]),
-        name=component.name,
-        comment=comment(doc),
-        period=component.period or DEFAULT_PERIOD,
+        source=one_line(lowered.source),
+        name=lowered.name,
+        comment=comment(lowered.doc),
+        period=lowered.period,
         headers=[f"{file}.h" for file in files],
         services=[*ports.implements, *ports.subscribes],
         implements=ports.implements,
@@ -171,7 +158,7 @@ def _view(linked: LinkedComponent, parts: list[FilePlan]) -> View:
         libraries=" ".join(f"Ice::{name}" for name in ice),
         slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
         sources=["genericworker.cpp", "parameters.cpp", *(path for path in sources if path.endswith(".cpp"))],
-        machine=_machine_view(linked),
+        machine=_machine().view(linked.machine) if linked.machine else None,
         base=_base(linked),
         qt=qt.qt_view(linked),
         robocomp=qt.robocomp_view(linked, ports),

@@ -5,15 +5,15 @@ All that is here goes to the templates as it is.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import msgspec
 
-from robocomp_yaml.languages.cpp.methods import MethodView, OperationView, call, method_view, operation_view, scoped
-from robocomp_yaml.languages.cpp.names import Names, ice_name, proxy, qualified
+from robocomp_yaml.emit.lowering import ports as lowering
+from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.types import scoped
+from robocomp_yaml.languages.cpp.methods import MethodView, OperationView, call, method_view, operation_view
+from robocomp_yaml.languages.cpp.names import PORTS, names, proxy, qualified
 from robocomp_yaml.languages.cpp.text import IN, comment, quoted
-from robocomp_yaml.link.program import LinkedComponent, Port
-from robocomp_yaml.model.interface import Method
+from robocomp_yaml.link.program import LinkedComponent
 
 
 class ServiceView(msgspec.Struct, frozen=True):
@@ -42,102 +42,68 @@ class AccessorView(msgspec.Struct, frozen=True):
 
 
 class Ports:
-    """All ports of a component, with names that do not clash."""
+    """All ports of a component, as C++ has them."""
 
     def __init__(self, component: LinkedComponent) -> None:
-        self._members = Names(("parameters",))
-        self._servants = Names()
-        self._methods: dict[tuple[int, str, str], MethodView] = {}
-        self.requires = [self._required(port) for port in component.requires]
-        self.publishes = [self._published(port) for port in component.publishes]
-        self.implements = [self._implemented(port) for port in component.implements]
-        self.subscribes = [self._subscribed(port) for port in component.subscribes]
-
-    def _required(self, port: Port) -> AccessorView:
-        arguments = f"{{{quoted(port.name)}, runtime::Absent::{port.use.absent}}}"
-        if port.use.timeout is not None:
-            milliseconds = max(1, round(port.use.timeout * 1000))
-            arguments = f"{arguments[:-1]}, std::chrono::milliseconds({milliseconds})}}"
-        name, class_ = self._members.take(f"{port.name.lower()}_proxy"), proxy(port.scope, port.interface.name)
-        return AccessorView(
-            name=name,
-            proxy=class_,
-            comment=_accessor_comment(port, f"{port.name}, at the address that the property {port.name}Proxy gives."),
-            summary=f"calls {port.name}",
-            statement=call(f"{name} = connections.require<{class_}>", [arguments], IN),
-        )
-
-    def _published(self, port: Port) -> AccessorView:
-        events = ", ".join(
-            f"{ice_name(m.name)}({', '.join(member.name for member in m.inputs)})" for m in _published_methods(port)
-        )
-        name, class_ = self._members.take(f"{port.name.lower()}_pubproxy"), proxy(port.scope, port.interface.name)
-        return AccessorView(
-            name=name,
-            proxy=class_,
-            comment=_accessor_comment(port, f"Publishes {port.name}: {events}."),
-            summary=f"publishes {port.name}: {events}",
-            statement=call(
-                f"{name} = topics.publish<{class_}>", [quoted(port.name), quoted(port.interface.name)], IN
-            ),
-        )
-
-    def _implemented(self, port: Port) -> ServiceView:
-        name = port.interface.name
-        arguments = ", ".join(quoted(word) for word in (port.name, name.lower(), name))
-        return self._served(
-            port,
-            title=f"{port.name}: other components call these.",
-            methods=port.interface.methods,
-            suffix="Servant",
-            arguments=arguments,
-            function=("services.implement", f"{{{arguments}}}"),
-        )
-
-    def _subscribed(self, port: Port) -> ServiceView:
-        arguments = f"{quoted(port.name)}, {quoted(port.interface.name)}"
-        return self._served(
-            port,
-            title=f"{port.name}: events that others publish.",
-            methods=_published_methods(port),
-            suffix="Subscriber",
-            arguments=arguments,
-            function=("topics.subscribe", f"services, {arguments}"),
-        )
-
-    def _served(
-        self, port: Port, title: str, methods: Sequence[Method], suffix: str, arguments: str, function: tuple[str, str]
-    ) -> ServiceView:
-        new, calls = [], {}
-        for method in methods:
-            key = (id(port.scope), port.interface.name, method.name)
-            if key not in self._methods:
-                name = self._members.take(f"{port.interface.name}_{method.name}")
-                self._methods[key] = method_view(port, method, name)
-                new.append(self._methods[key])
-            calls[method.name] = self._methods[key].name
-        servant = self._servants.take(f"{port.name}{suffix}")
-        if any(method.name == servant for method in port.interface.methods):
-            servant += "_"
-        return ServiceView(
-            name=port.name,
-            title=title,
-            servant=servant,
-            base=qualified(port.scope, port.interface.name),
-            arguments=arguments,
-            declared=[
-                f"{{{quoted(method.name)}, {quoted('::' + '::'.join(scoped(ref, port.scope)))}}}"
-                for method in methods for ref in method.throws
-            ],
-            statement=call(function[0], [function[1], f"std::make_shared<{servant}>(*this)"], IN),
-            operations=[operation_view(m, port.scope, calls.get(m.name, "")) for m in port.interface.methods],
-            new_methods=new,
-        )
+        found, servants = lowering.lower(component, PORTS), names()
+        self.requires = [_required(accessor) for accessor in found.requires]
+        self.publishes = [_published(accessor) for accessor in found.publishes]
+        self.implements = [_implemented(service, servants) for service in found.implements]
+        self.subscribes = [_subscribed(service, servants) for service in found.subscribes]
 
 
-def _accessor_comment(port: Port, what: str) -> str:
-    return comment(f"{what}\n{port.use.doc or port.interface.doc}", IN)
+def _required(accessor: lowering.Accessor) -> AccessorView:
+    words = [quoted(accessor.port.name), f"runtime::Absent::{accessor.port.use.absent}"]
+    if accessor.milliseconds is not None:
+        words.append(f"std::chrono::milliseconds({accessor.milliseconds})")
+    return _accessor(accessor, accessor.summary, "connections.require", [f"{{{', '.join(words)}}}"])
 
 
-def _published_methods(port: Port) -> list[Method]:
-    return [method for method in port.interface.methods if method.can_be_published]
+def _published(accessor: lowering.Accessor) -> AccessorView:
+    words = [quoted(accessor.port.name), quoted(accessor.port.interface.name)]
+    return _accessor(accessor, f"{accessor.summary}: {accessor.events}", "topics.publish", words)
+
+
+def _accessor(accessor: lowering.Accessor, summary: str, function: str, arguments: list[str]) -> AccessorView:
+    class_ = proxy(accessor.port.scope, accessor.port.interface.name)
+    return AccessorView(
+        name=accessor.name,
+        proxy=class_,
+        comment=comment(f"{accessor.about}\n{accessor.doc}", IN),
+        summary=summary,
+        statement=call(f"{accessor.name} = {function}<{class_}>", arguments, IN),
+    )
+
+
+def _implemented(service: lowering.Service, servants: Names) -> ServiceView:
+    words = (service.port.name, service.identity, service.port.interface.name)
+    arguments = ", ".join(map(quoted, words))
+    return _served(service, servants, "Servant", arguments, ("services.implement", f"{{{arguments}}}"))
+
+
+def _subscribed(service: lowering.Service, servants: Names) -> ServiceView:
+    arguments = f"{quoted(service.port.name)}, {quoted(service.port.interface.name)}"
+    return _served(service, servants, "Subscriber", arguments, ("topics.subscribe", f"services, {arguments}"))
+
+
+def _served(
+    service: lowering.Service, servants: Names, suffix: str, arguments: str, function: tuple[str, str]
+) -> ServiceView:
+    port, calls = service.port, {called.method.name: called.name for called in service.methods}
+    servant = servants.take(f"{port.name}{suffix}")
+    if any(method.name == servant for method in port.interface.methods):
+        servant += "_"
+    return ServiceView(
+        name=port.name,
+        title=service.title,
+        servant=servant,
+        base=qualified(port.scope, port.interface.name),
+        arguments=arguments,
+        declared=[
+            f"{{{quoted(called.method.name)}, {quoted('::' + '::'.join(scoped(ref, port.scope)))}}}"
+            for called in service.methods for ref in called.method.throws
+        ],
+        statement=call(function[0], [function[1], f"std::make_shared<{servant}>(*this)"], IN),
+        operations=[operation_view(m, port.scope, calls.get(m.name, "")) for m in port.interface.methods],
+        new_methods=[method_view(called.port, called.method, called.name) for called in service.new],
+    )  # fmt: skip

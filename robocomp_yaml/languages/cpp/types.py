@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from robocomp_yaml.emit.lowering.types import found
 from robocomp_yaml.languages.cpp.names import ice_name, qualified
-from robocomp_yaml.link.program import Definition, LinkedModule
+from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.interface import Enum, TypeRef
 
 _BASIC = {
@@ -40,11 +41,3 @@ def zero(ref: TypeRef, scope: LinkedModule) -> str:
         if isinstance(definition, Enum):
             return f"{qualified(home, definition.name)}::{ice_name(definition.enumerators[0].name)}"
     return "{}"
-
-
-def found(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, Definition]:
-    """Raises LookupError where a reference is not linked: a component like that is not compiled."""
-    place = scope.find(ref)
-    if place is None:
-        raise LookupError(f"{ref.text} is not linked: {scope.module.path}")
-    return place

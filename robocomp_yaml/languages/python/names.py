@@ -5,6 +5,8 @@ from __future__ import annotations
 import keyword
 from collections.abc import Iterable, Iterator
 
+from robocomp_yaml.emit.lowering.ports import Spelling
+
 # What Ice 3.7's mapping puts an underscore before. What it forgets is escaped when the generated component loads its
 # Slice (templates/runtime/keywords.py).
 ICE_ESCAPES = frozenset(
@@ -61,16 +63,6 @@ def parameters(names: Iterable[str], modules: Iterable[str]) -> Iterator[str]:
         yield f"_{name}" if name in hidden else python_name(name)
 
 
-class Names:
-    """Hands out names, each once: a second taker gets it with an underscore at its end."""
-
-    def __init__(self, taken: Iterable[str]) -> None:
-        self._taken = set(taken)
-
-    def take(self, *candidates: str) -> str:
-        """The first candidate that is free; else the last one with underscores."""
-        name = next((name for name in candidates if name not in self._taken), candidates[-1])
-        while name in self._taken:
-            name += "_"
-        self._taken.add(name)
-        return name
+PORTS = Spelling(
+    taken=WORKER_ATTRIBUTES, published=("{name}_proxy", "{name}_pubproxy"), called=proxy_method, property="`{name}`",
+)

@@ -6,11 +6,12 @@ from collections.abc import Iterable, Iterator
 
 import msgspec
 
-from robocomp_yaml.emit.parameter_facts import facts, inside, records
+from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.parameters import Spelling, Types, about_enum, about_member, group_of, path_of
+from robocomp_yaml.emit.parameter_facts import records
 from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import LANGUAGE
-from robocomp_yaml.languages.python.names import Names
 from robocomp_yaml.languages.python.text import docstring, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.parameters import (
@@ -24,10 +25,9 @@ from robocomp_yaml.model.parameters import (
     Size,
     Type,
 )
-from robocomp_yaml.model.pdsl import Spelling
+from robocomp_yaml.model.pdsl import Spelling as PropertySpelling
 
 WIDTH = 112
-_HINTS = {"bool": "bool", "int": "int", "long": "int", "float": "float", "double": "float", "string": "str"}
 _TAKEN = (
     "Literal Mapping Optional Parameters TABLE Values annotations bool composite constraints float int parameters "
     "plain reading str tuple"
@@ -119,40 +119,36 @@ def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints:
     yield f"from generated.runtime import {', '.join(name for name, used in modules.items() if used)}"
 
 
-class _Types:
+_SPELLING = Spelling(
+    basic={"bool": "bool", "int": "int", "long": "int", "float": "float", "double": "float", "string": "str"},
+    listing="tuple[{}, ...]",
+    mapping="Mapping[str, {}]",
+    path="`{}`",
+)
+
+
+class _Types(Types):
     """The classes of all records that the parameters use, with names that do not clash."""
 
     def __init__(self, root: RecordType) -> None:
-        self.records, self.enums = records(root)
-        members = {LANGUAGE.in_code(member.code_name) for _, record in self.records for member in record.members}
-        names = Names((*_TAKEN, *members))  # a class's members hide what else is called so
-        self._enums = {enum.name: names.take(enum.name) for enum in self.enums}
-        self._records = {path: names.take(path) for path, record in self.records if not record.is_group}
-        for path, record in self.records:
-            if record.is_group:
-                self._records[path] = "Values" if path == "." else names.take(_group_class(path))
+        members = {LANGUAGE.in_code(member.code_name) for _, record in records(root)[0] for member in record.members}
+        super().__init__(root, Names((*_TAKEN, *members)), _SPELLING)  # a class's members hide what else is called so
 
     def enum(self, enum: EnumType) -> EnumView:
-        words = [enum.doc or f"One of {len(enum.enumerators)} names."]
-        words += [f"{name}: {one_line(doc)}" for name, doc in enum.enumerators if doc]
         names = ", ".join(map(literal, enum.names))
-        return EnumView(self._enums[enum.name], f"Literal[{names}]", docstring("\n".join(words), ""))
+        return EnumView(self.of[enum.name], f"Literal[{names}]", docstring("\n".join(about_enum(enum)), ""))
 
     def record(self, path: str, record: RecordType) -> RecordView:
-        doc = record.doc
-        if not doc:
-            doc = f"The group `{path[1:]}`." if record.is_group else f"The record {record.name}."
-        if path == ".":
-            doc = "All parameters, as they were at one moment."
+        group = group_of(path, record)
         return RecordView(
-            self._records[path],
-            docstring(doc, "    "),
-            [self.member(member, path if record.is_group else None) for member in record.members],
+            self.of[path],
+            docstring(self.about_record(path, record), "    "),
+            [self.member(member, group) for member in record.members],
         )
 
     def member(self, member: Member, group: str | None) -> MemberView:
         """`group` is the path of the group that it stands in, None in a struct."""
-        inner = None if group is None else inside(group, member.code_name)
+        inner = path_of(member, group)
         arguments = [self.kind(member.type, inner)]
         if member.default is not None:
             arguments.append(f"default={literal(member.default.data)}")
@@ -160,24 +156,10 @@ class _Types:
         name = LANGUAGE.in_code(member.code_name)
         if name != member.name:
             arguments.append(f"key={literal(member.name)}")
-        hint = self.hint(member.type, inner)
+        hint = self.spelled(member.type, inner)
         hint = f"Optional[{hint}]" if member.optional else hint
-        said = facts(member)
-        doc = "\n\n".join(part for part in (member.doc.strip(), said) if part) or f"{member.name}."
+        doc = about_member(member, "\n\n")
         return MemberView(name, hint, _call("composite.member", arguments, "    "), docstring(doc, "    "))
-
-    def hint(self, type_: Type, group: str | None) -> str:
-        match type_:
-            case BasicType(name=name):
-                return _HINTS[name]
-            case EnumType(name=name):
-                return self._enums[name]
-            case ListType(element=element):
-                return f"tuple[{self.hint(element, None)}, ...]"
-            case MapType(element=element):
-                return f"Mapping[str, {self.hint(element, None)}]"
-            case _:
-                return self._records[type_.name or group or ""]
 
     def kind(self, type_: Type, group: str | None) -> str:
         match type_:
@@ -192,11 +174,7 @@ class _Types:
                 return f"composite.naming({', '.join((self.kind(element, None), *_size(size)))})"
             case _:
                 made = "group" if type_.is_group else "record"
-                return f"composite.{made}({self.hint(type_, group)})"
-
-
-def _group_class(path: str) -> str:
-    return "".join(part[:1].upper() + part[1:] for part in path[1:].split(".")) + "Group"
+                return f"composite.{made}({self.spelled(type_, group)})"
 
 
 def _secret(type_: BasicType | EnumType, made: str) -> str:
@@ -236,7 +214,7 @@ def _size(size: Size) -> Iterator[str]:
         yield f"at_most={size.most}"
 
 
-def _spelling(spelling: Spelling) -> str:
+def _spelling(spelling: PropertySpelling) -> str:
     words = [literal(spelling.key)] if spelling.key else []
     words += [f"fields={literal(spelling.fields)}"] if spelling.fields else []
     words += [f"first={spelling.first}"] if spelling.first else []

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -16,6 +17,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.emit import windows
 from robocomp_yaml.emit.copied import copied
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, lower
 from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import parameters, qt
@@ -23,15 +25,12 @@ from robocomp_yaml.languages.python.names import ice_name, is_forgotten, module_
 from robocomp_yaml.languages.python.ports import AccessorView, Ports, ServedView
 from robocomp_yaml.languages.python.stubs import ModuleStub, stub
 from robocomp_yaml.languages.python.text import docstring, one_line
-from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.references import groups
 
 if TYPE_CHECKING:
     from robocomp_yaml.languages.python.statemachine import MachineView
 
-DEFAULT_PERIOD = 100
-BEHAVIOR = "RoboCompCommonBehavior"
 
 
 class SliceModule(msgspec.Struct, frozen=True):
@@ -87,7 +86,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     stubs = [*signatures, *(method.value for method in methods)]
     return [
         *_runtime(),
-        *_machine_files(component),
+        *(_machine().files(component.machine, component.component.name) if component.machine else []),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
         FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
         parameters.plan(component),
@@ -101,20 +100,10 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     ]
 
 
-def _machine_files(linked: LinkedComponent) -> list[FilePlan]:
-    if linked.machine is None:
-        return []
+def _machine() -> ModuleType:
     from robocomp_yaml.languages.python import statemachine  # with all about machines, which few have
 
-    return statemachine.files(linked.machine, linked.component.name)
-
-
-def _machine_view(linked: LinkedComponent) -> MachineView | None:
-    if linked.machine is None:
-        return None
-    from robocomp_yaml.languages.python import statemachine
-
-    return statemachine.view(linked.machine)
+    return statemachine
 
 
 def _robocomp(view: View) -> list[FilePlan]:
@@ -145,23 +134,18 @@ def _runtime() -> tuple[FilePlan, ...]:
 def _view(linked: LinkedComponent) -> View:
     component = linked.component
     ports = Ports(linked)
-    names = dict.fromkeys([*(scope.module.name for scope in linked.modules()), BEHAVIOR])
-    files = [file_name(scope) for scope in linked.imports]
-    has_behavior = all(scope.module.name != BEHAVIOR for scope in linked.modules())
-    if has_behavior:
-        files.append("CommonBehavior.ice")
-    doc = f"{component.name}: {component.doc}" if component.doc else component.name
+    lowered = lower(linked)
     return View(
-        source=one_line(component.path.rpartition("/")[2]),
-        name=component.name,
-        title=docstring(doc, ""),
-        docstring=docstring(doc, "    "),
-        period=component.period or DEFAULT_PERIOD,
-        files=[json.dumps(file, ensure_ascii=False) for file in files],
-        modules=[SliceModule(ice_name(name), module_variable(name)) for name in names],
+        source=one_line(lowered.source),
+        name=lowered.name,
+        title=docstring(lowered.doc, ""),
+        docstring=docstring(lowered.doc, "    "),
+        period=lowered.period,
+        files=[json.dumps(file, ensure_ascii=False) for file in lowered.imported],
+        modules=[SliceModule(ice_name(name), module_variable(name)) for name in lowered.modules],
         escape=any(is_forgotten(name) for name in _identifiers(linked)),
         behavior=module_variable(BEHAVIOR),
-        has_behavior=has_behavior,
+        has_behavior=lowered.is_common,
         stubs=[stub(scope) for scope in linked.modules()],
         implements=ports.implements,
         subscribes=ports.subscribes,
@@ -173,7 +157,7 @@ def _view(linked: LinkedComponent) -> View:
         window=component.gui.base if component.gui else "",
         qt_base=qt.qt_base(linked),
         sequences=qt.sequences(linked),
-        machine=_machine_view(linked),
+        machine=_machine().view(linked.machine) if linked.machine else None,
         base=_base(linked),
     )
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from robocomp_yaml.emit.lowering.types import found, results
 from robocomp_yaml.languages.python.names import module_variable, python_name
-from robocomp_yaml.link.program import Definition, LinkedModule
+from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.interface import Enum, Map, Method, Sequence, TypeRef
 
 _BASIC_HINTS = {
@@ -23,7 +24,7 @@ def hint(ref: TypeRef, scope: LinkedModule) -> str:
     """The annotation for a value of this type, as `scope` names it."""
     if ref.is_basic:
         return _BASIC_HINTS[ref.text]
-    home, definition = _found(ref, scope)
+    home, definition = found(ref, scope)
     match definition:
         case Sequence(element=element):
             return "bytes" if element.text == "byte" else f"list[{hint(element, home)}]"
@@ -31,12 +32,6 @@ def hint(ref: TypeRef, scope: LinkedModule) -> str:
             return f"dict[{hint(key, home)}, {hint(value, home)}]"
         case _:
             return qualified(home, definition.name)
-
-
-def results(method: Method) -> list[TypeRef]:
-    """What a method gives back, in the order of Ice's Python mapping."""
-    returned = [] if method.returns is None else [method.returns]
-    return [*returned, *(member.type for member in method.outputs)]
 
 
 def result_hint(method: Method, scope: LinkedModule) -> str:
@@ -49,7 +44,7 @@ def zero(ref: TypeRef, scope: LinkedModule) -> str:
     """An expression for the plainest value: zero, empty, the first enumerator, a struct of its defaults."""
     if ref.is_basic:
         return _ZEROS[_BASIC_HINTS[ref.text]]
-    home, definition = _found(ref, scope)
+    home, definition = found(ref, scope)
     match definition:
         case Sequence(element=element):
             return 'b""' if element.text == "byte" else "[]"
@@ -64,10 +59,3 @@ def zero(ref: TypeRef, scope: LinkedModule) -> str:
 def qualified(scope: LinkedModule, name: str) -> str:
     """A definition as generated code refers to it."""
     return f"{module_variable(scope.module.name)}.{python_name(name)}"
-
-
-def _found(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, Definition]:
-    found = scope.find(ref)
-    if found is None:
-        raise LookupError(f"{ref.text} is not linked: {scope.module.path}")
-    return found
