@@ -14,7 +14,6 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.source.regular import regular
 from robocomp_yaml.source.text import MAX_DOCUMENT, read_bytes
 
-
 FILE, FOLDER, OTHER, NOTHING = "file", "folder", "other", ""
 
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_yaml import resources
+from robocomp_yaml.languages import language
 
-RULE = resources.text("templates/python/runtime/interpreter.py")
+RULE = language("python").text("runtime/interpreter.py")
 PROGRAM = """\
 #!/usr/bin/env python3
 import os, sys
