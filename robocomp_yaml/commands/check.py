@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import click
@@ -11,8 +10,6 @@ from robocomp_yaml.commands import _fail_on, _options
 
 if TYPE_CHECKING:
     from robocomp_yaml.commands._fail_on import FailOn
-    from robocomp_yaml.diag.diagnostic import Diagnostic
-    from robocomp_yaml.pipeline import Analysis
 
 
 @click.command(short_help="Report everything that is wrong with the documents.")
@@ -30,31 +27,10 @@ def command(
 
     A folder means all documents below it. Documents that they import are looked at too.
     """
-    from robocomp_yaml.pipeline import analyse
+    from robocomp_yaml import api
 
     paths = paths or (".",)
     with _options.progress("reading", paths) as on_read:
-        analysis = analyse(paths, include, on_read)
-    told = analysis.with_more([*_on_disk(analysis, environment), *(_missing(analysis) if environment else ())])
-    _options.report(ctx, format_, told, analysis.program.documents, fail_on)
-
-
-def _on_disk(analysis: Analysis, environment: bool) -> Iterator[Diagnostic]:
-    """What files say that are no documents: each component's `etc/config` and code, and the executables of
-    deployments."""
-    if analysis.program.components:
-        from robocomp_yaml.emit import ports
-        from robocomp_yaml.emit.specific.written import of_written
-
-        yield from ports.clashes(analysis.program.components.values())
-        yield from of_written(analysis.program, analysis.diagnostics, analysis.linker)
-    if analysis.networks:
-        from robocomp_yaml.check.networks import of_environment
-
-        yield from of_environment(analysis.networks, analysis.program, environment=environment)
-
-
-def _missing(analysis: Analysis) -> Iterator[Diagnostic]:
-    from robocomp_yaml.emit.environment import missing
-
-    return missing(analysis.program.components.values(), analysis.linker.workspace_of)
+        workspace = api.load(*paths, include=include, on_read=on_read)
+    told = workspace.check(environment=environment)
+    _options.report(ctx, format_, told, workspace.documents_read, fail_on)

@@ -17,6 +17,7 @@ import click
 import msgspec
 
 from robocomp_yaml.commands import _options, _workspace
+from robocomp_yaml.commands._command import Group
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.transactions import whole_file
 
@@ -47,7 +48,7 @@ class NewDocument(msgspec.Struct, frozen=True):
     text: str
 
 
-@click.group(short_help="Write a new interface, component, parameters or deployment document.")
+@click.group(cls=Group, short_help="Write a new interface, component, parameters or deployment document.")
 def command() -> None:
     """Write a new document that already checks and compiles, commented as a tutorial.
 

@@ -9,6 +9,7 @@ import re
 import time
 from collections.abc import Iterator
 
+from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import regular
 from robocomp_yaml.transactions import whole_file
 
@@ -84,6 +85,6 @@ def document_in(folder: str, deployment: str) -> str:
     with contextlib.suppress(OSError):
         for name in sorted(os.listdir(folder)):
             path = os.path.join(folder, name)
-            if name.endswith("ddsl.yaml") and deployment_in(path) == deployment:
+            if kind_of(name) == "ddsl" and deployment_in(path) == deployment:
                 return path
     return folder

@@ -45,7 +45,7 @@ def component_plan(
         made = list(_configs(linked, program, lambda: options.ports(linked)))
         files += made
         if all(file.path != CONFIG for file in made):
-            table = assign([linked]) if _is_complete(root, linked) else options.ports(linked)
+            table = assign([linked], program.disk) if _is_complete(root, linked) else options.ports(linked)
             files.append(config.plan(linked, table))
     if options.wants("docs"):
         files += parameter_files.docs(linked)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from robocomp_yaml.diag.codes import idsl as idsl_codes
+from robocomp_yaml.check.idsl import cpp
+from robocomp_yaml.diag.codes import cdsl, idsl, machines, pdsl
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -23,7 +25,20 @@ from robocomp_yaml.legacy.settings.plan import Guesses
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.legacy.upgrade import upgrade
 from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.model.build_interface import build
+from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
+from robocomp_yaml.source.migrated import HEADING
+from robocomp_yaml.source.tree import Mapping, parse
+
+_IMPORTS = (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id)
+_SAME = {
+    codes.UNKNOWN_TYPE.id: (idsl.UNKNOWN_TYPE.id,),
+    codes.IMPORT_UNKNOWN.id: _IMPORTS,
+    codes.NOT_SEARCHED.id: _IMPORTS,
+    codes.STATE_MACHINE.id: (machines.UNREADABLE.id,),
+    codes.NO_PDSL.id: (pdsl.NO_COMPONENT.id,),
+}  # what `migrate` says of what is not there, and what `check` says of it
 
 Progress = Callable[[Sequence[LegacyFile]], Iterator[LegacyFile]]
 
@@ -73,14 +88,23 @@ def look_back(run: Migration, extra: Sequence[str]) -> None:
         if told.severity == ERROR:
             found.setdefault(os.path.realpath(told.span.file), []).append(told)
     for path, entry in documents:
-        is_told = any(said.code == codes.UNKNOWN_TYPE.id for said in entry.diagnostics)
-        errors = [told for told in found.get(os.path.realpath(path), [])
-                  if not (is_told and told.code == idsl_codes.UNKNOWN_TYPE.id)]  # fmt: skip
+        errors = [told for told in found.get(os.path.realpath(path), []) if not _is_said(told, entry.diagnostics)]
         if errors:
             first, more = errors[0], f" (and {len(errors) - 1} more)" if errors[1:] else ""
             entry.diagnostics.append(codes.NOT_ACCEPTED.at(
                 Span(entry.file.path), path=path, line=first.span.line, reason=first.message + more, hint=first.hint
             ))
+
+
+def _is_said(error: Diagnostic, said: Sequence[Diagnostic]) -> bool:
+    """Whether an error of `check` is of what migrating has told already: the same thing that is not there."""
+    for told in said:
+        names = re.findall(r"'([^']+)'", told.message)
+        if error.code in _SAME.get(told.code, ()) and names:
+            name = re.escape(names[-1].rpartition("::")[2])
+            if re.search(rf"(?<!\w){name}(?!\w)", error.message):
+                return True
+    return False
 
 
 def _tell(run: Migration, said: Sequence[Diagnostic]) -> None:
@@ -132,7 +156,7 @@ def _plan(
         home = known.of(document).root
         gap = "\n" if around.head else ""
         root = run.root(file.root)
-        text = raw or _modeline(document, home, kind, content) + gap + yaml.text(content, around)
+        text = raw or _with_heading(yaml.text(content, around), gap, _modeline(document, home, kind, content), kind)
         output = root.add(os.path.relpath(document, file.root), text, force=force, sources=(file.path,))
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
@@ -141,6 +165,19 @@ def _plan(
     run.tell_failures()
     for folder in known.new:
         run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)
+
+
+def _with_heading(text: str, gap: str, modeline: str, kind: str) -> str:
+    """A document below what says where its schema is and, where that counts, that it was migrated."""
+    return modeline + (HEADING if kind == "idsl" and _has_taken(text) else "") + gap + text
+
+
+def _has_taken(text: str) -> bool:
+    """Whether a document of interfaces has names that C++ takes."""
+    tree, _ = parse("", text)
+    if not isinstance(tree, Mapping) or schema.validate("idsl", tree):
+        return False
+    return cpp.has_taken(build(tree, ""))
 
 
 def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:

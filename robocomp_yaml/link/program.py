@@ -15,6 +15,7 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
+from robocomp_yaml.source.disk import Disk
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.deployments import LinkedDeployment
@@ -155,7 +156,8 @@ class LinkedComponent(msgspec.Struct, eq=False):
 
 
 class Program(msgspec.Struct):
-    """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported)."""
+    """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported).
+    Checks read other files through `disk`."""
 
     modules: dict[str, LinkedModule] = {}
     components: dict[str, LinkedComponent] = {}
@@ -164,6 +166,7 @@ class Program(msgspec.Struct):
     deployments: dict[str, LinkedDeployment] = {}
     asked: set[str] = set()
     documents: int = 0
+    disk: Disk = msgspec.field(default_factory=Disk)
 
     def documents_of_components(self) -> dict[str, LinkedComponent | None]:
         """The documents of parameters and of values, each with its component."""

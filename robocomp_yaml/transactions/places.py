@@ -8,7 +8,7 @@ import stat
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import whole
 
 STATE = ".rcyaml"
 """The folder of a root in which rcyaml keeps what it must remember."""
@@ -102,8 +102,7 @@ class Root:
 
 
 def contents(path: str) -> bytes:
-    with open(path, "rb", buffering=0, opener=regular) as file:
-        return file.read()
+    return whole(path)[0]
 
 
 def in_words(error: OSError) -> str:

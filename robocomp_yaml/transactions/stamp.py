@@ -11,16 +11,17 @@ import contextlib
 import json
 import os
 import stat
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from types import MappingProxyType
+from collections.abc import Iterable, Iterator, Mapping
 
 import msgspec
 from msgspec.structs import asdict
 
 import robocomp_yaml
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.discover import documents_below
+from robocomp_yaml.source.disk import documents_in, names_in, state_of
 from robocomp_yaml.source.inside import stays_inside
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import regular, whole
 from robocomp_yaml.transactions import whole_file
 
 FOLDER = ".rcyaml/stamps"
@@ -31,20 +32,21 @@ _DATA = ("schemas", "templates", "migrate")
 class Stamp(msgspec.Struct, frozen=True):
     """All paths are as the run used them, relative to its working folder or absolute.
 
-    `inputs`: of each file read, its real path and its digest with who may read it. `absent`: where it looked in vain.
-    `folders`: of each folder asked, what was found below. `names`: of folders, what was found in them. `outputs`: of
-    each file written, its digest and who may read and run it. `present`: files whose contents are the user's.
-    `replay`: what the run had to say, in the caller's form.
+    `inputs`: of each file read, its real path and its digest with who may read it. `states` and `listed`: what else it
+    asked, as `source.disk.Disk` remembers it. `names`: all names in folders. `walked`: of each folder, what `walked`
+    finds below it. `outputs`: of each file written, its digest and who may read and run it. `present`: files whose
+    contents are the user's. `replay`: what the run had to say, in the caller's form.
     """
 
     tool: str
     inputs: dict[str, tuple[str, str]]
-    absent: list[str]
-    folders: dict[str, list[str]]
+    states: dict[str, str]
+    listed: dict[str, list[str]]
+    names: dict[str, list[str]]
+    walked: dict[str, list[str]]
     outputs: dict[str, tuple[str, str]]
     present: list[str]
     replay: dict[str, object]
-    names: dict[str, list[str]] = {}
 
 
 def key(arguments: Iterable[str]) -> str:
@@ -55,12 +57,13 @@ def key(arguments: Iterable[str]) -> str:
 def take(
     *,
     inputs: Mapping[str, bytes],
-    absent: Iterable[str],
-    folders: Mapping[str, Iterable[str]],
+    states: Mapping[str, str],
+    listed: Mapping[str, list[str]],
+    names: Mapping[str, list[str]],
+    walked: Mapping[str, list[str]],
     outputs: Mapping[str, bytes],
     present: Iterable[str],
     replay: Mapping[str, object],
-    names: Mapping[str, list[str]] = MappingProxyType({}),
 ) -> Stamp | None:
     """The stamp of a run that is done; None where one of its files has gone already. `inputs` are the bytes that were
     read, `outputs` those that were meant to be written: the disk may have changed since."""
@@ -69,32 +72,41 @@ def take(
         return Stamp(
             tool(),
             {path: (real.path(path), f"{digest(data)} {_readers(os.stat(path)):o}") for path, data in inputs.items()},
-            sorted(absent),
-            {folder: list(found) for folder, found in folders.items()},
+            dict(states),
+            dict(listed),
+            dict(names),
+            dict(walked),
             {path: (digest(data), _may(os.lstat(path))) for path, data in outputs.items()},
             sorted(present),
             dict(replay),
-            dict(names),
         )
     except OSError:
         return None
 
 
-def is_current(
-    stamp: Stamp, find: Callable[[str], Iterable[str]], pick: Callable[[Iterable[str]], list[str]]
-) -> bool:
-    """Whether the run would read, find and leave the same again. `find` lists what is below a folder asked, and `pick`
-    tells what counts of the names in a folder, as they did for the run."""
+def is_current(stamp: Stamp) -> bool:
+    """Whether the run would read, find and leave the same again."""
+    try:
+        return (
+            all(os.path.lexists(path) for path in stamp.present)
+            and reads_the_same(stamp)
+            and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
+        )
+    except (OSError, ValueError, TypeError):
+        return False
+
+
+def reads_the_same(stamp: Stamp) -> bool:
+    """Whether the run would read and find the same again, whatever became of what it left."""
     real = _Real()
     try:
         return (
-            not any(os.path.lexists(path) for path in stamp.absent)
-            and all(os.path.lexists(path) for path in stamp.present)
-            and all(list(find(folder)) == found for folder, found in stamp.folders.items())
-            and all(pick(os.listdir(folder)) == found for folder, found in stamp.names.items())
+            all(state_of(path) == state for path, state in stamp.states.items())
+            and all(documents_in(names_in(folder)) == found for folder, found in stamp.listed.items())
+            and all(names_in(folder) == found for folder, found in stamp.names.items())
+            and all(walked(folder) == found for folder, found in stamp.walked.items())
             and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
-            and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
             and stamp.tool == tool()
         )
     except (OSError, ValueError, TypeError):
@@ -172,9 +184,17 @@ class _Real:
         return os.path.join(self._folders[folder], name)
 
 
+def walked(folder: str) -> list[str]:
+    """The documents below a folder, and the folders below it that something was compiled to."""
+    roots: list[str] = []
+    return [*documents_below(folder, roots), *roots]
+
+
 def _is_as_written(path: str, hash_: str, may: str) -> bool:
-    status = os.lstat(path)
-    return stat.S_ISREG(status.st_mode) and _may(status) == may and _state(path).split()[0] == hash_
+    if os.path.islink(path):
+        return False
+    data, status = whole(path)
+    return _may(status) == may and digest(data) == hash_
 
 
 def _may(status: os.stat_result) -> str:
@@ -187,8 +207,8 @@ def _readers(status: os.stat_result) -> int:
 
 
 def _state(path: str) -> str:
-    with open(path, "rb", buffering=0, opener=regular) as file:
-        return f"{digest(file.read())} {_readers(os.fstat(file.fileno())):o}"
+    data, status = whole(path)
+    return f"{digest(data)} {_readers(status):o}"
 
 
 def _file(folder: str, name: str) -> str:

@@ -9,20 +9,22 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.layout import SOURCES
-from robocomp_yaml.emit.specific import entries
+from robocomp_yaml.emit.specific import entries, sources
 from robocomp_yaml.emit.specific.own import Own
+from robocomp_yaml.emit.specific.reading import is_code
 from robocomp_yaml.transactions.manifest import BASE
 from robocomp_yaml.transactions.places import Root
 from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 
 
 class Review(msgspec.Struct, frozen=True):
-    """`contents` and `absent` are what it read and looked for in vain."""
+    """`contents` and `absent` are what it read and looked for in vain, `names` what it saw in folders."""
 
     diagnostics: tuple[Diagnostic, ...] = ()
     merges: Merges = Merges()
     contents: Mapping[str, bytes] = {}
     absent: Set[str] = frozenset()
+    names: Mapping[str, list[str]] = {}
 
 
 def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
@@ -46,13 +48,22 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
                 continue
             merges.update({(root.real, path): one for path, one in merged.items()})
             files = [_after(file, merged.get(file.plan.path)) for file in files]
+        _remember_code(seen, root, files)
         diagnostics += telling.tell(root, files, root.shown(plan.owner))
-    return Review(tuple(diagnostics), Merges(merges, refused), seen.contents, seen.absent)
+    return Review(tuple(diagnostics), Merges(merges, refused), seen.contents, seen.absent, seen.names)
 
 
 class _Seen(msgspec.Struct):
     contents: dict[str, bytes] = {}
     absent: set[str] = set()
+    names: dict[str, list[str]] = {}
+
+
+def _remember_code(seen: _Seen, root: Root, files: Iterable[Own]) -> None:
+    """Parts of the class that it is about may stand in any file beside it."""
+    for folder in {file.plan.path.rpartition("/")[0] for file in files if is_code(file.plan.path)}:
+        seen.names[root.shown(folder)] = sources.names(root, folder)
+        seen.contents.update((root.shown(path), data) for path, data in sources.code_in(root, folder))
 
 
 def _own(plan: RootPlan, root: Root, every: bool, seen: _Seen) -> Iterator[Own]:

@@ -13,7 +13,7 @@ import msgspec
 import pytest
 
 from conftest import write_tree
-from robocomp_yaml.source.discover import documents_below, documents_in
+from robocomp_yaml.source.disk import FOLDER, NOTHING
 from robocomp_yaml.transactions import stamp
 
 KEY = "0" * 8
@@ -36,14 +36,15 @@ def run() -> stamp.Stamp | None:
     Path("out/mine").write_text("mine")
     return stamp.take(
         inputs={"docs/a.idsl.yaml": b"a", "docs/b.idsl.yaml": b"b", "docs/far/real.idsl.yaml": b"b"},
-        absent=["docs/c.idsl.yaml", "elsewhere/c.idsl.yaml"], folders={"docs": documents_below("docs")},
+        states={"docs/c.idsl.yaml": NOTHING, "elsewhere/c.idsl.yaml": NOTHING, "docs": FOLDER},
+        listed={"docs/far": ["real.idsl.yaml"], "nowhere": []}, names={"docs/far": ["real.idsl.yaml"]}, walked={"docs": stamp.walked("docs")},
         outputs={"out/bin/run": b"#!"}, present=["out/mine"], replay={"told": ["é"], "exit": 0},
     )
 
 
 def current() -> bool:
     kept = stamp.load("out", KEY)
-    return kept is not None and stamp.is_current(kept, documents_below, documents_in)
+    return kept is not None and stamp.is_current(kept)
 
 
 def test_an_untouched_tree_is_current() -> None:
@@ -74,6 +75,10 @@ def relink(path: str, target: str) -> None:
     lambda: Path("docs/c.idsl.yaml").write_text("c"),
     lambda: (Path("elsewhere").mkdir(), Path("elsewhere/c.idsl.yaml").symlink_to("nowhere")),
     lambda: Path("docs/far/new.cdsl.yaml").write_text("n"),
+    lambda: Path("docs/far/other.YAML").write_text("n"),
+    lambda: write_tree(Path("nowhere"), {"a.idsl.yaml": ""}),
+    lambda: (shutil.rmtree("docs/far"), Path("docs/far").touch()),
+    lambda: Path("docs/c.idsl.yaml").mkdir(),
     lambda: Path("out/bin/run").write_text("#! "),
     lambda: Path("out/bin/run").unlink(),
     lambda: Path("out/bin/run").chmod(0o644),
@@ -83,7 +88,7 @@ def relink(path: str, target: str) -> None:
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("{"),
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("[1]"),
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text(
-        '{"tool": 1, "inputs": {}, "absent": [[]], "folders": {}, "outputs": {}, "present": [], "replay": {}}'
+        '{"tool": 1, "inputs": {}, "states": [[]], "listed": {}, "names": {}, "walked": {}, "outputs": {}, "present": [], "replay": {}}'
     ),
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text('{"inputs": {"a": 1}}'),
     lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("[" * 100_000),
@@ -165,8 +170,8 @@ def test_what_was_read_counts_not_what_stands_there_now() -> None:
     taken = run()
     assert taken is not None
     Path("docs/a.idsl.yaml").write_text("a changed")
-    late = stamp.take(inputs={"docs/a.idsl.yaml": b"a"}, absent=[], folders={}, outputs={}, present=[], replay={})
-    assert late is not None and not stamp.is_current(late, documents_below, documents_in)
+    late = stamp.take(inputs={"docs/a.idsl.yaml": b"a"}, states={}, listed={}, names={}, walked={}, outputs={}, present=[], replay={})
+    assert late is not None and not stamp.is_current(late)
 
 
 def test_runs_of_another_kind_have_another_key(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -23,12 +23,8 @@ def ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
         if key not in known:
             around = _neighbours(workspace, analysis)
             values = {**around.values, **analysis.program.values}
-            known[key] = assign([*around.components.values(), *analysis.program.components.values()], values.values())
-            for path, raw in known[key].contents.items():
-                if raw is None:
-                    analysis.absent.add(path)
-                else:
-                    analysis.contents[path] = raw
+            components = [*around.components.values(), *analysis.program.components.values()]
+            known[key] = assign(components, analysis.disk, values.values())
         return known[key]
 
     return of
@@ -38,6 +34,7 @@ def _neighbours(workspace: Workspace, analysis: Analysis) -> Program:
     """All components of a workspace, whether this run is about them or not."""
     if not workspace.declared:
         return Program()
-    paths = [path for path in documents_below(workspace.root) if kind_of(path) == "cdsl"]
+    disk = analysis.disk
+    paths = [path for path in documents_below(workspace.root, disk=disk) if kind_of(path, disk) == "cdsl"]
     around = Linker(analysis.linker.documents, analysis.linker.search)
     return around.link(paths)  # what is wrong with neighbours is for their own `check`
