@@ -21,6 +21,7 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
 from robocomp_yaml.source.discover import Found, discover
 from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.spelled import spelled
 
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
@@ -39,7 +40,11 @@ class Analysis(msgspec.Struct):
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
-        return in_order([*self.diagnostics, *self.veiled(_with_lint(diagnostics, self.linker))])
+        return in_order([*self.diagnostics, *self.veiled(self.spelled(diagnostics))])
+
+    def spelled(self, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+        """Diagnostics at the severities that the workspaces ask for, with fixes that say what to write."""
+        return spelled(_with_lint(diagnostics, self.linker), self.disk.contents)
 
     def veiled(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics without the secrets that the documents hold."""
@@ -83,7 +88,7 @@ def analyse(
         said += more
     said += secrets.check(program, documents.read.values())
     analysis = Analysis(program, linker, found, [], disk, networks)
-    analysis.diagnostics = in_order(analysis.veiled(_with_lint(said, linker)))
+    analysis.diagnostics = in_order(analysis.veiled(analysis.spelled(said)))
     return analysis
 
 

@@ -190,8 +190,8 @@ class Values:
 
     def _refuse_worse(self, changed: bytes) -> None:
         after = Values(self.file, self._include, {**self._overlay, os.path.realpath(self.file): changed})
-        before = {(d.code, d.message) for d in self.diagnostics}
-        worse = [d for d in after.diagnostics if d.severity == "error" and (d.code, d.message) not in before]
+        before = {(d.code, d.facts) for d in self.diagnostics}
+        worse = [d for d in after.diagnostics if d.severity == "error" and (d.code, d.facts) not in before]
         if worse:
             raise Faulty(worse, after.documents_read)
 
@@ -205,7 +205,7 @@ class Values:
             said = f"'{value}'" if not is_secret(type_) else HIDDEN
             found = [file_codes.WRONG_SHAPE.at(span, problem=f"{said} is no value: {reason}")]
         else:
-            found = [replace(fault, span=span) for fault in judge(type_, node, tuple(steps), complete=False)]
+            found = [replace(fault, span=span, fixes=()) for fault in judge(type_, node, tuple(steps), complete=False)]
         if found:
             raise Faulty(self._analysis.veiled(found), 1)
 

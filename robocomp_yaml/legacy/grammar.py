@@ -87,7 +87,7 @@ def parse(source: Source, rules: Rules) -> Parsed:
             tree = parser.lark.parse(text)
         except UnexpectedInput as error:
             fault = syntax_error.Explainer(source, rules, parser.literals, text).explain(error)
-            if not (fault.at_end and any(diagnostic.hint == syntax_error.BRACE_HINT for diagnostic in said)):
+            if not (fault.at_end and any(diagnostic.fact("missing") == "}" for diagnostic in said)):
                 said.append(fault.diagnostic)
             text = fault.rest
         else:

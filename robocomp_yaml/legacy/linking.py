@@ -156,7 +156,7 @@ def resolve_references(file: Converted, neighbours: Neighbours) -> Iterable[Diag
             problem = _problem(reference, own, dict(imported), complete)
             if problem:
                 hint = neighbours.who_defines(reference.name)
-                yield codes.UNKNOWN_TYPE.at(reference.span, problem=problem, hint=hint)
+                yield codes.UNKNOWN_TYPE.at(reference.span, problem=problem, name=reference.name, hint=hint)
 
 
 def _problem(reference: Reference, own: ModuleNames, imported: Mapping[str, ModuleNames], complete: bool) -> str:

@@ -29,7 +29,8 @@ from robocomp_yaml.model.build_interface import build
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.migrated import HEADING
-from robocomp_yaml.source.tree import Mapping, parse
+from robocomp_yaml.source.tree import Mapping as Tree
+from robocomp_yaml.source.tree import parse
 
 _IMPORTS = (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id)
 _SAME = {
@@ -99,12 +100,16 @@ def look_back(run: Migration, extra: Sequence[str]) -> None:
 def _is_said(error: Diagnostic, said: Sequence[Diagnostic]) -> bool:
     """Whether an error of `check` is of what migrating has told already: the same thing that is not there."""
     for told in said:
-        names = re.findall(r"'([^']+)'", told.message)
-        if error.code in _SAME.get(told.code, ()) and names:
-            name = re.escape(names[-1].rpartition("::")[2])
-            if re.search(rf"(?<!\w){name}(?!\w)", error.message):
+        if error.code in _SAME.get(told.code, ()):
+            name = re.escape(_missing(told).rpartition("::")[2])
+            if re.search(rf"(?<!\w){name}(?!\w)", _missing(error)):
                 return True
     return False
+
+
+def _missing(told: Diagnostic) -> str:
+    """The name or path that is not there."""
+    return str(told.fact("path") if told.fact("name") is None else told.fact("name"))
 
 
 def _tell(run: Migration, said: Sequence[Diagnostic]) -> None:
@@ -175,7 +180,7 @@ def _with_heading(text: str, gap: str, modeline: str, kind: str) -> str:
 def _has_taken(text: str) -> bool:
     """Whether a document of interfaces has names that C++ takes."""
     tree, _ = parse("", text)
-    if not isinstance(tree, Mapping) or schema.validate("idsl", tree):
+    if not isinstance(tree, Tree) or schema.validate("idsl", tree):
         return False
     return cpp.has_taken(build(tree, ""))
 

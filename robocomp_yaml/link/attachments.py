@@ -67,8 +67,9 @@ class Attachments(msgspec.Struct):
         if model.parameters:
             path = os.path.normpath(os.path.join(folder, model.parameters))
             if not self._references.is_document(path, ("pdsl",)):
-                hint = self._references.hint(model.parameters, folder, "parameters", ("pdsl",))
-                self.diagnostics.append(codes.NO_PARAMETERS.at(model.parameters_span, name=model.parameters, hint=hint))
+                advice = self._references.advice(model.parameters, folder, "parameters", ("pdsl",))
+                told = codes.NO_PARAMETERS.at(model.parameters_span, name=model.parameters, hint=advice.hint)
+                self.diagnostics.append(told)
                 linked.parameters.broken = linked.broken = True
             else:
                 target = self.documents.get(path)
@@ -123,19 +124,19 @@ class Attachments(msgspec.Struct):
             is_name = os.path.basename(name) == name and not name.endswith((".yaml", ".yml"))
             found = self._called(name, root) if is_name else []
             is_plain = is_parameters and "/" not in name and not name.endswith(".yaml")
-            hint = self._references.hint_for_name(name, folder) if is_plain else (
-                self._references.hint(name, folder, "component", kinds)
+            advice = self._references.advice_for_name(name, folder) if is_plain else (
+                self._references.advice(name, folder, "component", kinds)
             )
             if found:
-                told = codes.NAMED.at(span, name=name, hint=references.write(found, folder, "component"))
+                told = codes.NAMED.at(span, name=name, hint=references.write(found, folder, "component", name))
                 is_near = not is_parameters or any(os.path.dirname(path) == folder for path in found)
                 # Parameters that stand alone may have a component's name by chance, as migrated ones have.
                 self.diagnostics.append(told if is_near else told.as_severity("warning"))
                 if not is_near:
                     return
-            elif hint or not is_plain:
-                alike = [] if hint.startswith(("write", "that is")) else self._called(os.path.basename(name), root)
-                hint = references.write(alike, folder, "component") if alike else hint
+            elif advice.hint or not is_plain:
+                alike = [] if advice.is_known else self._called(os.path.basename(name), root)
+                hint = references.write(alike, folder, "component", name) if alike else advice.hint
                 self.diagnostics.append(codes.NO_COMPONENT.at(span, name=name, hint=hint))
             else:
                 return
@@ -169,8 +170,9 @@ class Attachments(msgspec.Struct):
         for layer in model.extends:
             path = os.path.normpath(os.path.join(os.path.dirname(document.path), str(layer.value)))
             if not (path.endswith(".yaml") and disk.has_file(path) and kind_of(path, disk) in ("config", None)):
-                hint = self._references.hint(str(layer.value), os.path.dirname(document.path), "extends", ("config",))
-                self.diagnostics.append(value_codes.NO_LAYER.at(layer.span, name=layer.value, hint=hint))
+                folder = os.path.dirname(document.path)
+                advice = self._references.advice(str(layer.value), folder, "extends", ("config",))
+                self.diagnostics.append(value_codes.NO_LAYER.at(layer.span, name=layer.value, hint=advice.hint))
                 self.program.values[document.real].broken = True
                 continue
             target = self.documents.get(path, "config")

@@ -7,8 +7,10 @@ import os
 import re
 
 import msgspec
+from msgspec.structs import replace
 
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.fix import NO_HINT, Hint
+from robocomp_yaml.diag.suggest import meaning, suggest
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 
@@ -16,6 +18,13 @@ _PLAIN = re.compile(r"[\w./][\w./() -]*[\w./()]")
 _WORDS = {
     "idsl": "interfaces", "cdsl": "a component", "pdsl": "parameters", "ddsl": "a deployment", "config": "values",
 }  # fmt: skip
+
+
+class Advice(msgspec.Struct, frozen=True):
+    """What to write instead of a text that leads to no document; `is_known` where it is known what it leads to."""
+
+    hint: Hint = NO_HINT
+    is_known: bool = False
 
 
 class References(msgspec.Struct, frozen=True):
@@ -40,36 +49,41 @@ class References(msgspec.Struct, frozen=True):
             return []
         return self.beside(os.path.normpath(os.path.join(folder, os.pardir)), "cdsl")
 
-    def hint(self, text: str, folder: str, key: str, kinds: tuple[str, ...]) -> str:
+    def advice(self, text: str, folder: str, key: str, kinds: tuple[str, ...]) -> Advice:
         """What to write behind a key where `text` stands, and leads to no document of these kinds from the folder."""
         path = os.path.normpath(os.path.join(folder, text))
         if meant := self._completed(path, kinds):
-            return write([meant], folder, key)
+            return Advice(write([meant], folder, key, text, safe=True), is_known=True)
         if self.disk.has_folder(path):
             found = [other for kind in kinds for other in self.beside(path, kind)]
             named = " or ".join(f"NAME.{kind}.yaml" for kind in kinds)
-            return f"that is a folder{f': {write(found, folder, key)}' if found else f', without a {named}'}"
+            said = write(found, folder, key, text)
+            words = f"that is a folder{f': {said}' if found else f', without a {named}'}"
+            return Advice(replace(said, text=words), is_known=True)
         where = os.path.dirname(path)
         if self.disk.has_file(path):
             kind = kind_of(path, self.disk)
             what = f"a document of {_WORDS[kind]}" if kind else "no document of rcyaml"
             near = [other for wanted in kinds for other in self.beside(where, wanted)]
-            return f"that is {what}" + (f"; {write(near, folder, key)}" if near else "")
+            said = write(near, folder, key, text)
+            return Advice(replace(said, text=f"that is {what}" + (f"; {said}" if near else "")), is_known=True)
         if not self.disk.has_folder(where or "."):
-            return f"there is no folder '{where}'"
+            return Advice(Hint(f"there is no folder '{where}'"))
         names = {os.path.basename(other): other for kind in kinds for other in self.beside(where, kind)}
         near_by = suggest(os.path.basename(path), names)
-        return f"did you mean '{os.path.relpath(names[near_by], folder or '.')}'?" if near_by else ""
+        return Advice(meaning(text, os.path.relpath(names[near_by], folder or "."))) if near_by else Advice()
 
-    def hint_for_name(self, name: str, folder: str) -> str:
-        """The same for a plain name under `component:` in a document of parameters; '' where it may well stand for a
+    def advice_for_name(self, name: str, folder: str) -> Advice:
+        """The same for a plain name under `component:` in a document of parameters; none where it may well stand for a
         component that has no document."""
         path = os.path.normpath(os.path.join(folder, name))
         meant = self._completed(path, ("cdsl",))
         alone = self.beside(folder, "cdsl")
         if meant or self.disk.has_folder(path) or len(alone) != 1 or len(self.beside(folder, "pdsl")) > 1:
-            return self.hint(name, folder, "component", ("cdsl",)) if meant or self.disk.has_folder(path) else ""
-        return write(alone, folder, "component")  # the only parameters beside the only component
+            is_near = meant or self.disk.has_folder(path)
+            return self.advice(name, folder, "component", ("cdsl",)) if is_near else Advice()
+        # The only parameters beside the only component.
+        return Advice(write(alone, folder, "component", name), is_known=True)
 
     def _completed(self, path: str, kinds: tuple[str, ...]) -> str:
         """The document that a path leads to once its end has what it lacks; '' where there is none."""
@@ -86,10 +100,12 @@ def stem(path: str) -> str:
     return name.removesuffix(f"{kind_of(path) or ''}.yaml").removesuffix(".")
 
 
-def write(paths: list[str], folder: str, key: str) -> str:
-    """The entry that names a document, or one of several."""
+def write(paths: list[str], folder: str, key: str, word: str = "", *, safe: bool = False) -> Hint:
+    """The entry that names a document, or one of several; a single one can stand instead of `word`."""
     entry = f"`{key}: [{{}}]`" if key == "extends" else f"`{key}: {{}}`"
-    return "write " + " or ".join(entry.format(_plain(os.path.relpath(path, folder or "."))) for path in paths[:3])
+    named = [os.path.relpath(path, folder or ".") for path in paths[:3]]
+    meant = named[0] if word and len(named) == 1 else ""
+    return Hint("write " + " or ".join(entry.format(_plain(path)) for path in named), word, meant, safe)
 
 
 def _plain(path: str) -> str:

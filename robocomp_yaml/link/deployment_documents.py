@@ -9,7 +9,8 @@ import msgspec
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link import deployment_groups
 from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.link.deployment_names import Names
@@ -93,17 +94,16 @@ class DeploymentDocuments(msgspec.Struct):
         hint = self._nearby(path, ".ddsl.yaml")
         self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=hint))
 
-    def _nearby(self, path: str, *suffixes: str) -> str:
+    def _nearby(self, path: str, *suffixes: str) -> Hint:
         """What was probably meant: a name in the same folder."""
         folder, name = os.path.split(path)
         disk = self.documents.disk
         if not disk.has_folder(folder or "."):
-            return f"there is no folder '{folder}'"
+            return Hint(f"there is no folder '{folder}'")
         names = disk.names(folder)
         if suffixes:
             names = [n for n in names if n.endswith(suffixes) or disk.has_folder(os.path.join(folder, n))]
-        meant = suggest(name, names)
-        return f"did you mean '{meant}'?" if meant else ""
+        return did_you_mean(name, names, open_=True)
 
     def join(self) -> None:
         """After all documents are linked: each deployment with what it includes."""

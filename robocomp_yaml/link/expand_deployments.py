@@ -14,8 +14,9 @@ import msgspec
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
@@ -237,9 +238,9 @@ class Expansion(msgspec.Struct):
             return here.only, here.only is None and bool(here.hosts)
         own = here.hosts if here.document.hosts else {}
         if named.text not in own:
-            meant = suggest(named.text, own)
-            hint = f"did you mean '{meant}'?" if meant else (
-                f"there are {', '.join(own)}" if own else "`hosts:` names machines; without it all run on this one"
+            hint = did_you_mean(
+                named.text, own, otherwise=f"there are {', '.join(own)}" if own else
+                "`hosts:` names machines; without it all run on this one",
             )
             self._say(here, codes.UNKNOWN_HOST, named.span, name=named.text, hint=hint)
         return own.get(named.text), named.text not in own
@@ -258,9 +259,9 @@ class Expansion(msgspec.Struct):
                 hint=f"write `groups: {{{group}: {{include: {path}, host: {host}}}}}`, or `hosts:` in {path}",
             ))
 
-    def _say(self, here: Placed, code: Code, span: Span, *, hint: str = "", **facts: str) -> None:
+    def _say(self, here: Placed, code: Code, span: Span, *, hint: str | Hint = "", **facts: str) -> None:
         if here.is_own:
-            self.diagnostics.append(code.at(span, hint=hint, related=(), more="", **facts))
+            self.diagnostics.append(code.at(span, hint=hint, related=(), more="", fixes=(), **facts))
 
 
 def _is_for(values: LinkedValues, component: LinkedComponent) -> bool:

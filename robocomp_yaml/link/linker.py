@@ -12,6 +12,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.fix import Hint, removal
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
@@ -151,10 +152,13 @@ class Linker(msgspec.Struct):
             name = os.path.basename(path).removesuffix(SUFFIX)
             if other_case:
                 self.diagnostics.append(codes.IMPORT_CASE.at(
-                    imported.span, name=imported.text, found=name, hint=f"write '{name}'"
+                    imported.span, name=imported.text, found=name,
+                    hint=Hint(f"write '{name}'", os.path.basename(imported.text).removesuffix(SUFFIX), name, safe=True),
                 ))
             if target.real in found or target.real == document.real:
-                self.diagnostics.append(codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text))
+                self.diagnostics.append(codes.DUPLICATE_IMPORT.at(
+                    imported.span, name=imported.text, fixes=[removal(imported.span)]
+                ))
                 continue
             found[target.real] = target
             if not isinstance(target.model, Module):
@@ -167,8 +171,10 @@ class Linker(msgspec.Struct):
     ) -> None:
         itself = os.path.basename(document.path).removesuffix(SUFFIX)
         known = [name for name in self.search.known(document.path, workspace) if name != itself]
-        hint = did_you_mean(imported.text, known, given) or (
-            "put its document beside this one, or name its folder under `interfaces:` in rcyaml.yaml, or with -I"
+        hint = did_you_mean(
+            imported.text, known, given, open_=True,
+            otherwise="put its document beside this one, or name its folder under `interfaces:` in rcyaml.yaml, or "
+            "with -I",
         )
         self.diagnostics.append(codes.UNRESOLVED_IMPORT.at(imported.span, name=imported.text, hint=hint))
 

@@ -21,6 +21,10 @@ class Unusable(Exception):
     """The manifest cannot be understood; the text says why."""
 
 
+class Newer(Unusable):
+    """A later version of rcyaml wrote it."""
+
+
 class Entry(msgspec.Struct, frozen=True):
     """A file that rcyaml wrote: the digest of what it put there last (see `ownership`), the documents it was written
     for (paths relative to the root), and whether it was written once, as the user's."""
@@ -51,7 +55,7 @@ def read(data: bytes | None) -> Manifest:
         raise Unusable("it is damaged") from None
     version = raw.get("version") if isinstance(raw, dict) else None
     if isinstance(version, int) and version > VERSION:
-        raise Unusable("a newer rcyaml wrote it")
+        raise Newer("a newer rcyaml wrote it")
     files = raw.get("files") if version == VERSION else None
     if not isinstance(files, dict):
         raise Unusable("it is damaged")

@@ -130,7 +130,8 @@ class _Root:
         except manifest.Unusable as unusable:
             self.diagnostics.append(codes.BAD_MANIFEST.at(
                 Span(self.root.shown(manifest.PATH)), reason=str(unusable),
-                hint="update rcyaml" if "newer" in str(unusable) else "take it back from version control, or delete it",
+                hint="update rcyaml" if isinstance(unusable, manifest.Newer) else
+                "take it back from version control, or delete it",
             ))
             return False
         if any(os.path.lexists(f"{self.root.real}/{name}") for name in (JOURNAL, JOURNAL_DONE)):

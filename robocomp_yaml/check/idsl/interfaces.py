@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.model.interface import Method, TypeRef
 
@@ -27,5 +28,5 @@ def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
         if other is not ref:
             yield codes.THROWN_TWICE.at(
                 ref.span, method=method.name, name=ref.text, hint="remove one of them",
-                related=[Related("it stands here first", other.span)],
+                related=[Related("it stands here first", other.span)], fixes=[removal(ref.span)],
             )

@@ -11,7 +11,7 @@ from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
 from robocomp_yaml.legacy.draft import ComponentDraft, NamedMachine, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
@@ -97,8 +97,7 @@ class _Converter:
         """A word in its one spelling; an error for a word that is none of those known."""
         known = self.reader.rules.values[name]
         if str(at).lower() not in known:
-            close = suggest(str(at), known)
-            hint = f"did you mean '{close}'?" if close else "write " + " or ".join(dict.fromkeys(known.values()))
+            hint = did_you_mean(str(at), known, otherwise="write " + " or ".join(dict.fromkeys(known.values())))
             span = self.reader.span(at)
             self.reader.diagnostics.append(codes.UNKNOWN_VALUE.at(span, what=name, value=at, hint=hint))
         return known.get(str(at).lower(), str(at))

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Value
 from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, NamedMachine, Reader, base_name
 from robocomp_yaml.legacy.grammar import token, trees
@@ -82,8 +82,7 @@ class _Converter:
     def word(self, what: str, node: Node, text: str) -> str:
         known = self.reader.rules.values[what]
         if text.lower() not in known:
-            close = suggest(text, known)
-            hint = f"did you mean '{close}'?" if close else "write " + " or ".join(dict.fromkeys(known.values()))
+            hint = did_you_mean(text, known, otherwise="write " + " or ".join(dict.fromkeys(known.values())))
             self.reader.diagnostics.append(
                 codes.UNKNOWN_VALUE.at(self.reader.span(node), what=what, value=text, hint=hint)
             )

@@ -11,8 +11,9 @@ import pytest
 from conftest import write_tree
 from robocomp_yaml import api
 from robocomp_yaml.api import made_already
-from robocomp_yaml.diag.code import Code, Files, Repeated
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.page import Files, Repeated
 
 # What cannot be read may become readable without any trace; whether programs are there is for `check` alone; of files
 # that a compile refuses to write, more is looked at than is remembered.

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from conftest import write_tree
-from robocomp_yaml.diag.code import Code, Files, Repeated
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.page import Files, Repeated
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source.disk import FILE, FOLDER, NOTHING, OTHER, Disk
 
