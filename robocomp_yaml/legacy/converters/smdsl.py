@@ -121,14 +121,14 @@ class _Converter:
 
     def _circles(self, top: _Block, inner: list[_Block]) -> None:
         """Every state is somewhere in the machine, not only in itself."""
-        todo, reached = list(top.states), set[int]()
+        todo, reached = list(top.states), set[ScxmlState]()
         while todo:
             state = todo.pop()
-            reached.add(id(state))
-            todo += [child for child in state.states if id(child) not in reached]
+            reached.add(state)
+            todo += [child for child in state.states if child not in reached]
         for block in inner:
             parent = self.known.get(block.name)
-            if parent is not None and id(parent) not in reached:
+            if parent is not None and parent not in reached:
                 self._refused("refused_circle", block.tree, block.name)
 
     def _transitions(self, block: _Block) -> None:
