@@ -43,8 +43,8 @@ from robocomp_yaml.values.new import lines_above
 from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import flow
 
-# As `get` prints them.
-_REFERENCE = re.compile(r"\{ *(?:env *: *[A-Za-z_][A-Za-z0-9_]*|file *: *[^{}]*[^{} /]) *\}", re.ASCII)
+# As `get` prints them; one that cannot be followed is refused, and no text that happens to look so.
+_REFERENCE = re.compile(r"\{ *(?:env|file) *:.*\}", re.DOTALL)
 
 
 class Loaded(msgspec.Struct):
