@@ -18,7 +18,7 @@ import click
 
 from robocomp_yaml import __version__
 from robocomp_yaml.commands import _signals
-from robocomp_yaml.commands._group import Group
+from robocomp_yaml.commands._command import Group
 from robocomp_yaml.diag import terminal
 
 COMMANDS = {

@@ -1,4 +1,4 @@
-"""Where the data folders live: `schemas/`, `templates/` and `migrate/`.
+"""Where the data folders live: `schemas/`, `templates/`, `migrate/` and `docs/diagnostics/`.
 
 In a wheel they stand inside the package, under `_data/`; in a checkout (and so in an editable install) they stand
 beside the package, where people look for them.
@@ -10,18 +10,19 @@ from functools import cache
 from pathlib import Path
 
 _PACKAGE = Path(__file__).resolve().parent
+_IN_CHECKOUT = {"diagnostics": "docs/diagnostics"}
 
 
 @cache
 def folder(name: str) -> Path:
-    """The data folder `schemas`, `templates` or `migrate`.
+    """The data folder `schemas`, `templates`, `migrate` or `diagnostics`.
 
     Raises FileNotFoundError where the installation is broken: rcyaml cannot work without its data.
     """
     shipped = _PACKAGE / "_data" / name
     if shipped.is_dir():
         return shipped
-    beside = _PACKAGE.parent / name
+    beside = _PACKAGE.parent / _IN_CHECKOUT.get(name, name)
     if (_PACKAGE.parent / "pyproject.toml").is_file() and beside.is_dir():
         return beside
     raise FileNotFoundError(f"rcyaml's folder '{name}' is missing from this installation: reinstall rcyaml")

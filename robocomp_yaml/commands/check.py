@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import click
@@ -11,55 +10,35 @@ from robocomp_yaml.commands import _fail_on, _options
 
 if TYPE_CHECKING:
     from robocomp_yaml.commands._fail_on import FailOn
-    from robocomp_yaml.diag.diagnostic import Diagnostic
-    from robocomp_yaml.pipeline import Analysis
 
 
 @click.command(short_help="Report everything that is wrong with the documents.")
 @_options.paths
 @click.option("--environment", is_flag=True, help="Also say which of the libraries they name are not installed.")
+@click.option("--fix", is_flag=True, help="Apply the fixes that leave only one possible meaning.")
+@click.option("--unsafe-fixes", is_flag=True, help="Apply the others, too: what was probably meant.")
+@click.option("--diff", is_flag=True, help="Show what the fixes would change, and write nothing.")
 @_fail_on.fail_on
 @_options.include
 @_options.format_
 @click.pass_context
 def command(
-    ctx: click.Context, paths: tuple[str, ...], environment: bool, fail_on: FailOn, include: tuple[str, ...],
-    format_: str,
+    ctx: click.Context, paths: tuple[str, ...], environment: bool, fix: bool, unsafe_fixes: bool, diff: bool,
+    fail_on: FailOn, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Report everything that is wrong with the documents at PATHS (by default, below this folder).
 
     A folder means all documents below it. Documents that they import are looked at too.
     """
-    from robocomp_yaml.pipeline import analyse
+    from robocomp_yaml import api
 
     paths = paths or (".",)
+    if fix or unsafe_fixes or diff:
+        from robocomp_yaml.commands import _fixing
+
+        fixing = api.load(*paths, include=include).fix(unsafe=unsafe_fixes, environment=environment)
+        _fixing.report(ctx, fixing, format_, fail_on, look_only=diff)
     with _options.progress("reading", paths) as on_read:
-        analysis = analyse(paths, include, on_read)
-    on_disk = _on_disk(analysis, paths, include, environment)
-    told = analysis.with_more([*on_disk, *(_missing(analysis) if environment else ())])
-    _options.report(ctx, format_, told, analysis.program.documents, fail_on)
-
-
-def _on_disk(
-    analysis: Analysis, paths: tuple[str, ...], include: tuple[str, ...], environment: bool
-) -> Iterator[Diagnostic]:
-    """What files say that are no documents: each component's `etc/config` and code, and the executables of
-    deployments."""
-    if analysis.program.components:
-        from robocomp_yaml.commands import _made_already
-        from robocomp_yaml.emit import ports
-        from robocomp_yaml.emit.specific.written import of_written
-
-        yield from ports.clashes(analysis.program.components.values())
-        if not _made_already.code_fits(paths, include):
-            yield from of_written(analysis.program, analysis.diagnostics, analysis.linker)
-    if analysis.networks:
-        from robocomp_yaml.check.networks import of_environment
-
-        yield from of_environment(analysis.networks, analysis.program, environment=environment)
-
-
-def _missing(analysis: Analysis) -> Iterator[Diagnostic]:
-    from robocomp_yaml.emit.environment import missing
-
-    return missing(analysis.program.components.values(), analysis.linker.workspace_of)
+        workspace = api.load(*paths, include=include, on_read=on_read)
+    told = workspace.check(environment=environment)
+    _options.report(ctx, format_, told, workspace.documents_read, fail_on)

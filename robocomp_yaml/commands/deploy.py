@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._group import Group
-from robocomp_yaml.commands._only_deployment import DocumentAnd
+from robocomp_yaml.commands._command import Group
+from robocomp_yaml.commands._deployment_argument import DocumentAnd
 
 _FORMATS = click.Choice(["text", "json"])
 

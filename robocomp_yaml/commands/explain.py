@@ -5,7 +5,8 @@ from __future__ import annotations
 import click
 
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.diag.code import Code, Files, Repeated
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.page import Files, Repeated
 
 
 @click.command(short_help="Say what a diagnostic means, with examples.")

@@ -1,60 +1,92 @@
-"""The row of the table of codes: what a diagnostic says, why, and an example of it."""
+"""A code: one kind of diagnostic. What it says, and why, stands on a page of `docs/diagnostics/`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 import msgspec
 
-from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag import page
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related, as_facts
+from robocomp_yaml.diag.fix import Fix, Hint
+from robocomp_yaml.diag.page import Files
 from robocomp_yaml.diag.span import Span
 
 
-class Repeated(msgspec.Struct, frozen=True):
-    """A text so long that it is made only when somebody asks for it."""
-
-    before: str
-    text: str
-    times: int
-    after: str
-
-    def __str__(self) -> str:
-        return self.before + self.text * self.times + self.after
-
-
-class _Facts(dict[str, str]):
+class _Words(dict[str, str]):
     def __missing__(self, key: str) -> str:
         return key.upper().replace("_", " ")
 
 
-Files = Mapping[str, str | bytes | Repeated | None]
-
-
 class Code(msgspec.Struct, frozen=True):
-    """One kind of diagnostic. Ids are never reused.
-
-    `message` is a format string for the facts given to `at`. `why` explains (Markdown). `wrong` and `right` are small
-    trees of files, path to text (bytes for what is no text, None for an empty folder, "-> target" for a symlink), on
-    which `rcyaml COMMAND` (a `*` is what a shell makes of it) gives this diagnostic, and gives none: the tests run
-    both. `says` are, where the message leaves all to a fact, the messages that there are: format strings for readers.
-    """
+    """One kind of diagnostic. Ids are never reused. Its page is read when it is first asked for what stands there."""
 
     id: str
-    severity: str
-    message: str
-    why: str
-    wrong: Files
-    right: Files
-    command: str = "check ."
-    says: tuple[str, ...] = ()
+    page: str
+
+    @property
+    def severity(self) -> str:
+        return page.page(self.page).severities[self.id]
+
+    @property
+    def message(self) -> str:
+        """A format string for the facts given to `at`."""
+        return page.page(self.page).messages[self.id]
+
+    @property
+    def entry(self) -> page.Entry:
+        return page.page(self.page).entry(self.id)
+
+    @property
+    def why(self) -> str:
+        """The explanation, in Markdown."""
+        return self.entry.why
+
+    @property
+    def wrong(self) -> Files:
+        """A small tree on which `rcyaml COMMAND` (a `*` is what a shell makes of it) gives this diagnostic, and, for
+        `right`, gives none: the tests run both."""
+        return self.entry.wrong
+
+    @property
+    def right(self) -> Files:
+        return self.entry.right
+
+    @property
+    def command(self) -> str:
+        return self.entry.command
+
+    @property
+    def says(self) -> tuple[str, ...]:
+        """Where the message leaves all to a fact, the messages that there are: format strings for readers."""
+        return self.entry.says
 
     @property
     def messages(self) -> list[str]:
         """What it can say, with the facts as words: `{name}` as `NAME`."""
-        return [message.format_map(_Facts()) for message in self.says or (self.message,)]
+        return [message.format_map(_Words()) for message in self.says or (self.message,)]
 
     def at(
-        self, span: Span, *, hint: str = "", related: Iterable[Related] = (), more: str = "", **facts: object
-    ) -> Diagnostic:
-        """The diagnostic of this code at a place; `facts` fill the message."""
-        return Diagnostic(self.id, self.severity, self.message.format(**facts), span, hint, tuple(related), more)
+        self, span: Span, *, hint: str | Hint = "", related: Iterable[Related] = (), more: str = "",
+        fixes: Iterable[Fix] = (), **facts: object,
+    ) -> Diagnostic:  # fmt: skip
+        """The diagnostic of this code at a place; `facts` fill the message. What a hint says was `meant` is a fact and
+        a fix, too."""
+        fixes = tuple(fixes)
+        if isinstance(hint, Hint):
+            facts |= {"meant": hint.meant} if hint.meant else {}
+            fixes += hint.fixes(span)
+        return Diagnostic(self.id, self.severity, span, as_facts(facts), str(hint), tuple(related), fixes, more)
+
+
+KNOWN: dict[str, Code] = {}
+"""The codes of the families that are imported, by id."""
+
+
+class Family(msgspec.Struct, frozen=True):
+    """The codes of a page."""
+
+    page: str
+
+    def code(self, id_: str) -> Code:
+        return KNOWN.setdefault(id_, Code(id_, self.page))

@@ -1,16 +1,36 @@
-"""A diagnostic: one thing that is wrong, or worth knowing, at one place."""
+"""A diagnostic: one thing that is wrong, or worth knowing, at one place, as facts. Words are made when it is shown."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.diag.fix import Fix
 from robocomp_yaml.diag.span import Span
 
 ERROR, WARNING, NOTE = "error", "warning", "note"
 SEVERITIES = (ERROR, WARNING, NOTE)
+
+Fact = str | int | float | bool | None | tuple[str | int | float | bool | None, ...]
+Facts = tuple[tuple[str, Fact], ...]
+"""Facts by their names, in order of names: what can be compared, hashed, and said in JSON."""
+
+
+def as_facts(facts: Mapping[str, object]) -> Facts:
+    """Facts of any values; what is neither text nor number is as it reads."""
+    return tuple((name, _fact(facts[name])) for name in sorted(facts))
+
+
+def _fact(value: object) -> Fact:
+    if isinstance(value, list | tuple | set | frozenset):
+        return tuple(_plain(each) for each in value)
+    return _plain(value)
+
+
+def _plain(value: object) -> str | int | float | bool | None:
+    return value if type(value) in (str, int, float, bool, type(None)) else str(value)  # type: ignore[return-value]
 
 
 class Related(msgspec.Struct, frozen=True):
@@ -21,7 +41,7 @@ class Related(msgspec.Struct, frozen=True):
 
 
 class Diagnostic(msgspec.Struct, frozen=True):
-    """`message` says what is wrong in the user's words; `hint`, where there is one, says how to mend it.
+    """`facts` are what is wrong; `hint`, where there is one, says how to mend it, and `fixes` do it.
 
     `more` are lines shown under the snippet in text output: a text to paste, for instance. `hidden` are places in the
     lines shown that hold secrets; None where nobody has looked, and the names in a line say what is hidden.
@@ -29,12 +49,24 @@ class Diagnostic(msgspec.Struct, frozen=True):
 
     code: str
     severity: str
-    message: str
     span: Span
+    facts: Facts = ()
     hint: str = ""
     related: tuple[Related, ...] = ()
+    fixes: tuple[Fix, ...] = ()
     more: str = ""
     hidden: tuple[Span, ...] | None = None
+
+    @property
+    def message(self) -> str:
+        """What is wrong in the user's words."""
+        from robocomp_yaml.diag.codes import message_of
+
+        return message_of(self.code).format_map(dict(self.facts))
+
+    def fact(self, name: str) -> Fact:
+        """The fact of this name, None where there is none."""
+        return dict(self.facts).get(name)
 
     def as_severity(self, severity: str) -> Diagnostic:
         return replace(self, severity=severity)

@@ -9,7 +9,9 @@ from collections.abc import Iterable
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.codes import message_of
+from robocomp_yaml.diag.diagnostic import Diagnostic, Fact, Facts, Related
+from robocomp_yaml.diag.fix import Fix
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.secrets import HIDDEN, Part, url
 
@@ -42,13 +44,42 @@ class Hidden(msgspec.Struct):
         related = tuple(Related(without(one.message, texts), one.span) for one in diagnostic.related)
         hint = without(diagnostic.hint, texts)
         return replace(
-            diagnostic, message=without(diagnostic.message, texts), hint=hint if hint == url(diagnostic.hint) else "",
+            diagnostic, facts=_facts(diagnostic, texts), hint=hint if hint == url(diagnostic.hint) else "",
+            fixes=tuple(fix for fix in diagnostic.fixes if not _says(fix, texts)),
             more=without(diagnostic.more, texts), related=related, hidden=hidden if is_known else None,
         )  # fmt: skip
 
     def without(self, text: str) -> str:
         """A text about anything without any of the secrets."""
         return without(text, {secret for texts in self.texts.values() for secret in texts})
+
+
+def _says(fix: Fix, secrets: set[str]) -> bool:
+    """Whether a fix would repeat a secret."""
+    said = [fix.title, *(text for edit in fix.edits for text in (edit.text, edit.word))]
+    return any(text in secrets or without(text, secrets) != text for text in said if text)
+
+
+def _facts(diagnostic: Diagnostic, secrets: set[str]) -> Facts:
+    """The facts without the secrets, so that the message has none of them either."""
+    facts = tuple((name, _fact(diagnostic.code, name, fact, secrets)) for name, fact in diagnostic.facts)
+    message = message_of(diagnostic.code).format_map(dict(facts))
+    if message == without(message, secrets):
+        return facts
+    # Several facts make one together: none of its parts is shown.
+    parts = {name for name, fact in facts if fact and any(str(fact) in secret for secret in secrets)}
+    return tuple((name, HIDDEN if name in parts else fact) for name, fact in facts)
+
+
+def _fact(code: str, name: str, fact: Fact, secrets: set[str]) -> Fact:
+    if isinstance(fact, tuple):
+        return tuple(_fact(code, name, each, secrets) for each in fact)  # type: ignore[misc]
+    if fact is None or isinstance(fact, bool):
+        return fact
+    text = str(fact)
+    is_value = isinstance(fact, str) or len(text) > 3 or f"'{{{name}}}'" in message_of(code)
+    veiled = HIDDEN if is_value and text in secrets else without(text, secrets)
+    return fact if veiled == text else veiled
 
 
 def without(text: str, secrets: Iterable[str]) -> str:

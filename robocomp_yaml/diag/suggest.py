@@ -1,8 +1,10 @@
-"""Did you mean …? One answer, or none."""
+"""Did you mean …? One answer, or none: the words of the hint, and the edit that does what it says."""
 
 from __future__ import annotations
 
 from collections.abc import Container, Iterable
+
+from robocomp_yaml.diag.fix import Hint
 
 
 def suggest(word: str, candidates: Iterable[str]) -> str | None:
@@ -24,21 +26,30 @@ def suggest(word: str, candidates: Iterable[str]) -> str | None:
     return folded[near[0]] if near else None
 
 
-def did_you_mean(word: str, known: Iterable[str], given: Container[str] = ()) -> str:
-    """A hint at what was meant, '' where nothing is near; `given` stand in the same list or mapping already, where a
-    second one would be the next error."""
+def did_you_mean(
+    word: str, known: Iterable[str], given: Container[str] = (), *, otherwise: str = "", open_: bool = False
+) -> Hint:
+    """A hint at what was meant, `otherwise` where nothing is near; `given` stand in the same list or mapping already,
+    where a second one would be the next error. What differs only in case from a single known name means that, unless
+    there can be more names than those that are known (`open_`)."""
     known = list(known)
     if meant := suggest(word, (name for name in known if name not in given)):
-        return f"did you mean '{meant}'?"
+        alike = {name for name in known if name.lower() == word.lower()} - {word}
+        return meaning(word, meant, safe=not open_ and alike == {meant})
     if meant := suggest(word, (name for name in known if name in given)):
-        return f"'{meant}' is there already"
-    return ""
+        return Hint(f"'{meant}' is there already")
+    return Hint(otherwise)
 
 
-def hint_for_key(word: str, known: Iterable[str], given: Container[str]) -> str:
+def meaning(word: str, meant: str, *, more: str = "", safe: bool = False) -> Hint:
+    """The hint that `word`, which stands at the diagnostic's place, should be `meant`; `more` is said of it."""
+    return Hint(f"did you mean '{meant}'{more}?", word, meant, safe)
+
+
+def hint_for_key(word: str, known: Iterable[str], given: Container[str]) -> Hint:
     """What to say of a key that means nothing: which one was meant, perhaps beside it, or which there can be."""
     if word == "<<":
-        return "YAML 1.2 has no merge keys: write the keys themselves"
+        return Hint("YAML 1.2 has no merge keys: write the keys themselves")
     known = list(known)
     free = [key for key in known if key not in given]
-    return did_you_mean(word, known, given) or (f"there can be: {', '.join(free[:20])}" if free else "")
+    return did_you_mean(word, known, given, otherwise=f"there can be: {', '.join(free[:20])}" if free else "")

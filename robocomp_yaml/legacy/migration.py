@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from robocomp_yaml.check.idsl import cpp
 from robocomp_yaml.diag.codes import cdsl, idsl, machines, pdsl
@@ -15,6 +15,7 @@ from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.document import Notes
+from robocomp_yaml.legacy.draft import ConfigDraft, DeploymentDraft, MachineDraft
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
 from robocomp_yaml.legacy.networks.settle import settle as settle_networks
@@ -28,7 +29,8 @@ from robocomp_yaml.model.build_interface import build
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.migrated import HEADING
-from robocomp_yaml.source.tree import Mapping, parse
+from robocomp_yaml.source.tree import Mapping as Tree
+from robocomp_yaml.source.tree import parse
 
 _IMPORTS = (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id)
 _SAME = {
@@ -52,7 +54,7 @@ def migrate(
     by_file: list[tuple[LegacyFile, Entry]] = []
     for file in progress(found.files):
         entry = Entry(convert(file.path), skipped=bool(file.preferred))
-        entry.diagnostics = entry.file.diagnostics
+        entry.diagnostics = [*entry.file.diagnostics]
         if file.preferred:
             entry.diagnostics = [codes.PREFERRED.at(Span(file.path), other=file.preferred)]
         by_file.append((file, entry))
@@ -67,9 +69,9 @@ def migrate(
     chosen, said = names([(file, entry.file.rules) for file, entry in good if entry.file.rules is not None])
     _tell(run, said)
     _link(run, good, chosen, known, extra)
-    settle_networks([entry for _, entry in good], chosen, known)
-    inferred = settle(good, chosen, run.remembers, guesses, exact=exact)
-    _plan(run, good, chosen, known, inferred, force)
+    networks = settle_networks([entry for _, entry in good], chosen, known)
+    settled = settle(good, chosen, run.remembers, guesses, exact=exact)
+    _plan(run, good, chosen, known, networks | dict(settled.documents), settled.inferred, force)
     upgrade(run, paths)
     return run
 
@@ -98,12 +100,16 @@ def look_back(run: Migration, extra: Sequence[str]) -> None:
 def _is_said(error: Diagnostic, said: Sequence[Diagnostic]) -> bool:
     """Whether an error of `check` is of what migrating has told already: the same thing that is not there."""
     for told in said:
-        names = re.findall(r"'([^']+)'", told.message)
-        if error.code in _SAME.get(told.code, ()) and names:
-            name = re.escape(names[-1].rpartition("::")[2])
-            if re.search(rf"(?<!\w){name}(?!\w)", error.message):
+        if error.code in _SAME.get(told.code, ()):
+            name = re.escape(_missing(told).rpartition("::")[2])
+            if re.search(rf"(?<!\w){name}(?!\w)", _missing(error)):
                 return True
     return False
+
+
+def _missing(told: Diagnostic) -> str:
+    """The name or path that is not there."""
+    return str(told.fact("path") if told.fact("name") is None else told.fact("name"))
 
 
 def _tell(run: Migration, said: Sequence[Diagnostic]) -> None:
@@ -136,15 +142,20 @@ def _link(
 
 def _plan(
     run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
-    inferred: Sequence[Inferred], force: bool,
+    settled: Mapping[str, yaml.Map], inferred: Sequence[Inferred], force: bool,
 ) -> None:  # fmt: skip
+    """`settled` are the documents that were made for several files together, by the path of each."""
     written: dict[str, list[tuple[str, str, yaml.Map]]] = {folder: [] for folder in known.new}
     planned: list[tuple[LegacyFile, Entry, str, str, yaml.Map, Notes, str]] = []
     for file, entry in good:
         rules, draft = entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
-        document = chosen[file.path]
-        planned.append((file, entry, rules.kind, document, draft.document, draft.around, draft.text))
+        kind, document = rules.kind, chosen[file.path]
+        if isinstance(draft, MachineDraft):
+            planned.append((file, entry, kind, document, yaml.Map(), Notes(), draft.text))
+        else:
+            content = settled[file.path] if isinstance(draft, ConfigDraft | DeploymentDraft) else draft.document
+            planned.append((file, entry, kind, document, content, draft.around, ""))
     planned += [(made.file, made.entry, "pdsl", made.path, made.document, Notes(), "") for made in inferred]
     for file, entry, kind, document, content, around, raw in planned:
         home = known.of(document).root
@@ -169,7 +180,7 @@ def _with_heading(text: str, gap: str, modeline: str, kind: str) -> str:
 def _has_taken(text: str) -> bool:
     """Whether a document of interfaces has names that C++ takes."""
     tree, _ = parse("", text)
-    if not isinstance(tree, Mapping) or schema.validate("idsl", tree):
+    if not isinstance(tree, Tree) or schema.validate("idsl", tree):
         return False
     return cpp.has_taken(build(tree, ""))
 

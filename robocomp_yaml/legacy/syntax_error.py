@@ -11,11 +11,12 @@ from lark.exceptions import UnexpectedInput, UnexpectedToken
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.suggest import meaning, suggest
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
 
-BRACE_HINT = "a '}' is probably missing before it"
+_BRACE_HINT = "a '}' is probably missing before it"
 MOST_NAMED = 6
 
 _SILENT = re.compile(r'//[^\n]*|/\*[\s\S]*?\*/|#[^\n]*|"(?:[^"\\\n]|\\.)*"')
@@ -61,7 +62,7 @@ class Explainer:
     def _diagnostic(self, error: UnexpectedInput, at: int, start: int, depth: int) -> Diagnostic:
         keyword = self._misplaced_keyword(error, start) if depth > 0 else None
         if keyword is not None:
-            return self._say(start, start + len(keyword), f"'{keyword}' cannot stand here", BRACE_HINT)
+            return self._say(start, start + len(keyword), f"'{keyword}' cannot stand here", _BRACE_HINT, missing="}")
         if isinstance(error, UnexpectedToken):
             return self._unexpected(error, at, str(error.token))
         char = self.text[at]
@@ -87,7 +88,7 @@ class Explainer:
             problem = f"'{found}' cannot stand here"
         else:
             problem = f"expected {_either(expected)}{after}, found '{found}'"
-        return self._say(at, at + len(found), problem, f"did you mean '{close}'?" if close else "")
+        return self._say(at, at + len(found), problem, meaning(found, close) if close else "")
 
     def _at_end(self, error: UnexpectedToken) -> Diagnostic:
         end = len(self.bare.rstrip())
@@ -105,9 +106,9 @@ class Explainer:
         return self._say(max(end - 1, 0), end, f"the file ends where {expected} is expected")
 
     def _say(
-        self, start: int, end: int, problem: str, hint: str = "", related: Iterable[Related] = ()
+        self, start: int, end: int, problem: str, hint: str | Hint = "", related: Iterable[Related] = (), **facts: str
     ) -> Diagnostic:
-        return codes.SYNTAX.at(self.source.span(start, end), problem=problem, hint=hint, related=related)
+        return codes.SYNTAX.at(self.source.span(start, end), problem=problem, hint=hint, related=related, **facts)
 
     def _statement(self, at: int) -> tuple[int, int]:
         """From where to where the statement goes that holds a place: between ';', '{' and '}', with its own blocks."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import did_you_mean, suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, Served, offers
 from robocomp_yaml.link.expand_deployments import Placed
 from robocomp_yaml.link.program import Port
@@ -74,10 +74,10 @@ def _by_rule(root: LinkedDeployment, group: LinkedGroup, rule: Exposed, port: Po
         members = [target for target in found if isinstance(target, LinkedInstance)]
     if len(members) != 1:
         if not group.broken:
-            meant = suggest(rule.member.text, [_name(group, member) for member in group.members])
+            names = [_name(group, member) for member in group.members]
             yield codes.UNKNOWN_NAME.at(
                 rule.member.span, where=f"the group '{group.group.name}'", name=rule.member.text,
-                hint=f"did you mean '{meant}'?" if meant else "it is no member of the group",
+                hint=did_you_mean(rule.member.text, names, otherwise="it is no member of the group"),
             )
         return
     wanted = behind or rule.name
@@ -106,10 +106,10 @@ def _methods(rule: Exposed, served: Served) -> Iterator[Diagnostic]:
     names = [method.name for method in interface.methods]
     for method in rule.allow or ():
         if method.text not in names:
-            hint = did_you_mean(method.text, names, {other.text for other in rule.allow or ()})
+            given = {other.text for other in rule.allow or ()}
             yield codes.UNKNOWN_METHOD.at(
                 method.span, interface=interface.name, name=method.text,
-                hint=hint or f"there are {', '.join(names)}",
+                hint=did_you_mean(method.text, names, given, otherwise=f"there are {', '.join(names)}"),
                 related=[Related("the interface", interface.span)],
             )
 

@@ -10,7 +10,8 @@ import msgspec
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import did_you_mean, suggest
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.expand_deployments import Placed
 from robocomp_yaml.model.deployment import CONFIG, INDEX, PROCESS, Entry, Number, Pair, Text
@@ -55,20 +56,20 @@ class Names(msgspec.Struct):
 
     def _fill(self, here: Placed, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
         """All instances in a group, those of its inner groups too."""
-        todo, seen = deque(inside[group]), {id(group)}
+        todo, seen = deque(inside[group]), {group}
         while todo:
             target = todo.popleft()
             if target is group:
-                if here.is_own and not any(other.broken for other in self.root.groups.values() if id(other) in seen):
+                if here.is_own and not any(other.broken for other in self.root.groups.values() if other in seen):
                     self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))
                 group.broken = True
-            elif id(target) not in seen and isinstance(target, LinkedGroup):
+            elif target not in seen and isinstance(target, LinkedGroup):
                 group.inner.append(target)
                 todo += inside.get(target, ())
-            elif id(target) not in seen and isinstance(target, LinkedInstance):
+            elif target not in seen and isinstance(target, LinkedInstance):
                 group.members.append(target)
                 target.groups.append(group)
-            seen.add(id(target))
+            seen.add(target)
 
     def _processes(self, here: Placed, instance: LinkedInstance) -> None:
         if instance.entry.kind != PROCESS:
@@ -96,19 +97,18 @@ class Names(msgspec.Struct):
             self._unknown(here, named, where, self._hint(here, named.text, source.name))
         return None
 
-    def _unknown(self, here: Placed, named: Text, where: str, hint: str) -> None:
+    def _unknown(self, here: Placed, named: Text, where: str, hint: Hint) -> None:
         if here.is_own:
             self.diagnostics.append(codes.UNKNOWN_NAME.at(named.span, where=where, name=named.text, hint=hint))
 
-    def _hint(self, here: Placed, text: str, own: str) -> str:
+    def _hint(self, here: Placed, text: str, own: str) -> Hint:
         if INDEX in text:
-            return f"{INDEX} counts in an entry that has `instances:` itself"
+            return Hint(f"{INDEX} counts in an entry that has `instances:` itself")
         names = [
             scope.removeprefix(here.scope) + name for scope, names in self.root.names.items()
             if scope.startswith(here.scope) for name in names if scope + name != own
         ]
-        meant = suggest(text, names)
-        return f"did you mean '{meant}'?" if meant else ""
+        return did_you_mean(text, names)
 
 
 def _what(found: list[Target]) -> str:
@@ -158,5 +158,5 @@ def _programs(entry: Entry) -> Iterator[Diagnostic]:
             )
 
 
-def _meant(name: str, names: list[str], given: set[str]) -> str:
-    return did_you_mean(name, names, given) or (f"there are {', '.join(names)}" if names else "")
+def _meant(name: str, names: list[str], given: set[str]) -> Hint:
+    return did_you_mean(name, names, given, otherwise=f"there are {', '.join(names)}" if names else "")

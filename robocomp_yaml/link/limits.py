@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.model import pattern
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.parameters import (
@@ -159,8 +159,7 @@ def _enum_range(type_: EnumType, node: Node, found: Found) -> Type:
 
 
 def _unknown_enumerator(scalar: Scalar, type_: EnumType, key: str) -> Diagnostic:
-    meant = suggest(scalar.lexeme, type_.names)
-    hint = f"did you mean '{meant}'?" if meant else f"there are: {', '.join(type_.names)}"
+    hint = did_you_mean(scalar.lexeme, type_.names, otherwise=f"there are: {', '.join(type_.names)}")
     problem = f"names '{scalar.lexeme}', which is no enumerator of {type_.name}"
     return codes.LIMIT_MISFIT.at(scalar.span, key=key, problem=problem, hint=hint)
 

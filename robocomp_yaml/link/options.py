@@ -35,7 +35,7 @@ def expanded(component: Component) -> tuple[Component, list[Diagnostic]]:
         meaning = _meanings().get(option.name.lower())
         if meaning is None:
             given = {other.name.lower() for other in component.options}
-            hint = did_you_mean(option.name, _meanings(), given) or f"there are {', '.join(_meanings())}"
+            hint = did_you_mean(option.name, _meanings(), given, otherwise=f"there are {', '.join(_meanings())}")
             diagnostics.append(codes.UNKNOWN_OPTION.at(option.span, name=option.name, hint=hint))
             continue
         component = _with(component, option, meaning)

@@ -10,7 +10,7 @@ from robocomp_yaml import secrets
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean, meaning
 from robocomp_yaml.link.limits import inside, limited
 from robocomp_yaml.model.parameters import (
     BASIC_TYPES,
@@ -145,9 +145,10 @@ class _Resolver:
         if name in BASIC_TYPES and name not in self.specs:
             return BasicType(name)
         if name not in self.specs:
-            meant = suggest(name, (*BASIC_TYPES, *self.specs)) or _FOREIGN.get(name.lower())
-            known = ", ".join((*BASIC_TYPES, *self.specs))
-            hint = f"did you mean '{meant}'?" if meant else f"there are: {known}"
+            known = (*BASIC_TYPES, *self.specs)
+            hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known)}")
+            if not hint.meant and (ours := _FOREIGN.get(name.lower())):
+                hint = meaning(name, ours)
             self.found.append(codes.UNKNOWN_TYPE.at(spec.span, name=name, hint=hint))
             return None
         self.used.add(name)
@@ -250,17 +251,19 @@ _FOREIGN = {
 }  # fmt: skip
 
 
-def _size(type_: Type, known: dict[int, int]) -> int:
-    """How many plain values a value of a type has at least, each list and map counted as one entry."""
-    if id(type_) not in known:
-        match type_:
-            case RecordType(members=members):
-                known[id(type_)] = sum(_size(member.type, known) for member in members)
-            case ListType(element=element) | MapType(element=element):
-                known[id(type_)] = _size(element, known)
-            case _:
-                known[id(type_)] = 1
-    return known[id(type_)]
+def _size(type_: Type, known: dict[str, int]) -> int:
+    """How many plain values a value of a type has at least, each list and map counted as one entry. `known` are those
+    of structs, which stand in many places."""
+    match type_:
+        case RecordType(name=name, members=members):
+            if name not in known:
+                size = sum(_size(member.type, known) for member in members)
+                return known.setdefault(name, size) if name else size
+            return known[name]
+        case ListType(element=element) | MapType(element=element):
+            return _size(element, known)
+        case _:
+            return 1
 
 
 def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[Diagnostic]]:

@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 
 from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.suggest import meaning, suggest
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import Use
 from robocomp_yaml.model.interface import Interface
@@ -54,17 +55,17 @@ def _may_be_missing(linked: LinkedComponent) -> bool:
     return len(linked.imports) < len({imported.text for imported in linked.component.imports})
 
 
-def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | None], given: set[str]) -> str:
+def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | None], given: set[str]) -> Hint:
     """`given` are the interfaces that stand beside it; another use of one has a name of its own."""
     name = use.interface.rpartition(".")[2]
     document = importable(name)
     imported = {scope.module.stem for scope in linked.imports}
     if document and document not in imported:
-        return f"add '{document}' to `imports`"
+        return Hint(f"add '{document}' to `imports`")
     where = {i.name: scope.module.path for scope in linked.imports for i in scope.module.all_interfaces}
     meant = suggest(name, (one for one in where if one not in given))
     if meant:
-        return f"did you mean '{meant}' ({where[meant]})?"
+        return meaning(name, meant, more=f" ({where[meant]})", safe=meant.lower() == name.lower())
     if meant := suggest(name, given & where.keys()):
-        return f"'{meant}' is there already"
-    return f"the imported modules define: {', '.join(where)}" if where else "import the module that defines it"
+        return Hint(f"'{meant}' is there already")
+    return Hint(f"the imported modules define: {', '.join(where)}" if where else "import the module that defines it")

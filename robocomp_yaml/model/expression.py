@@ -14,6 +14,7 @@ import re
 import warnings
 from keyword import kwlist
 
+from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.model.located import Located
 
 MAX_LENGTH = 2000
@@ -37,7 +38,7 @@ _RESERVED = re.compile(
 class NotInLanguage(ValueError):
     """Says what an expression may not say, where (an index), and how to say it."""
 
-    def __init__(self, problem: str, index: int = 0, hint: str = "") -> None:
+    def __init__(self, problem: str, index: int = 0, hint: str | Hint = "") -> None:
         super().__init__(problem)
         self.index, self.hint = index, hint
 
@@ -155,7 +156,7 @@ def _syntax(source: str, error: SyntaxError) -> NotInLanguage:
     for pattern, word in _FOREIGN:
         found = pattern.search(_without_texts(source))
         if found:
-            return NotInLanguage(f"'{found[0]}' means nothing here", found.start(), f"write '{word}'")
+            return NotInLanguage(f"'{found[0]}' means nothing here", found.start(), _instead(found[0], word))
     return NotInLanguage("this is no expression", max(0, (error.offset or 1) - 1))
 
 
@@ -225,11 +226,10 @@ class _Reader:
                             "here; docs/pdsl.md lists them")
 
     def call(self, function: str, arguments: list[ast.expr], at: int) -> Call:
-        from robocomp_yaml.diag.suggest import suggest
+        from robocomp_yaml.diag.suggest import did_you_mean
 
         if function not in FUNCTIONS:
-            meant = suggest(function, FUNCTIONS)
-            hint = f"did you mean '{meant}'?" if meant else f"there are: {', '.join(FUNCTIONS)}"
+            hint = did_you_mean(function, FUNCTIONS, otherwise=f"there are: {', '.join(FUNCTIONS)}")
             raise NotInLanguage(f"there is no function '{function}'", at, hint)
         if not arguments or (len(arguments) > 1 and function not in ("min", "max")):
             raise NotInLanguage(f"{function}() takes one argument", at)
@@ -254,6 +254,10 @@ class _Reader:
             raise NotInLanguage("a 'for' has one variable", self.at(loop.target))
         condition = self.read(loop.ifs[0]) if loop.ifs else None
         return Each(self.read(node.elt), loop.target.id, self.read(loop.iter), condition, at=at)
+
+
+def _instead(found: str, word: str) -> Hint:
+    return Hint(f"write '{word}'", found, f"{word} " if found == "!" else word, safe=True)
 
 
 def _refusal(node: ast.expr) -> str:

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.fix import NO_HINT, Hint
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model.statemachine import (
     FINAL,
@@ -49,12 +50,11 @@ class MachineIndex(msgspec.Struct):
         yield self.machine.root
         yield from self.machine.states
 
-    def similar(self, name: str, inside: State | None = None) -> str:
+    def similar(self, name: str, inside: State | None = None) -> Hint:
         """A hint at a state (in this one) whose name is like this one; to look for it in thousands would take too long.
         """
         ids = [found for found, state in self.by_id.items() if inside is None or inside in self.ancestors(state)]
-        close = suggest(name, ids) if len(ids) < _MANY else None
-        return f"did you mean '{close}'?" if close else ""
+        return did_you_mean(name, ids, open_=True) if len(ids) < _MANY else NO_HINT
 
     def ancestors(self, state: State) -> list[State]:
         """From the nearest to the root."""

@@ -93,7 +93,7 @@ def _misshapen(element: Element) -> Iterator[Diagnostic]:
     known = shape.attributes.split()
     for name in element.attributes:
         if name not in known and " " not in name:
-            hint = did_you_mean(name, known, element.attributes) or f"it has {', '.join(known) or 'none'}"
+            hint = did_you_mean(name, known, element.attributes, otherwise=f"it has {', '.join(known) or 'none'}")
             yield codes.UNKNOWN_ATTRIBUTE.at(element.place(name), name=name, element=element.name, hint=hint)
     for name in shape.required.split():
         if not (element.get(name) or "").strip():

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
+from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.network.draft import Draft
 from robocomp_yaml.source.ice_options import Refused
 
@@ -15,7 +18,6 @@ def place(draft: Draft, span: Span, text: str, refused: Refused) -> Span:
     return span if draft.instance.number is not None else span.inside(text, refused.start, refused.end)
 
 
-def hint(draft: Draft, text: str, refused: Refused, otherwise: str) -> str:
-    meant = suggest(text[refused.start : refused.end], refused.meant)
-    said = f"did you mean '{meant}'?" if meant else otherwise
-    return said if draft.instance.component is not None else f"{said}; {_ANY_TEXT}"
+def hint(draft: Draft, text: str, refused: Refused, otherwise: str) -> Hint:
+    said = did_you_mean(text[refused.start : refused.end], refused.meant, otherwise=otherwise)
+    return said if draft.instance.component is not None else replace(said, text=f"{said}; {_ANY_TEXT}")

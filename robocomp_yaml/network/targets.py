@@ -8,7 +8,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.model.deployment import Pair
 from robocomp_yaml.network.draft import Draft, Offer
@@ -62,11 +62,13 @@ class Targets(msgspec.Struct):
         return Named(tuple(served), behind)
 
     def _not_there(self, draft: Draft, pair: Pair) -> Diagnostic:
-        meant = suggest(pair.text, self.drafts.linked.names.get(draft.instance.scope, {}))
         proxy = f'"{pair.name.lower()}:tcp -h HOST -p PORT"'
         return codes.NO_TARGET.at(
             pair.span, name=pair.text,
-            hint=f"did you mean '{meant}'?" if meant else f"what is outside is named by its proxy, in quotes: {proxy}",
+            hint=did_you_mean(
+                pair.text, self.drafts.linked.names.get(draft.instance.scope, {}),
+                otherwise=f"what is outside is named by its proxy, in quotes: {proxy}",
+            ),
         )
 
     def _lacks_something(self, target: Target) -> bool:

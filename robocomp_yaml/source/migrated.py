@@ -9,7 +9,7 @@ import itertools
 import json
 import os
 
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.disk import Disk
 
 MEMORY = ".rcyaml/migrated.json"  # at the root of what was migrated; digests by path
 MARK = "# Migrated: "
@@ -17,30 +17,26 @@ HEADING = f"{MARK}other programs use these names too, so those that C++ takes ar
 _HEAD = 4096  # bytes, in which the comments at a document's beginning stand
 
 
-def is_migrated(path: str) -> bool:
+def is_migrated(path: str, disk: Disk) -> bool:
     """Whether a document came from a legacy file, edited since or not."""
-    return _says_so(path) or _is_remembered(os.path.realpath(path))
+    return _says_so(disk.peek(path, _HEAD)) or _is_remembered(os.path.realpath(path), disk)
 
 
-def _says_so(path: str) -> bool:
-    try:
-        with open(path, encoding="utf-8", errors="replace", opener=regular) as file:
-            lines = file.read(_HEAD).removeprefix("\ufeff").splitlines()
-    except OSError:
-        return False
+def _says_so(head: bytes) -> bool:
+    lines = head.decode("utf-8-sig", errors="replace").splitlines()
     return any(line.startswith(MARK) for line in itertools.takewhile(lambda line: line[:1] in ("", "#"), lines))
 
 
-def _is_remembered(path: str) -> bool:
+def _is_remembered(path: str, disk: Disk) -> bool:
     folder = os.path.dirname(path)
     while True:
-        try:
-            with open(os.path.join(folder, MEMORY), encoding="utf-8", opener=regular) as file:
-                return os.path.relpath(path, folder).replace(os.sep, "/") in json.load(file)["files"]
-        except (ValueError, LookupError, TypeError):
-            return False
-        except OSError:
-            pass  # perhaps further up
+        memory = os.path.join(folder, MEMORY)
+        if disk.has_file(memory):
+            try:
+                remembered = json.loads(disk.read(memory)[0] or b"")
+                return os.path.relpath(path, folder).replace(os.sep, "/") in remembered["files"]
+            except (ValueError, LookupError, TypeError):
+                return False
         parent = os.path.dirname(folder)
         if parent == folder:
             return False

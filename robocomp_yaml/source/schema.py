@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from collections.abc import Sequence as Path
 from functools import cache
 from typing import Any
@@ -18,7 +18,9 @@ import jsonschema_rs
 from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source.retyped import retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 _IN_WORDS = {
@@ -80,9 +82,9 @@ _KEY_CODES = (codes.UNKNOWN_KEY.id, codes.MISSING_KEY.id, codes.WRONG_NAME.id)
 
 def _without_misspelled(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
     """A missing key whose misspelling stands there is one cause, not two."""
-    hints = " ".join(d.hint for d in diagnostics if d.code == codes.UNKNOWN_KEY.id)
+    meant = {d.fact("meant") for d in diagnostics if d.code == codes.UNKNOWN_KEY.id}
     return list(dict.fromkeys(
-        d for d in diagnostics if d.code != codes.MISSING_KEY.id or f"'{d.message.split(chr(39))[1]}'" not in hints
+        d for d in diagnostics if d.code != codes.MISSING_KEY.id or d.fact("key") not in meant
     ))
 
 
@@ -118,7 +120,18 @@ def _explain(
                 return
             problem = message or _in_words(kind.name, facts, node, place)
             span = key.span if forbidden and key else _span(node, key)
-            yield codes.WRONG_SHAPE.at(span, problem=problem, hint=_nearest(facts.get("options"), node))
+            yield codes.WRONG_SHAPE.at(
+                span, problem=problem, hint=_nearest(facts.get("options"), node), fixes=_fixes(kind.name, facts, node)
+            )
+
+
+def _fixes(keyword: str, facts: dict[str, Any], node: Node) -> Iterable[Fix]:
+    """Quotes too many or too few, a single value for a list, and the second of two equal entries."""
+    if keyword == "type" and isinstance(node, Scalar):
+        return retyped([type_ for type_ in facts["types"] if type_ != "null"], node.lexeme, node.data, node.span)
+    if keyword == "uniqueItems" and isinstance(node, Sequence):
+        return [removal(item.span) for at, item in enumerate(node.items) if item.data in node.data[:at]][:1]
+    return ()
 
 
 def _impossible(pattern: str, node: Scalar, place: Path[str | int], *, span: Span) -> Diagnostic:
@@ -234,23 +247,23 @@ def _what(node: Node) -> str:
     return f"{kind}, '{shown}'" if kind == "text" else f"{kind}, {shown}"
 
 
-def _nearest(options: object, node: Node) -> str:
+def _nearest(options: object, node: Node) -> Hint:
     """The option that a word was meant to be, where one is near."""
     if not isinstance(options, list) or not isinstance(node, Scalar):
-        return ""
-    from robocomp_yaml.diag.suggest import suggest
+        return NO_HINT
+    from robocomp_yaml.diag.suggest import did_you_mean
 
-    meant = suggest(node.lexeme, [str(option) for option in options])
-    return f"did you mean '{meant}'?" if meant else ""
+    return did_you_mean(node.lexeme, [str(option) for option in options])
 
 
-def _name_hint(name: str) -> str:
+def _name_hint(name: str) -> Hint:
     cleaned = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name).strip("_")
     if cleaned[:1].isdigit():
         cleaned = f"n{cleaned}"
-    return "a name has letters, digits and underscores, and starts with no digit" + (
-        f": for instance '{cleaned}'" if cleaned and len(cleaned) < 60 else ""
-    )
+    said = "a name has letters, digits and underscores, and starts with no digit"
+    if not cleaned or len(cleaned) >= 60:
+        return Hint(said)
+    return Hint(f"{said}: for instance '{cleaned}'", name, cleaned)
 
 
 def _in_words(keyword: str, facts: dict[str, Any], node: Node, place: Path[str | int]) -> str:

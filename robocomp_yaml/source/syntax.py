@@ -19,6 +19,7 @@ from ruamel.yaml.tag import Tag
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import Edit, Fix
 from robocomp_yaml.diag.span import Span
 
 MAX_DEPTH = 100
@@ -32,6 +33,9 @@ _BRACKET = re.compile(r"[\[{\]}]")
 _LINE_ENDS_OF_1_1 = "\x85\u2028\u2029"
 _HAS_THEM = re.compile(f"[{_LINE_ENDS_OF_1_1}]")
 _PRIVATE = range(0xE000, 0xF900)  # characters that mean nothing
+# On its line, in a block.
+_BEFORE_A_VALUE = re.compile(r"[ ]*(?:- +)*(?:[^\s#\"'\[\]{},:&*!|>@`%][^\"'\[\]{}#]*: +|- +)")
+_DOC = re.compile(r"([ ]*(?:- +)*(?:doc|description|message): +)(?=[^\s\"'\[{&*!|>])")
 _DEEP_BLOCK = re.compile(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
 
 # The parsers' words, by a part of them: what a user is told, and how to mend it.
@@ -212,5 +216,25 @@ def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
         return codes.SYNTAX.at(span, problem="between brackets, a text with {i} stands in quotes", hint=hint)
     for part, words, hint in _WORDS:
         if part in problem:
-            return codes.SYNTAX.at(span, problem=words.format(found=f"'{rest[:1]}'"), hint=hint)
+            fixes = _quotes(span, lines[line - 1], column, part) if lines else ()
+            return codes.SYNTAX.at(span, problem=words.format(found=f"'{rest[:1]}'"), hint=hint, fixes=fixes)
     return codes.SYNTAX.at(span, problem=f"this is not YAML: {error.problem or problem}")
+
+
+def _quotes(span: Span, line: str, column: int, part: str) -> tuple[Fix, ...]:
+    """Quotes around a text that begins as no text can, or around one with ': ' that `doc:` holds: both in a block."""
+    if part == "cannot start any token":
+        head, text = line[: column - 1], line[column - 1 :]
+        if _BEFORE_A_VALUE.fullmatch(head) is None:
+            return ()
+    elif part == "mapping values are not allowed" and (found := _DOC.match(line)) is not None:
+        head, text = found[1], line[found.end() :]
+    else:
+        return ()
+    text = re.split(r"[ \t]#", text)[0].rstrip()
+    if not text or '"' in text or "\\" in text:
+        return ()
+    edits = tuple(
+        Edit(Span(span.file, span.line, at, span.line, at), '"') for at in (len(head) + 1, len(head) + len(text) + 1)
+    )
+    return (Fix("put it in quotes", edits, True),)

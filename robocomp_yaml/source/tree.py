@@ -8,7 +8,7 @@ YAML 1.2's core schema (https://yaml.org/spec/1.2.2/#103-core-schema): `on`, `ye
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import msgspec
 from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
@@ -17,6 +17,7 @@ from ruamel.yaml.nodes import Node as YamlNode
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.fix import Edit, Fix, quoting
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.source import syntax
 from robocomp_yaml.source.text import MAX_SCALAR, size_in_words
@@ -141,7 +142,7 @@ class _Builder:
     """Turns composed nodes into ours, collecting what is wrong."""
 
     def __init__(self, path: str, text: str) -> None:
-        self.path = path
+        self.path, self.text = path, text
         self.has_anchors = "&" in text
         self.last = None if text.endswith("\n") else _last_mark(text)  # libyaml's blocks end in the line behind it
         self.diagnostics: list[Diagnostic] = []
@@ -217,6 +218,7 @@ class _Builder:
                 self._say(
                     codes.LEADING_ZEROS, node, lexeme=lexeme,
                     hint=f'write "{lexeme}" for text, or {lexeme[: len(lexeme) - len(digits)]}{zeros} for a number',
+                    fixes=[quoting(self._span(node), safe=False)],
                 )
             return int(lexeme) if len(digits) <= 4000 else float(lexeme)
         if _FLOAT.match(lexeme):
@@ -243,6 +245,7 @@ class _Builder:
                 self._say(
                     codes.DUPLICATE_KEY, key_node, key=key.lexeme,
                     related=[Related("it stands here first", first.span)],
+                    fixes=self._without_second(key_node, value_node, value, entries[key.lexeme][1]),
                 )
                 continue
             entries[key.lexeme] = (key, value)
@@ -258,17 +261,39 @@ class _Builder:
             missing_value = value.data is None and isinstance(value, Scalar) and not value.lexeme
             if node.value.endswith(":") or missing_value:
                 head, _, tail = node.value.partition(":")
-                self._say(codes.KEY_COLON, node, key=node.value, hint=f"write '{head}: {tail.lstrip(':')}'".rstrip())
+                at = node.start_mark.index + len(head) + 1
+                is_plain = tail.strip(":") and self.text[node.start_mark.index : at] == f"{head}:"
+                self._say(
+                    codes.KEY_COLON, node, key=node.value, hint=f"write '{head}: {tail.lstrip(':')}'".rstrip(),
+                    fixes=[Fix("put a blank behind the colon", (self._insertion(at, " "),), True)] if is_plain else [],
+                )
         return self._quoted(node)
 
     def _explicit_tag(self, node: YamlNode) -> None:
         tag = str(node.tag).replace("tag:yaml.org,2002:", "!!")
         self._say(codes.TAG, node, tag=tag, hint="leave the tag out" + (", and use quotes" if tag == "!!str" else ""))
 
-    def _say(self, code: Code, node: YamlNode, *, hint: str = "", related: list[Related] | None = None,
-             **facts: object) -> None:
+    def _without_second(self, key: YamlNode, node: YamlNode, value: Node, first: Node) -> list[Fix]:
+        """An entry that says the same as the first of its name can go, where it has its line for itself."""
+        start, end = key.start_mark.index, node.end_mark.index
+        if key.start_mark.line != node.end_mark.line or value.data != first.data or node.start_mark.index < start:
+            return []
+        from robocomp_yaml.source.spelled import Text, without_lines
+
+        edits = without_lines(Text(self.path, self.text), start, end)
+        return [Fix("remove it", tuple(edits), True)] if edits else []
+
+    def _insertion(self, index: int, text: str) -> Edit:
+        from robocomp_yaml.source.spelled import Text
+
+        return Text(self.path, self.text).edit(index, index, text)
+
+    def _span(self, node: YamlNode) -> Span:
         start, end = node.start_mark, node.end_mark
         end = self.last if self.last is not None and end.line > self.last.line else end
-        span = Span(self.path, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
-        self.diagnostics.append(code.at(span, hint=hint, related=related or (), **facts))
+        return Span(self.path, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
+
+    def _say(self, code: Code, node: YamlNode, *, hint: str = "", related: list[Related] | None = None,
+             fixes: Iterable[Fix] = (), **facts: object) -> None:
+        self.diagnostics.append(code.at(self._span(node), hint=hint, related=related or (), fixes=fixes, **facts))
 

@@ -65,11 +65,10 @@ def _not_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic])
     """What is missing, but for what stands there misspelled: that is one cause, not two."""
     meant = set()
     for fault in found:
-        if fault.code == codes.UNKNOWN_PARAMETER.id and fault.hint.startswith("did you mean"):
-            around = fault.message.split("'")[1].rpartition(".")[0]
-            name = fault.hint.split("'")[1]
+        if fault.code == codes.UNKNOWN_PARAMETER.id and (name := fault.fact("meant")):
+            around = str(fault.fact("path")).rpartition(".")[0]
             meant.add(f"{around}.{name}" if around else name)
-    return [fault for fault in missing_ones if fault.message.partition(" ")[0] not in meant]
+    return [fault for fault in missing_ones if fault.fact("path") not in meant]
 
 
 def _own_data(values: LinkedValues) -> object:

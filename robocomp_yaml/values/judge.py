@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import isfinite
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import hint_for_key, suggest
+from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
+from robocomp_yaml.diag.suggest import did_you_mean, hint_for_key
 from robocomp_yaml.model.parameters import (
     LIMITS,
     BasicType,
@@ -26,12 +27,12 @@ from robocomp_yaml.model.parameters import (
     one_of,
 )
 from robocomp_yaml.secrets import HIDDEN, url
+from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 from robocomp_yaml.values import references
 from robocomp_yaml.values.paths import Step, in_words
 
 Path = tuple[Step, ...]
-_TRUTHS = {"yes": "true", "on": "true", "y": "true", "no": "false", "off": "false", "n": "false"}  # in YAML 1.1
 
 
 def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | None = None) -> Iterator[Diagnostic]:
@@ -67,12 +68,14 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 
-def _at(code: Code, node: Node, key: Scalar | None, *, hint: str = "", **facts: str) -> Diagnostic:
+def _at(code: Code, node: Node, key: Scalar | None, *, hint: str | Hint = "", fixes: Iterable[Fix] = (),
+        **facts: str) -> Diagnostic:
     """At the value; at its key where the value is empty or fills many lines."""
     span = node.span
     empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
     at_key = key is not None and (empty or span.line != span.end_line)
-    return code.at(key.span if key is not None and at_key else span, hint=hint, related=(), more="", **facts)
+    place = key.span if key is not None and at_key else span
+    return code.at(place, hint=hint, related=(), more="", fixes=fixes, **facts)
 
 
 def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
@@ -85,12 +88,24 @@ def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diag
             type_.name == "bool" and bare in ("true", "false", "True", "False")
         )):
             hint = f"without quotes: {bare}"
-        elif type_.name == "bool" and (meant := _TRUTHS.get(bare.lower())):
+        elif type_.name == "bool" and (meant := TRUTHS.get(bare.lower())):
             hint = f"write {meant}"
     elif isinstance(type_, BasicType) and type_.name == "string" and isinstance(node, Scalar) and node.lexeme:
         hint = f'text needs quotes here: "{node.lexeme}"'
     wanted = f"{kind_in_words(type_)}{_unit(type_)}"
-    return _at(codes.WRONG_TYPE, node, key, path=in_words(path), wanted=wanted, found=shown(node, type_), hint=hint)
+    return _at(
+        codes.WRONG_TYPE, node, key, path=in_words(path), wanted=wanted, found=shown(node, type_), hint=hint,
+        fixes=_retyped(type_, node),
+    )
+
+
+def _retyped(type_: Type, node: Node) -> tuple[Fix, ...]:
+    if not isinstance(node, Scalar) or not isinstance(type_, BasicType) or is_secret(type_):
+        return ()
+    wanted = BOOL if type_.name == "bool" else STRING if type_.name == "string" else (
+        INTEGER if type_.is_integer else NUMBER
+    )
+    return retyped([wanted], node.lexeme, node.data, node.span)
 
 
 def _unit(type_: Type) -> str:
@@ -135,11 +150,10 @@ def _enumerated(type_: EnumType, node: Node, path: Path, key: Scalar | None) -> 
     if not isinstance(node.data, str):
         yield _wrong_type(type_, node, path, key)
         return
-    meant = None if type_.secret else suggest(node.data, type_.allowed)
     value = HIDDEN if type_.secret else f"'{node.data}'"
     yield _at(
         codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=kind_in_words(type_),
-        hint=f"did you mean '{meant}'?" if meant else "",
+        hint=NO_HINT if type_.secret else did_you_mean(node.data, type_.allowed),
     )
 
 
@@ -190,13 +204,12 @@ def _number(
 def _not_allowed(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
     allowed = [value.lexeme for value in type_.values]
     unit = f" {type_.unit}" if type_.unit else ""
-    meant = suggest(str(node.data), allowed) if type_.name == "string" and not type_.secret else None
     found = HIDDEN if type_.secret else _short(node.lexeme) if isinstance(node, Scalar) else ""
     value = f"{found!r}" if type_.name == "string" and not type_.secret else f"{found}{unit}"
     wanted = f"{one_of(allowed, type_.secret)}{unit}"
     return _at(
         codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=wanted,
-        hint=f"did you mean '{meant}'?" if meant else "",
+        hint=did_you_mean(str(node.data), allowed) if type_.name == "string" and not type_.secret else NO_HINT,
     )
 
 
@@ -211,7 +224,10 @@ def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar |
         if type_.unique:
             known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
             if known in seen:
-                yield codes.NOT_UNIQUE.at(item.span, path=in_words(path), value=shown(item, type_.element))
+                yield codes.NOT_UNIQUE.at(
+                    item.span, path=in_words(path), value=shown(item, type_.element),
+                    fixes=[removal(item.span, safe=False)],
+                )
             seen.add(known)
 
 

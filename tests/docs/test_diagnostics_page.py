@@ -1,4 +1,4 @@
-"""docs/diagnostics.md is the table of codes as a page; --update-golden writes it."""
+"""The pages of diagnostics say what there is to say about each code of the table, and the index leads to it."""
 
 from __future__ import annotations
 
@@ -7,34 +7,42 @@ import re
 import pytest
 
 from conftest import ROOT
+from robocomp_yaml.diag import page
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.diagnostic import SEVERITIES
 
-PAGE = ROOT / "docs" / "diagnostics.md"
-HEAD = """# Diagnostics
-
-Every code with its meaning; `rcyaml explain CODE` shows examples too, a wrong one and a right one. The severity of a
-code can be changed for a workspace, under `lint:` in its `rcyaml.yaml`.
-"""
+INDEX = (ROOT / "docs" / "diagnostics.md").read_text(encoding="utf-8")
 
 
-def page() -> str:
-    parts = [HEAD]
-    for row in table().values():
-        messages = [message.replace("|", "\\|") for message in row.messages]
-        said = f": {messages[0]}" if len(messages) == 1 else ", one of:\n\n" + "\n".join(f"- {m}" for m in messages)
-        parts.append(f"## {row.id}\n\n*{row.severity}*{said}\n\n{row.why}\n")
-    return "\n".join(parts)
+@pytest.mark.parametrize("name", page.names())
+def test_a_page_has_the_codes_of_its_family(name: str) -> None:
+    on_page = [*page.page(name).severities]
+    assert on_page == sorted(row.id for row in table().values() if row.page == name)
+    text = (ROOT / "docs" / "diagnostics" / f"{name}.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## (?!Beside the examples$)(.*)$", text, re.MULTILINE) == on_page
 
 
-def test_the_page_is_the_table(request: pytest.FixtureRequest) -> None:
-    if request.config.getoption("--update-golden"):
-        PAGE.write_text(page(), encoding="utf-8")
-    assert PAGE.read_text(encoding="utf-8") == page()
+def test_no_code_stands_on_a_page_that_there_is_not() -> None:
+    assert {row.page for row in table().values()} == {*page.names()}
 
 
-def test_no_entry_is_a_placeholder() -> None:
-    """What a reader meets on the screen can be found: some of a message's words are the page's own."""
-    for row in table().values():
-        for message in row.messages:
-            assert re.search(r"\b[a-z]{2}", message), f"{row.id}: {message}"
-            assert "PROBLEM" not in message, row.id
+@pytest.mark.parametrize("row", table().values(), ids=lambda row: row.id)
+def test_an_entry_is_whole(row: Code) -> None:
+    entry = row.entry
+    assert entry.severity in SEVERITIES
+    assert entry.why and entry.wrong and entry.right
+    for message in row.messages:  # what a reader meets on the screen can be found: some words are the page's own
+        assert re.search(r"\b[a-z]{2}", message), message
+        assert "PROBLEM" not in message
+
+
+@pytest.mark.parametrize("row", table().values(), ids=lambda row: row.id)
+def test_the_index_leads_to_it(row: Code) -> None:
+    """Links to `docs/diagnostics.md#rc1001` lead on."""
+    anchor = row.id.lower()
+    assert f'<a id="{anchor}"></a>[{row.id}](diagnostics/{row.page}.md#{anchor})' in INDEX
+
+
+def test_the_index_names_no_code_that_is_gone() -> None:
+    assert {*re.findall(r"\[(RC\d+)\]", INDEX)} == {*table()}

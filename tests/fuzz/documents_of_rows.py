@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from robocomp_yaml.diag.code import Repeated
 from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.page import Repeated
 
 from conftest import ROOT, Tree
 

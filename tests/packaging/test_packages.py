@@ -17,7 +17,8 @@ from conftest import ROOT, read_tree, write_tree
 
 pytestmark = pytest.mark.slow
 
-DATA = ("schemas", "templates", "migrate")
+DATA = {"schemas": "schemas", "templates": "templates", "migrate": "migrate", "docs/diagnostics": "diagnostics"}
+"""Folders of the checkout, and what they are called inside of the package."""
 SPEECH = "component: SpeechComp\nlanguage: python\nimports: [Speech]\n"
 COMPONENT = {
     "Speech.idsl.yaml": "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n      say: {in: {text: string}}\n",
@@ -40,10 +41,10 @@ def run(*command: str, cwd: Path | None = None) -> str:
     return done.stdout
 
 
-def data_files(inside: str) -> set[str]:
+def data_files(inside: str = "") -> set[str]:
     return {
-        f"{inside}{name}/{path.relative_to(ROOT / name).as_posix()}"
-        for name in DATA
+        f"{f'{inside}{called}' if inside else name}/{path.relative_to(ROOT / name).as_posix()}"
+        for name, called in DATA.items()
         for path in (ROOT / name).rglob("*")
         if path.is_file() and path.suffix not in (".pyc", ".swp") and "__pycache__" not in path.parts
     }
@@ -60,7 +61,7 @@ def test_the_sdist_has_all_data(built: Path) -> None:
     (sdist,) = built.glob("*.tar.gz")
     with tarfile.open(sdist) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-    assert data_files("") <= names
+    assert data_files() <= names
     assert {"pyproject.toml", "README.md", "LICENSE", "Makefile", "tests/conftest.py"} <= names
 
 
@@ -85,6 +86,7 @@ def test_it_works_outside_the_checkout(bin_: Path, tmp_path: Path) -> None:
     run(rcyaml, "check", cwd=work)
     run(rcyaml, "compile", cwd=work)
     run(rcyaml, "schema", "idsl", cwd=work)
+    assert "Wrong:" in run(rcyaml, "explain", "RC2003", cwd=work)
     tree = read_tree(work)
     assert {"slice/Speech.ice", "old/slice/Mouth.ice", "etc/config", "bin/SpeechComp"} <= set(tree)
     assert {"src/specificworker.py", "generated/genericworker.py"} <= set(tree)

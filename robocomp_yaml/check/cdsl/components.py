@@ -5,9 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.codes.files import NAME_TOO_LONG
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, shortened
 
@@ -33,6 +36,10 @@ def check(program: Program) -> Iterator[Diagnostic]:
             )
 
 
+def _is_same(one: Port, other: Port) -> bool:
+    return replace(one.use, span=other.use.span) == other.use
+
+
 def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
     """Each entry has a name of its own in its list, and each proxy a name of its own in code."""
     for list_ in LISTS:
@@ -40,7 +47,9 @@ def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
         accessors: dict[str, Port] = {}
         for port in getattr(linked, list_):
             if port.interface.name == "CommonBehavior" and list_ == "implements":
-                yield codes.COMMON_BEHAVIOR.at(port.use.span, hint="leave it out")
+                yield codes.COMMON_BEHAVIOR.at(
+                    port.use.span, hint="leave it out", fixes=[removal(port.use.span)]
+                )
             if port.name in names:
                 free = next(f"{port.name}{n}" for n in range(1, 1000) if f"{port.name}{n}" not in names)
                 entry = f"{{{free}: {port.use.interface}}}"
@@ -48,6 +57,7 @@ def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
                     port.use.span, name=port.name, list=list_,
                     hint="leave it out" if list_ != "requires" else f"write {entry}, or leave it out",
                     related=[Related("it stands here first", names[port.name].use.span)],
+                    fixes=[removal(port.use.span, safe=list_ != "requires" and _is_same(port, names[port.name]))],
                 )
                 continue
             names[port.name] = port

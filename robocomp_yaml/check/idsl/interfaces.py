@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.model.interface import Method, TypeRef
 
@@ -23,9 +24,9 @@ def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
     first: dict[object, TypeRef] = {}
     for ref in method.throws:
         found = linked.find(ref)
-        other = first.setdefault(id(found[1]) if found else ref.text, ref)
+        other = first.setdefault((found[0], found[1].name) if found else ref.text, ref)
         if other is not ref:
             yield codes.THROWN_TWICE.at(
                 ref.span, method=method.name, name=ref.text, hint="remove one of them",
-                related=[Related("it stands here first", other.span)],
+                related=[Related("it stands here first", other.span)], fixes=[removal(ref.span)],
             )

@@ -7,12 +7,15 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link import numbers
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.model.interface import Enum, ExceptionType, Literal, Struct, TypeRef
+from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, retyped
 
 RANGES = {"byte": (0, 255), "short": (-(2**15), 2**15 - 1), "int": (-(2**31), 2**31 - 1), "long": (-(2**63), 2**63 - 1)}
+_WANTED = {"bool": BOOL, "string": STRING, "float": NUMBER, "double": NUMBER}
 LONGEST_STRING = 10_000  # characters; Slice's preprocessor dies of lines above 64 KiB
 MOST_LISTED = 8
 
@@ -41,7 +44,10 @@ def _fits(linked: LinkedModule, type_: TypeRef, value: Literal, *, default: bool
             return
     reason, hint = _of_enum(enum, value) if enum else _of_basic(type_.text, value)
     if reason:
-        yield codes.MISFIT.at(value.span, value=_shown(value), type=type_.text, reason=reason, hint=hint)
+        yield codes.MISFIT.at(
+            value.span, value=_shown(value), type=type_.text, reason=reason, hint=hint,
+            fixes=() if enum else retyped([_WANTED.get(type_.text, INTEGER)], value.lexeme, value.value, value.span),
+        )
     elif type_.text in ("float", "double"):
         yield from _arrives(type_.text, value)
 
@@ -59,13 +65,12 @@ def _arrives(type_name: str, value: Literal) -> Iterator[Diagnostic]:
         yield codes.NUMBER.at(value.span, value=_shown(value), reason=reason, hint=hint)
 
 
-def _of_enum(enum: Enum, value: Literal) -> tuple[str, str]:
+def _of_enum(enum: Enum, value: Literal) -> tuple[str, str | Hint]:
     names = [enumerator.name for enumerator in enum.enumerators]
     if value.lexeme in names:
         return "", ""
-    meant = suggest(value.lexeme, names)
     listed = ", ".join(names[:MOST_LISTED]) + (", …" if len(names) > MOST_LISTED else "")
-    return f"{enum.name} has no such enumerator", f"did you mean '{meant}'?" if meant else f"it has {listed}"
+    return f"{enum.name} has no such enumerator", did_you_mean(value.lexeme, names, otherwise=f"it has {listed}")
 
 
 def _of_basic(type_name: str, value: Literal) -> tuple[str, str]:

@@ -6,7 +6,8 @@ from collections.abc import Container, Iterator
 
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.diag.fix import NO_HINT, Hint
+from robocomp_yaml.diag.suggest import did_you_mean, meaning
 from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.link.references import kind_of, types_of
 from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Interface, Module, TypeDefinition, TypeRef
@@ -45,9 +46,9 @@ class _Index:
         self._by_name: dict[tuple[str, bool], list[Module]] = {}
         self._suggestions_left = MOST_SUGGESTIONS
 
-    def meant(self, word: str, candidates: Iterator[str], given: Container[str]) -> str:
+    def meant(self, word: str, candidates: Iterator[str], given: Container[str]) -> Hint:
         self._suggestions_left -= 1
-        return did_you_mean(word, candidates, given) if self._suggestions_left >= 0 else ""
+        return did_you_mean(word, candidates, given) if self._suggestions_left >= 0 else NO_HINT
 
     def definers(self, name: str, exception: bool) -> list[Module]:
         """The modules that define a type, or an exception, of this name, in order of their paths."""
@@ -88,26 +89,30 @@ def _exception(linked: LinkedModule, ref: TypeRef, index: _Index, given: set[str
         yield codes.UNKNOWN_EXCEPTION.at(ref.span, name=ref.text, hint=hint)
 
 
-def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | None = None) -> str:
+def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | None = None) -> Hint:
     """How to mend a name that is not there; `thrown` are the exceptions of the same list, None for a type."""
     exception = thrown is not None
     if not exception and ref.text == "void":
-        return "a method that returns nothing has no `returns`"
+        return Hint("a method that returns nothing has no `returns`")
     if not exception and ref.text in _MEANT:
-        return f"did you mean '{_MEANT[ref.text]}'?"
+        return meaning(ref.text, _MEANT[ref.text])
     definers = index.definers(ref.name, exception)
     if ref.module:
         definers = [m for m in definers if ref.module in (m.name, m.stem)] or definers
     imported = {id(other.module) for other in linked.imports}
     for module in definers:
         if id(module) in imported and ref.module:
-            return f"did you mean '{module.stem}.{ref.name}'?"
+            return meaning(ref.text, f"{module.stem}.{ref.name}")
         if id(module) in imported:
-            return f"write '{module.stem}.{ref.name}': a name of another module stands behind that module's"
+            return Hint(
+                f"write '{module.stem}.{ref.name}': a name of another module stands behind that module's", ref.text,
+                f"{module.stem}.{ref.name}", len(definers) == 1,
+            )
     if definers:
         full = f"{definers[0].stem}.{ref.name}"
-        return f"add {definers[0].stem} to `imports`" + (f", and write '{full}'" if full != ref.text else "")
-    return index.meant(ref.text, _known(linked, exception), thrown or ()) or "define it, or import the module that does"
+        return Hint(f"add {definers[0].stem} to `imports`" + (f", and write '{full}'" if full != ref.text else ""))
+    meant = index.meant(ref.text, _known(linked, exception), thrown or ())
+    return meant or Hint("define it, or import the module that does")
 
 
 def _known(linked: LinkedModule, exception: bool) -> Iterator[str]:

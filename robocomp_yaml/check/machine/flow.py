@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, plain, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
@@ -138,8 +138,7 @@ def _unheard(index: MachineIndex) -> Iterator[Diagnostic]:
         else:
             continue
         if known.isdisjoint(prefixes(event.text)):
-            close = suggest(event.text, sorted(named)[:_MANY])
-            hint = f"did you mean '{close}'?" if close else ""
+            hint = did_you_mean(event.text, sorted(named)[:_MANY], open_=True)
             yield codes.UNHEARD.at(event.span, event=event.text, hint=hint)
 
 
@@ -161,11 +160,11 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
             if event.text.startswith(_PLATFORM):
                 yield from _platform(index, transition, event)
             elif fired and complete and plain(event.text) not in heads:
-                close = suggest(event.text, known[:_MANY])
-                yield codes.NEVER_SENT.at(
-                    event.span, event=event.text, why="", hint=f"did you mean '{close}'?" if close else
-                    f"list it under {listed}, for the component's code to fire it",
-                )  # fmt: skip
+                hint = did_you_mean(
+                    event.text, known[:_MANY], open_=True,
+                    otherwise=f"list it under {listed}, for the component's code to fire it",
+                )
+                yield codes.NEVER_SENT.at(event.span, event=event.text, why="", hint=hint)
 
 
 def _platform(index: MachineIndex, transition: Transition, event: Text) -> Iterator[Diagnostic]:

@@ -8,6 +8,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import machine_order as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
+from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, plain, prefixes
@@ -48,7 +49,8 @@ def _listed_twice(machine: StateMachine) -> Iterator[Diagnostic]:
         if other is not event:
             related = [Related("it stands here first", other.span)] if other.span != event.span else []
             yield codes.EVENT_TWICE.at(
-                event.span, event=event.text, hint="remove it, or name the other event that is meant", related=related
+                event.span, event=event.text, hint="remove it, or name the other event that is meant", related=related,
+                fixes=[removal(event.span, safe=False)],
             )
 
 

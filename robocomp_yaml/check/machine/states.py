@@ -8,7 +8,8 @@ from typing import Any
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.suggest import meaning, suggest
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import FINAL, HISTORY, PARALLEL, State, StateMachine, Text, Transition
@@ -54,7 +55,7 @@ def _names(index: MachineIndex, is_invoked: bool) -> Iterator[Diagnostic]:
 def _unknown(index: MachineIndex, name: Text, inside: State | None = None) -> Diagnostic:
     hint = index.similar(name.text, inside)
     if not hint and index.machine.inline:
-        hint = "write it under `states:`" + (", or one that stands there" if inside is not None else "")
+        hint = Hint("write it under `states:`" + (", or one that stands there" if inside is not None else ""))
     return codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=hint)
 
 
@@ -66,7 +67,7 @@ def _strays(index: MachineIndex) -> Iterator[Diagnostic]:
         name = start.targets[0]
         meant = suggest(name.text, [stray.text for stray in strays[:_MANY]])
         if meant:
-            yield codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=f"did you mean '{meant}'?")
+            yield codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=meaning(name.text, meant))
     for stray in strays:
         if stray.text != meant:
             yield _unknown(index, stray)

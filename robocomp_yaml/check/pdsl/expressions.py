@@ -11,7 +11,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.limits import inside
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.expression import (
@@ -170,8 +170,7 @@ def _want(expression: Expression, fits: object, wanted: str, where: str, scope: 
 
 
 def _unknown(name: str, known: list[str], at: int, of: str = "parameter") -> NotInLanguage:
-    meant = suggest(name, known)
-    hint = f"did you mean '{meant}'?" if meant else f"there are: {', '.join(known[:20])}"
+    hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known[:20])}")
     return NotInLanguage(f"there is no {of} '{name}'", at, hint)
 
 

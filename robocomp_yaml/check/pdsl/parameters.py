@@ -49,7 +49,7 @@ def _default(member: Member, node: Node, path: Path) -> Iterator[Diagnostic]:
         problem = fault.message
         if fault.code == value_codes.UNKNOWN_PARAMETER.id:
             problem = f"{member.name} gives a value to something else: {problem}"
-        yield codes.BAD_DEFAULT.at(fault.span, problem=problem, hint=fault.hint)
+        yield codes.BAD_DEFAULT.at(fault.span, problem=problem, hint=fault.hint, fixes=fault.fixes)
     for reference in _references(node):
         source = "a file" if "file" in reference.entries else "the environment"
         yield codes.BAD_DEFAULT.at(

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.codes.files import BAD_ICE_TEXT
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, has_errors
-from robocomp_yaml.diag.suggest import did_you_mean, suggest
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.attachments import leads_to
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
@@ -64,10 +64,11 @@ def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
         try:
             parse(text)
         except Refused as refused:
-            meant = suggest(text[refused.start : refused.end], refused.meant)
             told = BAD_ICE_TEXT.at(
                 node.span.inside(text, refused.start, refused.end), what=what, text=text, problem=refused.problem,
-                hint=f"did you mean '{meant}'?" if meant else f"such as {_SUCH_AS[what]}",
+                hint=did_you_mean(
+                    text[refused.start : refused.end], refused.meant, otherwise=f"such as {_SUCH_AS[what]}"
+                ),
             )
             yield told.as_severity(WARNING) if "legacy" in root.entries else told
 

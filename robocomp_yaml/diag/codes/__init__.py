@@ -1,4 +1,5 @@
-"""The table of codes, one module a family; a constant of these modules is a row.
+"""The table of codes, one module a family; a constant of these modules is a row, whose text stands on a page of
+`docs/diagnostics/`.
 
 RC0xxx files and YAML · RC1xxx IDSL · RC2xxx CDSL · RC3xxx PDSL and values · RC4xxx DDSL · RC5xxx migration ·
 RC6xxx emitting · RC7xxx deploying. Within a family the number says nothing; a retired number stays retired.
@@ -10,7 +11,7 @@ import importlib
 import pkgutil
 from functools import cache
 
-from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.code import KNOWN, Code
 
 
 @cache
@@ -24,3 +25,9 @@ def table() -> dict[str, Code]:
                     raise ValueError(f"two diagnostics are called {row.id}")
                 rows[row.id] = row
     return dict(sorted(rows.items()))
+
+
+@cache
+def message_of(id_: str) -> str:
+    """The message of a code, a format string. Most often its family is imported: it made the diagnostic."""
+    return (KNOWN.get(id_) or table()[id_]).message

@@ -6,6 +6,7 @@ import json
 from collections.abc import Sequence
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import Fix
 from robocomp_yaml.diag.span import Span
 
 
@@ -18,8 +19,16 @@ def as_data(diagnostic: Diagnostic) -> dict[str, object]:
         "hint": diagnostic.hint,
         **_place(diagnostic.span),
         "related": [{"message": related.message, **_place(related.span)} for related in diagnostic.related],
+        "facts": dict(diagnostic.facts),
+        "fixes": [fix_as_data(fix) for fix in diagnostic.fixes if fix.is_spelled],
     }
     return {**data, "more": diagnostic.more} if diagnostic.more else data
+
+
+def fix_as_data(fix: Fix) -> dict[str, object]:
+    """A fix as JSON's types."""
+    edits = [{**_place(edit.span), "text": edit.text} for edit in fix.edits]
+    return {"title": fix.title, "safe": fix.safe, "edits": edits}
 
 
 def _place(span: Span) -> dict[str, object]:

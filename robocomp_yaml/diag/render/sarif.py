@@ -9,6 +9,7 @@ from urllib.parse import quote
 from robocomp_yaml import __version__
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import Fix
 from robocomp_yaml.diag.render.json import dumps
 from robocomp_yaml.diag.span import Span
 
@@ -43,11 +44,27 @@ def _result(diagnostic: Diagnostic, ids: list[str]) -> dict[str, object]:
         result["relatedLocations"] = [
             {**_location(related.span), "message": {"text": related.message}} for related in diagnostic.related
         ]
+    if fixes := [_fix(fix) for fix in diagnostic.fixes if fix.is_spelled]:
+        result["fixes"] = fixes
     return result
 
 
+def _fix(fix: Fix) -> dict[str, object]:
+    by_file: dict[str, list[dict[str, object]]] = {}
+    for edit in fix.edits:
+        replacement = {"deletedRegion": _region(edit.span), "insertedContent": {"text": edit.text}}
+        by_file.setdefault(edit.span.file, []).append(replacement)
+    changes = [{"artifactLocation": _artifact(file), "replacements": edits} for file, edits in by_file.items()]
+    return {"description": {"text": fix.title}, "artifactChanges": changes}
+
+
 def _location(span: Span) -> dict[str, object]:
-    region = {
-        "startLine": span.line, "startColumn": span.column, "endLine": span.end_line, "endColumn": span.end_column,
-    }  # fmt: skip
-    return {"physicalLocation": {"artifactLocation": {"uri": quote(os.fsencode(span.file))}, "region": region}}
+    return {"physicalLocation": {"artifactLocation": _artifact(span.file), "region": _region(span)}}
+
+
+def _artifact(file: str) -> dict[str, object]:
+    return {"uri": quote(os.fsencode(file))}
+
+
+def _region(span: Span) -> dict[str, object]:
+    return {"startLine": span.line, "startColumn": span.column, "endLine": span.end_line, "endColumn": span.end_column}

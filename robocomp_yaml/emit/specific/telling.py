@@ -8,30 +8,27 @@ from robocomp_yaml.diag.codes import specific as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.emit.places import Root
 from robocomp_yaml.emit.specific import entries, sources
 from robocomp_yaml.emit.specific.code import CLASS, Code, Method
 from robocomp_yaml.emit.specific.compare import Comparison, Lacking, compare
 from robocomp_yaml.emit.specific.insert import lead
 from robocomp_yaml.emit.specific.own import Own
 from robocomp_yaml.emit.specific.reading import is_code, read
+from robocomp_yaml.transactions.places import Root
 
 
-def tell(root: Root, files: Sequence[Own], document: str, looked: dict[str, bytes]) -> Iterator[Diagnostic]:
-    """All that is to be said of the files of the component that a document describes. `looked` is given the other
-    files of the user that were read for it."""
+def tell(root: Root, files: Sequence[Own], document: str) -> Iterator[Diagnostic]:
+    """All that is to be said of the files of the component that a document describes."""
     merge = f"paste what follows, or let `{typed('rcyaml', 'compile', '--merge', document)}` put it in"
     code = [file for file in files if file.yours is not None and is_code(file.plan.path)]
     if any(not file.is_settled for file in code):
-        yield from _about_class(root, code, merge, looked)
+        yield from _about_class(root, code, merge)
     for file in files:
         if entries.is_entries(file.plan.path) and file.yours is not None and not file.is_settled:
             yield from _about_entries(root, file, merge)
 
 
-def _about_class(
-    root: Root, files: Sequence[Own], merge: str, looked: dict[str, bytes]
-) -> Iterator[Diagnostic]:
+def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagnostic]:
     new = [code for file in files if (code := read(file.plan.path, file.plan.text))]
     base = {file.plan.path: code for file in files if file.base and (code := read(file.plan.path, file.base))}
     yours = [code for file in files if (code := read(file.plan.path, file.yours or ""))]
@@ -40,7 +37,7 @@ def _about_class(
         # Parts of the class may stand in other files.
         folders = sorted({file.plan.path.rpartition("/")[0] for file in files})
         known = {file.plan.path for file in files}
-        yours += [code for folder in folders for code in sources.others(root, folder, known, looked)]
+        yours += [code for folder in folders for code in sources.others(root, folder, known)]
         found = compare(new, base, yours)
     home = next((code for code in yours if code.place), None)
     if home is None or home.place is None:

@@ -42,11 +42,13 @@ def proven(planned: Sequence[Plan], configs: Sequence[Config], links: Mapping[st
 
 
 class _Fault(msgspec.Struct, frozen=True):
-    """What is wrong, and the keys that lead there; `config` is '' in the parameters' own document."""
+    """What is wrong, and the keys that lead there; `config` is '' in the parameters' own document. `path` is the
+    parameter that it is about, where it says so."""
 
     config: str
     keys: tuple[str, ...]
     message: str
+    path: str
 
 
 class _Draft:
@@ -91,7 +93,10 @@ class _Draft:
 
     def faults(self) -> list[_Fault]:
         return [
-            _Fault(said.span.file, tuple(_keys(self.trees.get(said.span.file), said.span)), said.message)
+            _Fault(
+                said.span.file, tuple(_keys(self.trees.get(said.span.file), said.span)), said.message,
+                str(said.fact("path") or ""),
+            )
             for said in self.said if said.severity == ERROR
         ]  # fmt: skip
 
@@ -130,7 +135,8 @@ def _blamed(fault: _Fault, draft: _Draft, plans: Sequence[Plan]) -> list[Plan]:
     if section == "parameters" and path:
         inside = [plan for plan in plans if plan.path[: len(path)] == path]
         return inside or [plan for plan in plans if path[: len(plan.path)] == plan.path]
-    named = [plan for plan in plans if fault.message.startswith(in_words(plan.path))]  # it has no place of its own
+    # It has no place of its own.
+    named = [plan for plan in plans if fault.path.startswith(in_words(plan.path))]
     return sorted(named, key=lambda plan: len(in_words(plan.path)))[-1:]
 
 

@@ -394,7 +394,9 @@ std::string Kind::words() const
 /// Which values it may have: of a secret, only how many.
 std::string Kind::oneOf() const
 {
-    return "one of " + (isSecret ? "the " + std::to_string(values_.size()) + " values allowed" : joinedNames(values_));
+    if (isSecret)
+        return "one of the " + std::to_string(values_.size()) + " values allowed";
+    return "one of " + joinedNames(values_);
 }
 
 /// What the value must do to be within the limits, or an empty text.

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, suggest
 
 Check = Callable[..., list[dict[str, Any]]]
@@ -23,10 +24,24 @@ def test_the_word_itself_is_no_suggestion() -> None:
 
 
 def test_what_stands_beside_it_is_none_either() -> None:
-    assert did_you_mean("Amr", ["Arm", "Leg"]) == "did you mean 'Arm'?"
-    assert did_you_mean("Amr", ["Arm", "Amor"], {"Arm"}) == "did you mean 'Amor'?"
-    assert did_you_mean("Amr", ["Arm"], {"Arm"}) == "'Arm' is there already"
-    assert did_you_mean("Leg", ["Arm"], {"Arm"}) == ""
+    assert str(did_you_mean("Amr", ["Arm", "Leg"])) == "did you mean 'Arm'?"
+    assert str(did_you_mean("Amr", ["Arm", "Amor"], {"Arm"})) == "did you mean 'Amor'?"
+    assert str(did_you_mean("Amr", ["Arm"], {"Arm"})) == "'Arm' is there already"
+    assert not did_you_mean("Leg", ["Arm"], {"Arm"})
+    assert str(did_you_mean("Leg", ["Arm"], otherwise="there is Arm")) == "there is Arm"
+
+
+@pytest.mark.parametrize(("word", "known", "open_", "meant", "safe"), [
+    ("Amr", ["Arm", "Leg"], False, "Arm", False),
+    ("ARM", ["Arm", "Leg"], False, "Arm", True),
+    ("ARM", ["Arm", "arm"], False, "Arm", False),  # either may be meant
+    ("ARM", ["Arm", "Leg"], True, "Arm", False),  # there may be one more that nobody knows of
+    ("Leg", ["Arm"], False, "", False),
+])  # fmt: skip
+def test_the_case_alone_leaves_one_meaning(word: str, known: list[str], open_: bool, meant: str, safe: bool) -> None:
+    hint = did_you_mean(word, known, open_=open_)
+    assert (hint.meant, hint.safe) == (meant, safe)
+    assert [(edit.word, edit.text) for fix in hint.fixes(Span("a")) for edit in fix.edits] == [(word, meant)][:bool(meant)]
 
 
 @pytest.mark.parametrize(("files", "hint"), [

@@ -14,9 +14,10 @@ import pytest
 from click.testing import Result
 
 from conftest import write_tree
-from robocomp_yaml.diag.code import Code, Files, Repeated
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.codes.files import NOTHING_FOUND, UNKNOWN_KIND
+from robocomp_yaml.diag.page import Files, Repeated
 from robocomp_yaml.source.discover import KINDS
 
 ROWS = list(table().values())

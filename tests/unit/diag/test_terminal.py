@@ -12,7 +12,8 @@ import pytest
 
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.codes import files
-from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.codes.files import SYNTAX
+from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.render import text as text_format
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import columns, cut, line, pad, paint, shown, typed
@@ -79,7 +80,7 @@ def test_marks_stand_below_the_fault(tmp_path: Path, before: str, fault: str) ->
     path = tmp_path / "Speech.idsl.yaml"
     path.write_text(f"{before}{fault}, end\n", encoding="utf-8")
     span = Span(str(path), 1, len(before) + 1, 1, len(before) + len(fault) + 1)
-    _, _, source, marks = text_format.each([Diagnostic("RC0000", "error", "m", span, "hint")], False)[0]
+    _, _, source, marks = text_format.each([SYNTAX.at(span, problem="m", hint="hint")], False)[0]
     source, marks = source.removeprefix("1 │ "), marks.removeprefix("  │ ")
     under = shown(fault.replace("\t", "    "))
     assert columns(source[: source.index(f"{under}, end")]) == len(marks) - len(marks.lstrip())
@@ -88,7 +89,9 @@ def test_marks_stand_below_the_fault(tmp_path: Path, before: str, fault: str) ->
 
 def test_a_diagnostic_has_the_lines_that_are_its_own() -> None:
     evil = "x\nerror[RC9999]: forged\r\x1b[2K"
-    told = Diagnostic("RC0000", "error", evil, Span(evil), evil, (Related(evil, Span(evil)),), f"paste\n\t{evil}")
+    told = SYNTAX.at(
+        Span(evil), problem=evil, hint=evil, related=(Related(evil, Span(evil)),), more=f"paste\n\t{evil}"
+    )
     lines = text_format.render([told], 1, False)
     assert all(one == shown(one, tabs=True) for one in lines)
     assert [one for one in lines if one.startswith("error[")] == [lines[0]]

@@ -14,7 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from networks import large, speaking
 
-from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic, Related
+from robocomp_yaml.diag.codes.files import ALIASES, SYNTAX, WORKSPACE_SETTING, WRONG_SHAPE
+from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.graphs import picture as parts
 from robocomp_yaml.emit.graphs.forms import draw
@@ -38,10 +39,10 @@ def faulty() -> tuple[Network, list[Diagnostic]]:
     network.connections = [Connection("a", "B", "B", "b", span=Span("two.ddsl.yaml", 5, 14))]
     there = Related("there", Span("two.ddsl.yaml", 7, 4))
     said = [
-        Diagnostic("RC4001", ERROR, "they quarrel", Span("two.ddsl.yaml", 4, 9), "", (there,)),
-        Diagnostic("RC4002", WARNING, "not equal", Span("two.ddsl.yaml", 5, 14)),
-        Diagnostic("RC4003", ERROR, "somewhere else", Span("other.cdsl.yaml", 1, 1)),
-        Diagnostic("RC4004", "note", "by the way", Span("two.ddsl.yaml", 3, 1)),
+        SYNTAX.at(Span("two.ddsl.yaml", 4, 9), problem="they quarrel", related=(there,)),
+        ALIASES.at(Span("two.ddsl.yaml", 5, 14), problem="not equal").as_severity(WARNING),
+        WRONG_SHAPE.at(Span("other.cdsl.yaml", 1, 1), problem="somewhere else"),
+        WORKSPACE_SETTING.at(Span("two.ddsl.yaml", 3, 1), problem="by the way").as_severity("note"),
     ]
     return network, said
 
@@ -57,11 +58,11 @@ def test_golden(golden: Golden, form: str) -> None:
 def test_problems_are_where_they_belong() -> None:
     made = picture_of(*faulty())
     codes = {name: [fault.code for fault in node.faults] for name, node in made.nodes.items()}
-    assert codes == {"a": ["RC4001", "RC4002"], "b": ["RC4001"]}
+    assert codes == {"a": ["RC0101", "RC0105"], "b": ["RC0101"]}
     (line,) = made.lines
-    assert [fault.code for fault in line.faults] == ["RC4002"]
-    assert [fault.code for fault in made.faults] == ["RC4003"]
-    assert [fault.code for _, fault in made.all_faults()] == ["RC4001", "RC4002", "RC4003"]
+    assert [fault.code for fault in line.faults] == ["RC0105"]
+    assert [fault.code for fault in made.faults] == ["RC0204"]
+    assert [fault.code for _, fault in made.all_faults()] == ["RC0101", "RC0105", "RC0204"]
 
 
 def test_a_topic_stands_between_those_who_use_it() -> None:

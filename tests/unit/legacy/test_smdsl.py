@@ -12,6 +12,7 @@ from click.testing import Result
 
 from conftest import write_tree
 from robocomp_yaml.legacy.convert import convert
+from robocomp_yaml.legacy.draft import MachineDraft
 
 Run = Callable[..., Result]
 
@@ -21,7 +22,7 @@ def converted(folder: Path, text: str) -> tuple[str, list[str]]:
     (folder / "x.smdsl").write_text(text, encoding="utf-8")
     result = convert(str(folder / "x.smdsl"))
     said = [f"{d.span.line}:{d.span.column} {d.message}" for d in result.diagnostics]
-    return result.draft.text if result.draft else "", said
+    return result.draft.text if isinstance(result.draft, MachineDraft) else "", said
 
 
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'

@@ -1,0 +1,155 @@
+"""The pages of diagnostics, `docs/diagnostics/NAME.md`: what each code says, why, and its examples.
+
+A page is read when a diagnostic of it is made, not before. Under the heading of a code stand, in this order:
+
+    ## RC0102                          its id
+    *error*                            its severity
+    ```message                         the message: a format string for the facts
+    ```says                            where the message leaves all to a fact, the messages that there are, one a line
+    Some prose.                        why
+    Wrong, for `rcyaml check *`:       the files on which that command (`check .` where none is named) gives it
+    Right:                             those on which it does not
+    Both beside:                       those that stand beside either
+
+A file is a fence whose first line names it: ```` ```yaml Speech.idsl.yaml ````, in quotes where it has blanks. Behind
+the path there may be `-> TARGET` (a link), `absent` (of what stands beside all examples of the page, this does not),
+`escaped` (`\\xNN` is a byte), `unended` (the last line has no end) and `×N` (what stands between « and » is there so
+often). A path that ends in a slash is an empty folder. Files under "Beside the examples" stand beside all examples of
+a page.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cache
+
+import msgspec
+
+from robocomp_yaml import resources
+
+COMMAND = "check ."
+_ENTRY = re.compile(r"^## (RC\d{4})\n\n\*(\w+)\*\n", re.MULTILINE)
+_SHARED = re.compile(r"^## Beside the examples\n(.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
+_FENCE = re.compile(r'^```(\w+)(?: ("[^"]+"|\S+)(?: ([^\n]+))?)?\n(.*?)^```$', re.MULTILINE | re.DOTALL)
+_SECTION = re.compile(r"^(Wrong|Right|Both beside)(?:, for `rcyaml ([^`]+)`)?:$", re.MULTILINE)
+_ESCAPE = re.compile(rb"\\(x[0-9a-f]{2}|\\)")
+
+
+class Repeated(msgspec.Struct, frozen=True):
+    """A text so long that it is made only when somebody asks for it."""
+
+    before: str
+    text: str
+    times: int
+    after: str
+
+    def __str__(self) -> str:
+        return self.before + self.text * self.times + self.after
+
+
+Files = Mapping[str, str | bytes | Repeated | None]
+"""A small tree: text, bytes for what is no text, None for an empty folder, "-> target" for a link."""
+
+
+class Entry(msgspec.Struct, frozen=True):
+    """What a page says about one code."""
+
+    id: str
+    severity: str
+    message: str
+    says: tuple[str, ...]
+    why: str
+    wrong: Files
+    right: Files
+    command: str
+
+
+class Page(msgspec.Struct, frozen=True):
+    """A page, in which each entry is found, but not read further than its severity."""
+
+    severities: Mapping[str, str]
+    messages: Mapping[str, str]
+    _texts: Mapping[str, str]
+    _shared: str
+
+    def entry(self, id_: str) -> Entry:
+        """All about one code. Raises KeyError, and ValueError where the page is not as it should be."""
+        prose, *parts = _SECTION.split(self._texts[id_])
+        sections = {name: _files(text) for name, text in zip(parts[::3], parts[2::3], strict=True)}
+        if [*sections] not in (["Wrong", "Right"], ["Wrong", "Right", "Both beside"]):
+            raise ValueError(f"{id_}: its examples are not 'Wrong', 'Right' and perhaps 'Both beside'")
+        said = {kind: body for kind, _, _, body in _FENCE.findall(prose)}
+        beside = {**_files(self._shared), **sections.get("Both beside", {})}
+        return Entry(
+            id_, self.severities[id_], self.messages[id_], tuple(said.get("says", "").splitlines()),
+            "\n\n".join(" ".join(each.split("\n")) for each in _FENCE.sub("", prose).strip().split("\n\n")),
+            _tree(sections["Wrong"], beside), _tree(sections["Right"], beside), parts[1] or COMMAND,
+        )  # fmt: skip
+
+
+@cache
+def page(name: str) -> Page:
+    """The page of this name."""
+    text = resources.text(f"diagnostics/{name}.md")
+    found = list(_ENTRY.finditer(text))
+    ends = [*(match.start() for match in found[1:]), len(text)]
+    texts = {match[1]: text[match.end() : end] for match, end in zip(found, ends, strict=True)}
+    shared = _SHARED.search(text, 0, found[0].start())
+    return Page(
+        {match[1]: match[2] for match in found}, {id_: _message(id_, part) for id_, part in texts.items()}, texts,
+        shared[1] if shared else "",
+    )  # fmt: skip
+
+
+def names() -> list[str]:
+    """The names of all pages."""
+    return sorted(path.stem for path in resources.folder("diagnostics").glob("*.md"))
+
+
+def _message(id_: str, text: str) -> str:
+    head, fence, rest = text.partition("```message\n")
+    if not fence or head.strip():
+        raise ValueError(f"{id_}: no message stands under its severity")
+    return rest.partition("\n```")[0]
+
+
+class _Absent:
+    """Marks a file that does not stand beside an example."""
+
+
+def _files(text: str) -> dict[str, str | bytes | Repeated | None | _Absent]:
+    return {
+        path.strip('"').rstrip("/"): _content(path, rest, body) for _, path, rest, body in _FENCE.findall(text) if path
+    }
+
+
+def _content(path: str, rest: str, body: str) -> str | bytes | Repeated | None | _Absent:
+    if path.endswith("/"):
+        return None
+    if rest.startswith("-> "):
+        return rest
+    words = rest.split()
+    if "absent" in words:
+        return _Absent()
+    if "unended" in words:
+        body = body.removesuffix("\n")
+    for word in words:
+        if word.startswith("×"):
+            before, text, after = re.split("[«»]", body)
+            return Repeated(before, text, int(word[1:]), after)
+    if "escaped" not in words:
+        return body
+    raw = _ESCAPE.sub(lambda match: bytes.fromhex(match[1][1:].decode()) or b"\\", body.encode())
+    try:
+        return raw.decode()
+    except UnicodeDecodeError:
+        return raw
+
+
+def _tree(
+    own: dict[str, str | bytes | Repeated | None | _Absent], beside: dict[str, str | bytes | Repeated | None | _Absent]
+) -> Files:
+    """The files of an example, its own first."""
+    files = {**own, **{path: content for path, content in beside.items() if path not in own}}
+    return {path: content for path, content in files.items() if not isinstance(content, _Absent)}

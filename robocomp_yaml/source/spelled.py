@@ -1,0 +1,240 @@
+"""Fixes spelled as a document's text wants it: quotes where YAML needs them, and not a byte beside the place.
+
+Who finds a fault knows what is meant, and the place; here is the text. A fix that cannot be spelled is left out.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+
+from msgspec.structs import replace
+
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import LIST, QUOTE, UNQUOTE, VALUE, WORD, Edit, Fix
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source.tree import Mapping as MappingNode
+from robocomp_yaml.source.tree import Node, Scalar, parse
+from robocomp_yaml.source.tree import Sequence as SequenceNode
+
+_LINE_END = re.compile("\r\n|\r|\n")
+_MARKS = re.compile(r"(?:[&!]\S*[ \t]+)+")  # anchor and tag before a value
+_IN_A_TEXT = re.compile(r"[\w ./+@=<>-]+")  # may stand in any text, however it is quoted
+_PLAIN = re.compile(r"[\w./](?:[\w ./+-]*[\w./+-])?")  # needs no quotes, unless it would be read as something else
+_ITEM = re.compile(r"[ ]*-[ \t]+")
+
+
+def spelled(diagnostics: Iterable[Diagnostic], contents: Mapping[str, bytes]) -> Iterator[Diagnostic]:
+    """The diagnostics with fixes that say what to write; `contents` are the documents' bytes by their paths."""
+    known: dict[str, Text | None] = {}
+    for told in diagnostics:
+        if all(fix.is_spelled for fix in told.fixes):
+            yield told
+            continue
+        fixes = []
+        for fix in told.fixes:
+            for file in {edit.span.file for edit in fix.edits} - known.keys():
+                known[file] = _text_of(file, contents.get(file))
+            if made := _spelled(fix, known):
+                fixes.append(made)
+        yield replace(told, fixes=tuple(dict.fromkeys(fixes)))
+
+
+def _text_of(file: str, raw: bytes | None) -> Text | None:
+    try:
+        return Text(file, raw.decode("utf-8-sig")) if raw is not None else None
+    except UnicodeDecodeError:
+        return None
+
+
+def _spelled(fix: Fix, known: Mapping[str, Text | None]) -> Fix | None:
+    edits: list[Edit] = []
+    for edit in fix.edits:
+        text = known[edit.span.file]
+        made = [edit] if not edit.how else text.spelled(edit) if text is not None else []
+        if not made:
+            return None
+        edits += made
+    return replace(fix, edits=tuple(edits))
+
+
+class Text:
+    """A document's text, with indexes for lines and columns."""
+
+    def __init__(self, file: str, text: str) -> None:
+        self.file, self.text = file, text
+        self.is_yaml = file.endswith((".yaml", ".yml"))
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [0, *(end.end() for end in _LINE_END.finditer(self.text))]
+
+    def index(self, line: int, column: int) -> int:
+        """Of a place in the text; a place behind its end is the end."""
+        if line > len(self._starts):
+            return len(self.text)
+        return min(self._starts[line - 1] + column - 1, len(self.text))
+
+    def span(self, start: int, end: int) -> Span:
+        first, last = (bisect_right(self._starts, at) for at in (start, end))
+        return Span(
+            self.file, first, start - self._starts[first - 1] + 1, last, end - self._starts[last - 1] + 1
+        )  # fmt: skip
+
+    def edit(self, start: int, end: int, new: str) -> Edit:
+        return Edit(self.span(start, end), new)
+
+    @cached_property
+    def tree(self) -> Node | None:
+        return parse(self.file, self.text)[0] if self.is_yaml else None
+
+    def spelled(self, edit: Edit) -> list[Edit]:
+        """The edits that do what one means; none where that cannot be said."""
+        start = self.index(edit.span.line, edit.span.column)
+        end = self.index(edit.span.end_line, edit.span.end_column)
+        if edit.how == WORD:
+            return self._word(start, end, edit.word, edit.text)
+        if edit.how in (QUOTE, LIST):
+            return self._around(start, end, edit.how)
+        if edit.how == VALUE:
+            node = self._scalar(start)
+            return [self.edit(*self._inner(node), edit.text)] if node is not None else []
+        return self._unquoted(start) if edit.how == UNQUOTE else self._without(start)
+
+    def _word(self, start: int, end: int, word: str, meant: str) -> list[Edit]:
+        node = self._scalar(start)
+        begin, finish = (self._inner(node)) if node is not None else (start, end)
+        is_whole = node is not None and node.lexeme == word
+        if is_whole and (is_plain := not _is_quoted(self.text, begin)):
+            if self.text[begin:finish] == word:
+                return [self.edit(begin, finish, meant if _is_text(meant) else _quoted(meant))]
+        elif is_whole and not is_plain:
+            inner = self.text[begin + 1 : finish - 1]
+            if inner == word and _IN_A_TEXT.fullmatch(meant):
+                return [self.edit(begin + 1, finish - 1, meant)]
+            if self.text[begin] in "'\"":
+                return [self.edit(begin, finish, _quoted(meant, self.text[begin]))]
+        at = self._where(max(start, begin), begin, finish, word)
+        if at is None or not _IN_A_TEXT.fullmatch(meant):
+            return []
+        return [self.edit(at, at + len(word), meant)]
+
+    def _where(self, start: int, begin: int, end: int, word: str) -> int | None:
+        """Where a word stands: at the place itself, else once in the text around it, or at its end, as in a path."""
+        found = [match.start() for match in re.finditer(_whole(word), self.text[begin:end])]
+        places = [begin + at for at in found]
+        if start in places or not places:
+            return start if places else None
+        is_last = self.text[places[-1] + len(word) : end].strip("'\" \t") == ""
+        return places[-1] if len(places) == 1 or is_last else None
+
+    def _around(self, start: int, end: int, how: str) -> list[Edit]:
+        node = self._scalar(start)
+        start, end = self._inner(node) if node is not None else (self._behind_marks(start), end)
+        old = self.text[start:end]
+        if not old or len(old.splitlines()) > 1 or (how == QUOTE and old[0] in "'\"|>[{"):
+            return []
+        left, right = ('"', '"') if how == QUOTE else ("[", "]")
+        if how == QUOTE and ('"' in old or "\\" in old):
+            return [self.edit(start, end, _quoted(old))]
+        return [self.edit(start, start, left), self.edit(end, end, right)]
+
+    def _unquoted(self, start: int) -> list[Edit]:
+        node = self._scalar(start)
+        if node is None or not _is_quoted(self.text, self._inner(node)[0]):
+            return []
+        return [self.edit(*self._inner(node), node.lexeme.strip())]
+
+    def _without(self, start: int) -> list[Edit]:
+        """Without the entry that begins there; a comment behind it stays."""
+        found = _entry(self.tree, start)
+        if found is None or self.text[start : start + 1] in "&*!":
+            return []
+        at, nodes, is_flow = found
+        end = nodes[at].end
+        if is_flow:
+            before = self.text[nodes[at - 1].end : start] if at else ""
+            if at and "\n" not in before and "#" not in before:
+                return [self.edit(nodes[at - 1].end, end, "")]
+            comma = re.compile(r"[ \t]*,[ \t]*").match(self.text, end)
+            return [self.edit(start, comma.end() if comma else end, "")]
+        return without_lines(self, start, end)
+
+    def _scalar(self, index: int) -> Scalar | None:
+        """The key or value that a place is in."""
+        node = self.tree
+        while node is not None and not isinstance(node, Scalar):
+            children = _children(node)
+            node = next((child for child in children if child.start <= index < max(child.end, child.start + 1)), None)
+        return node
+
+    def _inner(self, node: Scalar) -> tuple[int, int]:
+        """From where to where a scalar goes, without anchor and tag."""
+        return self._behind_marks(node.start), node.end
+
+    def _behind_marks(self, start: int) -> int:
+        marks = _MARKS.match(self.text, start)
+        return marks.end() if marks else start
+
+
+def without_lines(text: Text, start: int, end: int) -> list[Edit]:
+    """Without an entry that has its lines for itself; a comment behind it stays, on a line of its own."""
+    whole = text.text
+    line = max(whole.rfind("\n", 0, start), whole.rfind("\r", 0, start)) + 1
+    before = whole[line:start]
+    if before.strip() and not _ITEM.fullmatch(before):
+        return []
+    while end > start and whole[end - 1] in "\r\n \t":
+        end -= 1
+    rest = re.compile(r"[ \t]*(#[^\r\n]*)?(\r\n|\r|\n|\Z)").match(whole, end)
+    if rest is None:
+        return []
+    if rest[1]:
+        indent = re.match(r"[ ]*", before)
+        return [text.edit(line + len(indent[0] if indent else ""), rest.start(1), "")]
+    return [text.edit(line, rest.end(), "")]
+
+
+def _children(node: Node) -> Iterator[Node]:
+    if isinstance(node, MappingNode):
+        for key, value in node.items():
+            yield key
+            yield value
+    elif isinstance(node, SequenceNode):
+        yield from node.items
+
+
+def _entry(node: Node | None, start: int) -> tuple[int, list[Node], bool] | None:
+    """The entry of a list that begins at a place: which one it is of them, and whether they stand in brackets."""
+    while node is not None:
+        if isinstance(node, SequenceNode):
+            for at, item in enumerate(node.items):
+                if item.start == start:
+                    return at, node.items, node.is_flow
+        node = next((child for child in _children(node) if child.start <= start < child.end), None)
+    return None
+
+
+def _whole(word: str) -> str:
+    """A pattern of a word that is no part of a longer one."""
+    left = r"(?<!\w)" if word[:1].isalnum() or word[:1] == "_" else ""
+    right = r"(?!\w)" if word[-1:].isalnum() or word[-1:] == "_" else ""
+    return f"{left}{re.escape(word)}{right}"
+
+
+def _is_quoted(text: str, start: int) -> bool:
+    return text[start : start + 1] in ("'", '"', "|", ">")
+
+
+def _is_text(meant: str) -> bool:
+    """Whether YAML takes it for this text without quotes, wherever it stands."""
+    return _PLAIN.fullmatch(meant) is not None and getattr(parse("", meant)[0], "data", None) == meant
+
+
+def _quoted(text: str, mark: str = '"') -> str:
+    if mark == "'" and text.isprintable():
+        return "'" + text.replace("'", "''") + "'"
+    return json.dumps(text, ensure_ascii=False)
