@@ -110,7 +110,8 @@ def _macros(headers: list[str], standard: int, *flags: str) -> set[str]:
 
 
 def _preprocessed(source: str, standard: int, *flags: str) -> str:
-    command = ["g++", f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-E", *flags, "-x", "c++", "-"]
+    """With what a component's build defines by itself: for Ice, and in CMake's Release."""
+    command = ["g++", f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-DNDEBUG", "-O2", "-E", *flags, "-x", "c++", "-"]
     return subprocess.run(command, input=source, capture_output=True, text=True, check=True).stdout
 
 

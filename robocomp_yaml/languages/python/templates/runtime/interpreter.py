@@ -4,10 +4,8 @@ path and /usr/bin/python3. What is set is the only one.
 
 Each Python answers for itself: where another one's turn comes, it is started in the place of this process, and is
 handed on what was tried and what is left, so that none is tried twice. Pythons that are too old for a component read
-this file too, and `rcyaml deploy probe` sends it to hosts as it stands: it needs nothing else.
+this file too, from 3.5 on, and `rcyaml deploy probe` sends it to hosts as it stands: it needs nothing else.
 """
-
-from __future__ import annotations
 
 import json
 import os
@@ -36,7 +34,7 @@ class NoPython(Exception):
     """No Python can run it; the text says which were tried and what to do."""
 
 
-def settle(root: str, words: Sequence[str]) -> None:
+def settle(root: str, words: "Sequence[str]") -> None:
     """Returns where this Python is the one that is to run the component in the folder `root`; else starts that one with
     the `words`. Raises NoPython."""
     tried, left = _handed_on(os.environ.pop(_HANDED_ON, ""))
@@ -49,7 +47,7 @@ def settle(root: str, words: Sequence[str]) -> None:
             why = _start(path, words, tried, [(path, what, True), *((*one[:2], False) for one in candidates)])
         if what == VARIABLE:
             raise NoPython(_UNUSABLE.format(variable=VARIABLE, path=path, why=why))
-        tried.append(f"  {path} ({what}) {why}")
+        tried.append("  {} ({}) {}".format(path, what, why))
     raise NoPython(_NOTHING.format(tried="\n".join(tried), pip=_pip(root), variable=VARIABLE))
 
 
@@ -61,16 +59,17 @@ def why_not() -> str:
         import Ice
     except ModuleNotFoundError as error:
         # Debian's Ice is seen by each Python that looks into its folder, and can be loaded by one of them.
-        return "has no Ice" if error.name == "Ice" else f"sees an Ice that was compiled for another Python ({error})"
+        is_there = error.name != "Ice"
+        return "sees an Ice that was compiled for another Python ({})".format(error) if is_there else "has no Ice"
     except Exception as error:
-        return f"cannot load its Ice ({error})"
+        return "cannot load its Ice ({})".format(error)
     try:
-        return "" if Ice.intVersion() // 100 == ICE else f"has Ice {Ice.stringVersion()}, not 3.7"
+        return "" if Ice.intVersion() // 100 == ICE else "has Ice {}, not 3.7".format(Ice.stringVersion())
     except AttributeError:
-        return f"finds something else that is called Ice ({getattr(Ice, '__file__', None) or 'a folder'})"
+        return "finds something else that is called Ice ({})".format(getattr(Ice, "__file__", None) or "a folder")
 
 
-def _handed_on(text: str) -> tuple[list[str], list[tuple[str, str, bool]]]:
+def _handed_on(text: str) -> "tuple[list[str], list[tuple[str, str, bool]]]":
     """What was tried, and what is left; nothing where this is the first one."""
     try:
         tried, left = json.loads(text)
@@ -79,17 +78,17 @@ def _handed_on(text: str) -> tuple[list[str], list[tuple[str, str, bool]]]:
         return [], []
 
 
-def _start(path: str, words: Sequence[str], tried: Sequence[str], left: Sequence[tuple[str, str, bool]]) -> str:
+def _start(path: str, words: "Sequence[str]", tried: "Sequence[str]", left: "Sequence[tuple[str, str, bool]]") -> str:
     """Why it does not start: where it does, this process is it."""
     os.environ[_HANDED_ON] = json.dumps([tried, left])
     try:
         os.execv(path, [path, *words])
     except OSError as error:
         del os.environ[_HANDED_ON]
-        return f"cannot be started ({error.strerror})"
+        return "cannot be started ({})".format(error.strerror)
 
 
-def _candidates(root: str) -> Iterator[tuple[str, str, bool]]:
+def _candidates(root: str) -> "Iterator[tuple[str, str, bool]]":
     """Each is looked for when its turn comes."""
     given = os.path.expanduser(os.environ.get(VARIABLE, ""))
     if given:
@@ -149,7 +148,7 @@ def _is_this(path: str) -> bool:
     return _is_plain() and bool(sys.executable) and _identity(path) == _identity(sys.executable)
 
 
-def _identity(path: str) -> tuple[str, str]:
+def _identity(path: str) -> "tuple[str, str]":
     """Of a virtual environment the folder counts too: its Python is a link to one that knows nothing of it."""
     folder = os.path.dirname(os.path.abspath(path))
     for place in (folder, os.path.dirname(folder)):
@@ -163,10 +162,10 @@ def _why_unusable(path: str, what: str, root: str) -> str:
     if os.sep not in path:
         return "is not on the path"
     if not os.path.exists(path):
-        return f"leads to {os.readlink(path)}, which is not there" if os.path.islink(path) else "is not there"
+        return "leads to {}, which is not there".format(os.readlink(path)) if os.path.islink(path) else "is not there"
     if os.path.isdir(path):
         inside = os.path.join(path, "bin", "python")
-        return f"is a folder (did you mean {inside}?)" if os.path.isfile(inside) else "is a folder"
+        return "is a folder (did you mean {}?)".format(inside) if os.path.isfile(inside) else "is a folder"
     if not os.access(path, os.X_OK):
         return "is not executable"
     if what == _OF_WORKSPACE and not _is_owned(path, root):
@@ -179,13 +178,13 @@ def _why_unusable(path: str, what: str, root: str) -> str:
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=_SECONDS,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
-        return f"did not answer within {_SECONDS} s"
+        return "did not answer within {} s".format(_SECONDS)
     except OSError as error:
-        return f"cannot be started ({error.strerror})"
+        return "cannot be started ({})".format(error.strerror)
     answer = asked.stdout.decode("utf-8", "replace").split()
     if len(answer) != 3 or answer[0] != "Python" or not (answer[1] + answer[2]).isdigit():
         said = asked.stderr.decode("utf-8", "replace").strip().splitlines()
-        return f"is no Python that works ({said[-1] if said else f'exit code {asked.returncode}'})"
+        return "is no Python that works ({})".format(said[-1] if said else "exit code {}".format(asked.returncode))
     version = (int(answer[1]), int(answer[2]))
     return "" if version >= OLDEST else _too_old(version)
 
@@ -196,7 +195,7 @@ def _is_owned(path: str, root: str) -> bool:
     return owner in (0, os.geteuid(), os.stat(root).st_uid)
 
 
-def _too_old(version: Sequence[int]) -> str:
+def _too_old(version: "Sequence[int]") -> str:
     return "is Python {}.{}, older than {}.{}".format(*version, *OLDEST)
 
 
@@ -204,5 +203,5 @@ def _pip(root: str) -> str:
     """The words that end in calling pip: of the workspace's virtual environment, which is made where there is none.
     Debian's own Python takes nothing from pip."""
     path = _of_workspace(root)
-    make = "" if os.access(path, os.X_OK) else f"python3 -m venv {os.path.dirname(os.path.dirname(path))} && "
-    return f"{make}{path} -m pip"
+    make = "" if os.access(path, os.X_OK) else "python3 -m venv {} && ".format(os.path.dirname(os.path.dirname(path)))
+    return "{}{} -m pip".format(make, path)
