@@ -50,7 +50,9 @@ class Fixing:
             document.path: UNREADABLE if document.tree is None else MISSHAPEN if document.model is None else UNDERSTOOD
             for document in analysis.linker.documents.read.values()
         }
-        return Look(analysis.diagnostics, analysis.contents, levels)
+        # Whether a comment allows something in vain is known once all is checked.
+        told = self.more(analysis) if analysis.allowed.by_file else analysis.diagnostics
+        return Look(told, analysis.contents, levels)
 
     def remaining(self) -> tuple[Analysis, list[Diagnostic]]:
         """What is found now, or would be."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_yaml.commands import _fail_on, _options
+from robocomp_yaml.diag.diagnostic import in_order
 
 if TYPE_CHECKING:
     from robocomp_yaml.commands._fail_on import FailOn
@@ -50,7 +51,8 @@ def command(
 
 
 def _told(analysis: Analysis, environment: bool) -> list[Diagnostic]:
-    return analysis.with_more([*_on_disk(analysis, environment), *(_missing(analysis) if environment else ())])
+    told = analysis.with_more([*_on_disk(analysis, environment), *(_missing(analysis) if environment else ())])
+    return in_order([*told, *analysis.allowed_in_vain(environment=environment)])
 
 
 def _on_disk(analysis: Analysis, environment: bool) -> Iterator[Diagnostic]:
