@@ -250,7 +250,7 @@ LINES = {
     f"a: 1\nb: x\n  y  {ALLOW}\ne: 1\n": (2, 3),
     f"a:\n  {ALLOW}\n  - &x 1\n  - *x\n": (2, 3),
     f"a:\n  - &x 1\n  {ALLOW}\n  - *x\n": (3, 4),
-    f"a: 1\n{ALLOW}\n": (2, 2),
+    f"a: 1\n{ALLOW}\n": (2, 3),
     f"%YAML 1.2\n---\n# x\n{ALLOW}\n\n\na: 1\n": (1, 7),
 }
 
