@@ -18,6 +18,7 @@ import click
 
 from robocomp_yaml import __version__
 from robocomp_yaml.commands import _signals
+from robocomp_yaml.commands._command import Group
 from robocomp_yaml.diag import terminal
 
 COMMANDS = {
@@ -45,7 +46,7 @@ class _ReaderGone(Exception):
     """Whoever reads what is printed has had enough, which click takes for a failure."""
 
 
-class LazyGroup(click.Group):
+class LazyGroup(Group):
     """A group whose commands live in `robocomp_yaml.commands.NAME.command`."""
 
     def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
@@ -83,18 +84,6 @@ class LazyGroup(click.Group):
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        try:
-            return super().resolve_command(ctx, args)
-        except click.UsageError as error:
-            from robocomp_yaml.diag.suggest import suggest
-
-            meant = suggest(args[0], COMMANDS)
-            error.message = f"there is no command '{args[0]}'" + (f"; did you mean '{meant}'?" if meant else "")
-            raise
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
         try:

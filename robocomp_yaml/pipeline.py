@@ -21,6 +21,7 @@ from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
 from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import spelled
 
 if TYPE_CHECKING:
@@ -28,15 +29,14 @@ if TYPE_CHECKING:
 
 
 class Analysis(msgspec.Struct):
-    """A program with its diagnostics, sorted, and what they were read from: the bytes of each document, and the paths
-    at which an import was looked for in vain. `networks` are what the deployments come to, by real path."""
+    """A program with its diagnostics, sorted, and the disk that they were read from. `networks` are what the
+    deployments come to, by real path."""
 
     program: Program
     linker: Linker
     found: Found
     diagnostics: list[Diagnostic]
-    contents: dict[str, bytes] = {}
-    absent: set[str] = set()
+    disk: Disk
     networks: dict[str, Network] = {}
     allowed: Allowed = msgspec.field(default_factory=Allowed)
 
@@ -49,7 +49,7 @@ class Analysis(msgspec.Struct):
         that the workspaces ask for, with fixes that say what to write."""
         told = list(self.allowed.told(diagnostics, lambda file: self.linker.workspace_of(file).lint))
         told += self.allowed.of_errors()
-        return self.veiled(spelled(_with_lint(told, self.linker), self.contents))
+        return self.veiled(spelled(_with_lint(told, self.linker), self.disk.contents))
 
     def allowed_in_vain(self, *, environment: bool = False) -> list[Diagnostic]:
         """What comments allow that nobody said, of the documents asked for; known once all is checked that there is."""
@@ -68,7 +68,7 @@ class Analysis(msgspec.Struct):
         """The secrets that these documents hold, or all."""
         documents = self.linker.documents.read.values()
         files = {document.path for document in documents} if files is None else files
-        return secrets.hidden(self.program, documents, self.contents, files) if files else Hidden()
+        return secrets.hidden(self.program, documents, files) if files else Hidden()
 
 
 def search_folders(given: Iterable[str]) -> tuple[str, ...]:
@@ -83,45 +83,26 @@ def analyse(
     overlay: Mapping[str, bytes] | None = None,
 ) -> Analysis:
     """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
-    document that is read. `overlay` has contents, by real path, that count instead of the disk's."""
-    found = discover(list(paths))
-    documents = Documents(on_read, overlay=dict(overlay or {}))
-    linker = Linker(documents, Search(search_folders(extra)))
+    document that is read. `overlay` has contents, by path, that count instead of the disk's."""
+    disk = Disk(overlay)
+    documents = Documents(disk, on_read)
+    linker = Linker(documents, Search(search_folders(extra), disk))
+    found = discover(list(paths), disk)
     program = linker.link(found.documents)
     said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]
     for run in checks(program):
         said += run(program)
-    contents = documents.contents
     networks: dict[str, Network] = {}
     if program.deployments:
         from robocomp_yaml.check.networks import networks_of  # most programs have none
 
-        networks, more = networks_of(program, _reader(documents, linker.search.absent))
+        networks, more = networks_of(program)
         said += more
-    for workspace in linker.workspaces.values():
-        contents[os.path.normpath(os.path.join(workspace.root, WORKSPACE_FILE))] = workspace.content
-    said += secrets.check(program, documents.read.values(), contents)
-    analysis = Analysis(program, linker, found, [], contents, linker.search.absent, networks)
-    analysis.allowed = Allowed.of(contents)
+    said += secrets.check(program, documents.read.values())
+    analysis = Analysis(program, linker, found, [], disk, networks)
+    analysis.allowed = Allowed.of(disk.contents)
     analysis.diagnostics = in_order(analysis.told([*said, *analysis.allowed.said]))
     return analysis
-
-
-def _reader(documents: Documents, absent: set[str]) -> Callable[[str], bytes | None]:
-    """Reads a file that is no document of ours, but of which the outcome depends all the same."""
-
-    def read(path: str) -> bytes | None:
-        from robocomp_yaml.network.base import from_disk
-
-        raw = documents.overlay.get(os.path.realpath(path))
-        raw = from_disk(path) if raw is None else raw
-        if raw is None:
-            absent.add(path)
-        else:
-            documents.contents[path] = raw
-        return raw
-
-    return read
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

@@ -71,7 +71,10 @@ _OPTION = _Pattern(
 )
 _IS_OPTION = _Pattern(r"--?[A-Za-z][\w.\-]*\Z")
 _WHOLE = _Pattern(r"((?:--?)?[^\x00-@\[-^`{-\x7f][\w.\-]*)([=:])(?!//)(.+)\Z", re.DOTALL)
-_REFERENCE = _Pattern(r"\$?\{ *(?:env|file) *:|\$\{?[A-Za-z_]")
+# One that can be followed, as far as that is seen: others are what somebody meant to be a secret.
+_REFERENCE = _Pattern(
+    r"\$\{?[A-Za-z_]|\{ *env *: *([\"']?)[A-Za-z_][A-Za-z0-9_]*\1 *(?:\}|\Z)|\{ *file *: *[^\s\[\]{},]"
+)
 
 
 def masked(text: str) -> str:

@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 from hypothesis import HealthCheck, settings
 from hypothesis.database import DirectoryBasedExampleDatabase
 
+import own_ports
 from robocomp_yaml.cli import group
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -70,7 +71,8 @@ def read_tree(folder: Path) -> dict[str, str]:
 
 @pytest.fixture
 def rcyaml(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
-    """Runs `rcyaml ARGS` in tmp_path, in this process."""
+    """Runs `rcyaml ARGS` in tmp_path, in this process; ports that others have are free to it."""
+    own_ports.only(tmp_path, monkeypatch)
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("RCYAML_PATH", raising=False)
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import pytest
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit import atomic, journal, writer
-from robocomp_yaml.emit.changes import Changes
-from robocomp_yaml.emit.plan import ALWAYS, ONCE, FilePlan, RootPlan
+from robocomp_yaml.transactions import atomic, journal, whole_file, writer
+from robocomp_yaml.transactions.changes import Changes
+from robocomp_yaml.transactions.plan import ALWAYS, ONCE, FilePlan, RootPlan
 
 OWNER = "speech.cdsl.yaml"
 
@@ -30,21 +30,26 @@ def plan(root: Path, *files: FilePlan, owner: str = OWNER, partial: bool = False
     document = root / owner
     document.parent.mkdir(parents=True, exist_ok=True)
     document.touch()
-    return RootPlan(str(root), owner, list(files), partial)
+    return RootPlan(str(root), owner, files, partial)
 
 
 def carry_out(*plans: RootPlan, adopt: bool = False) -> tuple[Changes, list[Diagnostic]]:
     """As `rcyaml compile` does it."""
     diagnostics = writer.recover(plans)
-    changes = writer.prepare(plans, adopt=adopt)
-    return changes, [*diagnostics, *changes.diagnostics, *writer.commit(changes)]
+    changes = writer.commit(writer.prepare(plans, adopt=adopt))
+    return changes, [*diagnostics, *changes.diagnostics]
+
+
+def commit(prepared: Changes) -> list[Diagnostic]:
+    """What the commit itself had to say."""
+    return list(writer.commit(prepared).diagnostics[len(prepared.diagnostics) :])
 
 
 def actions(changes: Changes, root: Path) -> dict[str, str]:
     return {os.path.relpath(change.path, root): change.action for change in changes}
 
 
-def codes(diagnostics: list[Diagnostic]) -> list[str]:
+def codes(diagnostics: Iterable[Diagnostic]) -> list[str]:
     return [diagnostic.code for diagnostic in diagnostics]
 
 
@@ -95,7 +100,7 @@ class Disk:
     @contextlib.contextmanager
     def seen_by_commits(self) -> Iterator[Disk]:
         with pytest.MonkeyPatch.context() as patch:
-            for module in (atomic, journal):
+            for module in (atomic, journal, whole_file):
                 patch.setattr(module, "os", self)
             yield self
 

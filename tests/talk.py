@@ -6,7 +6,7 @@ from pathlib import Path
 
 from conftest import write_tree
 
-from robocomp_yaml.emit.plan import CONFIG
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.pipeline import analyse
 

@@ -7,21 +7,20 @@ from collections.abc import Callable, Iterable, Iterator
 from robocomp_yaml.check import modules_of
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.network.base import Read
 from robocomp_yaml.network.derive import derive
 from robocomp_yaml.network.network import Network
 
 _FAMILY = "RC4"
 
 
-def networks_of(program: Program, read: Read) -> tuple[dict[str, Network], list[Diagnostic]]:
+def networks_of(program: Program) -> tuple[dict[str, Network], list[Diagnostic]]:
     """Every deployment's network by its real path, and what is wrong with them. A document that another one includes
     is judged as part of that one."""
     networks: dict[str, Network] = {}
     diagnostics: list[Diagnostic] = []
     checks: list[Callable[[Network], Iterator[Diagnostic]]] = [module.check for module in modules_of("ddsl")]
     for real, linked in sorted(program.deployments.items(), key=lambda item: item[1].deployment.path):
-        networks[real], found = derive(linked, read)
+        networks[real], found = derive(linked, program.disk)
         if not linked.is_included:
             diagnostics += found
             for check in checks:

@@ -23,7 +23,8 @@ from robocomp_yaml.link.documents import Document
 from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.model.parameters import RecordType
 from robocomp_yaml.source import properties
-from robocomp_yaml.source.text import decode, read_bytes
+from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values.hidden import declared, named_nodes, nodes, plain_below
 
@@ -39,28 +40,28 @@ class Secret(msgspec.Struct, frozen=True):
     is_sure: bool = True
 
 
-def check(program: Program, documents: Iterable[Document], contents: dict[str, bytes]) -> Iterator[Diagnostic]:
+def check(program: Program, documents: Iterable[Document]) -> Iterator[Diagnostic]:
     """Warnings about secrets that stand where others can read them."""
     finder = _Finder(program)
     for document in documents:
-        if document.kind in _KINDS and document.model is not None and finder.may_hold(document, contents):
+        if document.kind in _KINDS and document.model is not None and finder.may_hold(document):
             if _others_can_read(document.path):
                 yield from (_warning(document, secret) for secret in finder.secrets(document) if secret.is_sure)
-    yield from _of_configurations(program, contents)
+    yield from _of_configurations(program)
 
 
-def _of_configurations(program: Program, contents: dict[str, bytes]) -> Iterator[Diagnostic]:
+def _of_configurations(program: Program) -> Iterator[Diagnostic]:
     """Of those that are no documents of ours, at the deployment that names them."""
     told: set[tuple[str, str]] = set()
     for deployment in program.deployments.values():
         for instance in deployment.instances.values():
             path, given, component = instance.flat, instance.entry.config, instance.component
             place = (instance.document.path, os.path.realpath(path)) if path else ("", "")
-            if given is None or place in told or path not in contents or not _others_can_read(path):
+            if given is None or place in told or path not in program.disk.contents or not _others_can_read(path):
                 continue
             told.add(place)
             names = set(declared(component.parameters.parameters.root)) if component is not None else set()
-            line = _line_of_secret(contents[path].decode("utf-8", "replace"), names)
+            line = _line_of_secret(program.disk.contents[path].decode("utf-8", "replace"), names)
             if line:
                 file, hint = os.path.relpath(path), f"`chmod 600 {shlex.quote(os.path.relpath(path))}`"
                 yield network_codes.OPEN_CONFIG.at(given.span, file=file, line=line, hint=hint)
@@ -78,7 +79,7 @@ def _line_of_secret(text: str, names: Collection[str]) -> int:
     return min(secrets.parts_of_lines(lines, names), default=-1) + 1
 
 
-def hidden(program: Program, documents: Iterable[Document], contents: dict[str, bytes], files: set[str]) -> Hidden:
+def hidden(program: Program, documents: Iterable[Document], files: set[str]) -> Hidden:
     """What is not to be shown of these files."""
     found, finder = Hidden(), _Finder(program)
     for document in documents:
@@ -89,8 +90,8 @@ def hidden(program: Program, documents: Iterable[Document], contents: dict[str, 
             for node in _in_extensions(document.tree):
                 found.add(node.span, node.lexeme)
         elif document.tree is None:
-            _add_lines(found, document, contents, finder.names)
-        elif finder.names or finder.may_hold(document, contents):  # a name may be misspelt
+            _add_lines(found, document, program.disk, finder.names)
+        elif finder.names or finder.may_hold(document):  # a name may be misspelt
             for secret in finder.secrets(document):
                 found.add(secret.node.span, secret.part or secret.node.lexeme)
     return found
@@ -98,6 +99,7 @@ def hidden(program: Program, documents: Iterable[Document], contents: dict[str, 
 
 _MORE = {"ddsl": ("set",), "pdsl": ("default",)}
 """Names of keys below which a secret can stand that has another name, where nobody can tell."""
+_ALLOWED = {"values", "enum", "one-of"}
 _COMMENT = ("#", ";", "//", "<!--")
 _KINDS = ("config", "ddsl", "pdsl")
 
@@ -126,9 +128,9 @@ class _Finder:
         linked = [*program.parameters.values(), *(one.parameters for one in program.components.values())]
         self.names = {name for one in linked for name in declared(one.parameters.root)}
 
-    def may_hold(self, document: Document, contents: dict[str, bytes]) -> bool:
+    def may_hold(self, document: Document) -> bool:
         """Most documents hold none, which is soon seen."""
-        text = contents.get(document.path, b"").decode("utf-8", "replace")
+        text = self.program.disk.contents.get(document.path, b"").decode("utf-8", "replace")
         is_alone = document.kind != "pdsl" and document.real not in self.program.values  # what it gives is not known
         return is_alone or secrets.may_hold(text) or any(name in text for name in self.names)
 
@@ -160,13 +162,14 @@ class _Finder:
             yield from self._of_deployment(document, tree)
         else:
             yield from map(Secret, self._of_parameters(document))
+            yield from _of_allowed(tree)
 
     def _of_values(self, document: Document, tree: Mapping) -> Iterator[Scalar]:
         values = self.program.values.get(document.real)
         linked = values.parameters if values is not None else None
         given = tree.get("parameters")
         if linked is None:
-            yield from named_nodes(tree, {*self.names, *_names_nearby(document.path)})
+            yield from named_nodes(tree, {*self.names, *_names_nearby(document.path, self.program.disk)})
             return
         if given is not None:
             yield from nodes(linked.parameters.root, given)
@@ -230,14 +233,29 @@ def _of_defaults(node: Node) -> Iterator[Secret]:
             yield from _of_defaults(item)
 
 
+def _of_allowed(node: Node) -> Iterator[Secret]:
+    """The values that a secret may have: one of them it is."""
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            if isinstance(value, Mapping) and (secrets.is_secret(key.lexeme) or "secret" in value.entries):
+                for word in _ALLOWED & value.entries.keys():
+                    yield from _unsure(value.entries[word][1])
+            yield from _of_allowed(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _of_allowed(item)
+
+
 def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
     """Arguments that are secrets, or hold one."""
     if isinstance(node, Mapping):
         node = node.get("command")
     if not isinstance(node, Sequence):
         return
+    is_value = False  # of the option before it
     for item in node.items:
-        yield from map(Secret, named_nodes(item))
+        yield from map(Secret, plain_below(item) if is_value else named_nodes(item))
+        is_value = isinstance(item, Scalar) and item.lexeme.startswith("-") and secrets.is_one_of(item.lexeme, names)
     words = [item for item in node.items if isinstance(item, Scalar)]
     for item, shown in zip(words, secrets.words((item.lexeme for item in words), names), strict=True):
         if shown != item.lexeme:
@@ -299,11 +317,11 @@ def _defaults(record: RecordType) -> Iterator[Scalar]:
             yield from _defaults(member.type)
 
 
-def _add_lines(found: Hidden, document: Document, contents: dict[str, bytes], names: Collection[str]) -> None:
+def _add_lines(found: Hidden, document: Document, disk: Disk, names: Collection[str]) -> None:
     """What is hidden of the lines of a document that is no YAML."""
-    text = contents.get(document.path, b"").decode("utf-8-sig", "replace")
+    text = disk.contents.get(document.path, b"").decode("utf-8-sig", "replace")
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    nearby = _names_nearby(document.path) if document.kind == "config" else ()
+    nearby = _names_nearby(document.path, disk) if document.kind == "config" else ()
     known = {*names, *nearby, *_MORE.get(document.kind, ())}
     for number, parts in secrets.parts_of_lines(lines, known).items():
         for start, end in parts:
@@ -313,17 +331,14 @@ def _add_lines(found: Hidden, document: Document, contents: dict[str, bytes], na
                 found.add(span, text)
 
 
-def _names_nearby(path: str) -> Iterator[str]:
+def _names_nearby(path: str, disk: Disk) -> Iterator[str]:
     """What the documents of parameters beside a document, and one folder up, call secret."""
     folder = os.path.dirname(path) or "."
     for where in (folder, os.path.join(folder, os.pardir)):
-        try:
-            names = [name for name in sorted(os.listdir(where)) if name.endswith("pdsl.yaml")]
-        except OSError:
-            continue
+        names = [name for name in disk.documents(where) if name.endswith("pdsl.yaml")]
         for name in names[:20]:
-            raw, _ = read_bytes(os.path.join(where, name))
-            text, _ = decode(path, raw or b"")
+            raw, _ = disk.read(os.path.join(where, name))
+            text = decode(path, raw)[0] if raw is not None else None
             tree, _ = parse(path, text) if text is not None else (None, [])
             yield from _called_secret(tree)
 

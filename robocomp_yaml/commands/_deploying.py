@@ -14,10 +14,10 @@ import click
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.api.deployments import document
 from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._attaching import attached
-from robocomp_yaml.commands._only_deployment import document
 from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy import folder, operations
 from robocomp_yaml.deploy.differences import shown_path

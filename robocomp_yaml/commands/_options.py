@@ -33,21 +33,15 @@ def colored(ctx: click.Context, stream: Any = None) -> bool:
     return bool((stream or sys.stdout).isatty())
 
 
-def find_below(folder: str) -> list[str]:
-    """The documents below a folder, and the folders below it that something was compiled to."""
-    from robocomp_yaml.source.discover import documents_below
-
-    roots: list[str] = []
-    return [*documents_below(folder, roots), *roots]
-
-
 @contextmanager
 def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None]]:
     """A bar on standard error that counts documents, where someone watches and there are many."""
     if not sys.stderr.isatty():
         yield lambda path: None
         return
-    total = sum(len(find_below(path)) for path in paths if os.path.isdir(path))
+    from robocomp_yaml.source.discover import documents_below
+
+    total = sum(1 for path in paths if os.path.isdir(path) for _ in documents_below(path))
     if total < MANY:
         yield lambda path: None
         return

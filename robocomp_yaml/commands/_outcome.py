@@ -1,29 +1,22 @@
-"""What a compile came to, and how it is told: the same whether it was made or found to be made already."""
+"""How it is told what a compile came to: the same whether it was made or found to be made already."""
 
 from __future__ import annotations
 
 import os
 from collections import Counter
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
 
 import click
-import msgspec
 
+from robocomp_yaml.api.outcome import CHANGED, WRITTEN, File, Outcome
 from robocomp_yaml.commands import _options
-from robocomp_yaml.diag import terminal
 from robocomp_yaml.commands._fail_on import ERRORS, FailOn
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps, run_as_data
 
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.changes import Changes
-
 SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
 
-WRITTEN = ("create", "update", "adopt", "edited", "merge")
-CHANGED = (*WRITTEN, "remove", "refused")
 _DONE = {
     "create": "wrote", "update": "updated", "adopt": "took over", "edited": "rewrote", "remove": "removed",
     "merge": "merged", "kept": "kept", "left": "left", "unchanged": "unchanged",
@@ -33,54 +26,6 @@ _WOULD = {
     "remove": "would remove", "merge": "would merge", "kept": "would keep", "left": "would leave",
     "unchanged": "unchanged",
 }  # fmt: skip
-
-
-class File(msgspec.Struct, frozen=True):
-    """One file and what became of it: `action` as in `emit.changes`, `orig` where an earlier text is kept, `diff` its
-    changes when they were asked for."""
-
-    root: str
-    path: str
-    action: str
-    orig: str = ""
-    diff: str = ""
-
-
-class Outcome(msgspec.Struct):
-    """`documents` were looked at, `asked` of them named by the user; of these, some were `left_out`, by path: whether
-    they have errors themselves. `planned` when nothing was written, since only a look was wanted."""
-
-    diagnostics: list[Diagnostic]
-    files: list[File]
-    documents: int
-    asked: int
-    left_out: dict[str, bool]
-    planned: bool = False
-
-    @property
-    def dirty(self) -> bool:
-        """Whether a file that a user sees changed, or would."""
-        return any(file.action in CHANGED for file in self.files)
-
-    def as_data(self) -> dict[str, Any]:
-        return msgspec.to_builtins(self)  # type: ignore[no-any-return]
-
-    @classmethod
-    def of_data(cls, data: dict[str, Any]) -> Outcome:
-        """The inverse of `as_data`. Raises ValueError."""
-        return msgspec.convert(data, cls)
-
-    def settled(self, lasting: list[Diagnostic], changes: Changes) -> Outcome:
-        """The outcome of the same run made again: nothing left to write, and only the `lasting` diagnostics. What is
-        gone, or is the user's alone from now on, it would not see."""
-        ours = {os.path.normpath(path) for path in changes.settled}
-        users = {os.path.normpath(path) for path in changes.once}
-        files = [
-            File(file.root, file.path, "unchanged" if file.path in ours else "kept")
-            for file in self.files
-            if file.path in ours or file.path in users
-        ]
-        return Outcome(lasting, files, self.documents, self.asked, self.left_out)
 
 
 def report(

@@ -9,7 +9,7 @@ import click
 import msgspec
 
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.source import whole_file
+from robocomp_yaml.transactions import whole_file
 
 
 class WorkspaceView(msgspec.Struct, frozen=True):
@@ -18,7 +18,7 @@ class WorkspaceView(msgspec.Struct, frozen=True):
 
 def make(ctx: click.Context, folder: Path) -> None:
     """Writes what a workspace consists of, besides documents; raises OSError where that cannot be."""
-    from robocomp_yaml.source import workspace_files
+    from robocomp_yaml.link import workspace_files
 
     for path, text in _files(folder):
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -49,8 +49,8 @@ def unwritable(error: OSError) -> click.ClickException:
 def _files(folder: Path) -> Iterator[tuple[Path, str]]:
     from robocomp_yaml import resources
     from robocomp_yaml.emit.render import render
+    from robocomp_yaml.link.workspace_files import modeline
     from robocomp_yaml.source.discover import WORKSPACE_FILE
-    from robocomp_yaml.source.workspace_files import modeline
 
     path = folder / WORKSPACE_FILE
     yield path, render("new/workspace.yaml.j2", WorkspaceView(modeline("workspace", path, folder)))

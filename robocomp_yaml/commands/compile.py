@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import click
 
 from robocomp_yaml.commands import _fail_on, _options
@@ -33,23 +31,19 @@ def command(
     folder: generated/ is always rewritten, src/ is yours and written only once. What your class lacks after an
     interface changed is named, with the text to paste; --merge puts it in.
     """
+    from robocomp_yaml.api import made_already
     from robocomp_yaml.commands import _outcome
-    from robocomp_yaml.emit import stamp
 
     paths = paths or (".",)
     look_only = dry_run or diff or check
-    # A run that was made already, of which nothing changed since, is not made again: only told of.
-    name = stamp.key([*paths, "-o", output or "", "-I", *include, "-t", *targets])
-    folder = output or (paths[0] if os.path.isdir(paths[0]) else os.path.dirname(paths[0])) or "."
-    made = None if diff or merge or ctx.obj.verbosity > 0 else stamp.load(folder, name)
-    if made is not None and stamp.is_current(made, _options.find_below):
-        outcome = _outcome.Outcome.of_data(made.replay)
-        outcome.planned = look_only
-    else:
-        from robocomp_yaml.commands import _compiling
+    outcome = None
+    if not (diff or merge or ctx.obj.verbosity > 0):
+        outcome = made_already.outcome(paths, include, output, targets, planned=look_only)
+    if outcome is None:
+        from robocomp_yaml import api
 
-        run = _compiling.Run(paths, include, output, targets, look_only=look_only, adopt=adopt, merge=merge)
-        outcome, made = run.carry_out(with_diff=diff)
-        if made is not None:
-            stamp.save(folder, name, made)
+        with _options.progress("reading", paths) as on_read:
+            workspace = api.load(*paths, include=include, on_read=on_read)
+        plan = workspace.compile(output=output, targets=targets, adopt=adopt, merge=merge)
+        outcome = plan.look(with_diff=diff) if look_only else plan.apply()
     _outcome.report(ctx, outcome, format_, diff=diff, check=check, fail_on=fail_on)

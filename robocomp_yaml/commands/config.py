@@ -7,15 +7,16 @@ import os
 import click
 
 from robocomp_yaml.commands import _options
+from robocomp_yaml.commands._command import Command, Group
 
 
 def _meant(ctx: click.Context, param: click.Parameter, said: str) -> str:
-    from robocomp_yaml.commands import _which
+    from robocomp_yaml.api import which
 
-    return _which.values(said)
+    return which.values(said)
 
 
-class _FileMayLack(click.Command):
+class _FileMayLack(Command):
     """Its first argument may be left out where there is only one document that it can be."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
@@ -33,7 +34,7 @@ format_ = click.option("--format", "format_", type=click.Choice(["text", "json"]
 reveal = click.option("--reveal", is_flag=True, help="Show secrets too.")
 
 
-@click.group(short_help="Values of parameters: check, show, change, export.")
+@click.group(cls=Group, short_help="Values of parameters: check, show, change, export.")
 def command() -> None:
     """The values of a component's parameters: without a build, and without a robot.
 
@@ -54,7 +55,7 @@ def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
     Values and connections that the component's etc/config has are taken over."""
     from robocomp_yaml.commands import _values
 
-    _values.write_new(ctx, file, include)
+    _values.new(ctx, file, include)
 
 
 @command.command(short_help="Everything that is wrong with the values.")
@@ -66,8 +67,7 @@ def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str)
     """Report everything that is wrong with the values in FILE and the layers it builds on, at line and column."""
     from robocomp_yaml.commands import _values
 
-    loaded = _values.load(ctx, file, include)
-    _options.report(ctx, format_, loaded.diagnostics, loaded.documents)
+    _values.check(ctx, file, include, format_)
 
 
 @command.command(short_help="Every effective value, and where it comes from.")

@@ -8,7 +8,8 @@ from typing import Any
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._only_deployment import DocumentAnd
+from robocomp_yaml.commands._command import Group
+from robocomp_yaml.commands._deployment_argument import DocumentAnd
 
 _FORMATS = click.Choice(["text", "json"])
 
@@ -42,7 +43,7 @@ timeout = click.option("--timeout", type=_Duration(), metavar="TIME",
                        help="How long it may take, all in all: 30s, 2min.")  # fmt: skip
 
 
-@click.group(short_help="A network of components: plan, up, status, logs, down.")
+@click.group(cls=Group, short_help="A network of components: plan, up, status, logs, down.")
 def command() -> None:
     """Deploy the network that a document (NAME.ddsl.yaml) describes.
 

@@ -8,18 +8,20 @@ from typing import TYPE_CHECKING
 
 import click
 
+from robocomp_yaml.api.deployments import deployments_of, one_of
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._only_deployment import deployments_of, one_of
+from robocomp_yaml.commands._command import Command
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.emit.graphs.forms import forms
-from robocomp_yaml.source import whole_file
+from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.transactions import whole_file
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.graphs.picture import Picture
     from robocomp_yaml.pipeline import Analysis
 
 
-@click.command(short_help="A picture of a deployment, or of components.")
+@click.command(cls=Command, short_help="A picture of a deployment, or of components.")
 @click.argument("path", metavar="[DDSL]", default=".", type=click.Path(exists=True))
 @click.option("--as", "form", type=click.Choice(forms()), default="text", show_default=True, help="How to draw it.")
 @click.option("-o", "--output", metavar="FILE", type=click.Path(dir_okay=False), help="Write it there.")
@@ -63,7 +65,7 @@ def _picture(path: str, analysis: Analysis) -> Picture | None:
     if not os.path.isdir(path):
         real = os.path.realpath(path)
         network = analysis.networks.get(real)
-        if network is None and not path.endswith("ddsl.yaml"):
+        if network is None and kind_of(path) != "ddsl":
             raise click.UsageError(f"'{path}' is no deployment document (NAME.ddsl.yaml), and no folder")
         return of_network.picture_of(network, analysis.diagnostics) if network is not None else None
     readable = [one for one in deployments_of(path, analysis=analysis) if os.path.realpath(one) in analysis.networks]

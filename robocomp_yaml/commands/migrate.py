@@ -13,7 +13,7 @@ import click
 from robocomp_yaml.commands import _options
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.render import tell
-from robocomp_yaml.source import whole_file
+from robocomp_yaml.transactions import whole_file
 
 if TYPE_CHECKING:
     from robocomp_yaml.legacy.result import Migration

@@ -17,8 +17,9 @@ import click
 import msgspec
 
 from robocomp_yaml.commands import _options, _workspace
+from robocomp_yaml.commands._command import Group
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.source import whole_file
+from robocomp_yaml.transactions import whole_file
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LONGEST_NAME = 200
@@ -47,7 +48,7 @@ class NewDocument(msgspec.Struct, frozen=True):
     text: str
 
 
-@click.group(short_help="Write a new interface, component, parameters or deployment document.")
+@click.group(cls=Group, short_help="Write a new interface, component, parameters or deployment document.")
 def command() -> None:
     """Write a new document that already checks and compiles, commented as a tutorial.
 
@@ -132,7 +133,7 @@ def parameters_document(root: Path, name: str) -> NewDocument:
 def interface_document(root: Path, name: str) -> NewDocument:
     from robocomp_yaml.commands.new_imports import interface_folder
     from robocomp_yaml.emit.render import render
-    from robocomp_yaml.source.workspace_files import modeline
+    from robocomp_yaml.link.workspace_files import modeline
 
     _refuse_odd(name)
     path = _free(interface_folder(root) / f"{name}.idsl.yaml")
@@ -147,7 +148,7 @@ def component_document(
 ) -> NewDocument:
     from robocomp_yaml.commands.new_imports import imports_for
     from robocomp_yaml.emit.render import render
-    from robocomp_yaml.source.workspace_files import modeline
+    from robocomp_yaml.link.workspace_files import modeline
 
     _refuse_odd(name)
     path = _free(root / "components" / name.lower() / f"{name.lower()}.cdsl.yaml")
@@ -167,7 +168,7 @@ def write(ctx: click.Context, document: NewDocument) -> None:
 
 
 def _create(ctx: click.Context, make: Callable[[Path], NewDocument], next_: str = "compile") -> None:
-    from robocomp_yaml.source import workspace_files
+    from robocomp_yaml.link import workspace_files
 
     root = _root()
     try:

@@ -27,7 +27,7 @@ class DeploymentView(msgspec.Struct, frozen=True):
 def deployment_document(root: Path, name: str) -> tuple[Path, str]:
     """Path and text: in the workspace's folder of deployments."""
     from robocomp_yaml.emit.render import render
-    from robocomp_yaml.source.workspace_files import modeline
+    from robocomp_yaml.link.workspace_files import modeline
 
     path = root / "deployments" / f"{name.lower()}.ddsl.yaml"
     components = _components(root)
@@ -52,23 +52,23 @@ def _components(root: Path) -> list[LinkedComponent]:
     return sorted(sound, key=lambda linked: linked.component.path)
 
 
-def _names(components: Sequence[LinkedComponent]) -> dict[int, str]:
+def _names(components: Sequence[LinkedComponent]) -> dict[LinkedComponent, str]:
     """A name of its own for each, by what the component is called: SpeechComp is `speech`."""
-    names: dict[int, str] = {}
+    names: dict[LinkedComponent, str] = {}
     for linked in components:
         plain = linked.component.name.lower()
         plain = plain.removesuffix(_SUFFIX) or plain
         taken = set(names.values())
         numbered = (f"{plain}{number}" for number in range(2, len(components) + 2))
-        names[id(linked)] = plain if plain not in taken else next(n for n in numbered if n not in taken)
+        names[linked] = plain if plain not in taken else next(n for n in numbered if n not in taken)
     return names
 
 
 def _entry(
-    linked: LinkedComponent, path: Path, names: dict[int, str], components: Sequence[LinkedComponent]
+    linked: LinkedComponent, path: Path, names: dict[LinkedComponent, str], components: Sequence[LinkedComponent]
 ) -> Iterator[str]:
     document = Path(os.path.relpath(linked.component.path, path.parent)).as_posix()
-    yield f"  {names[id(linked)]}:"
+    yield f"  {names[linked]}:"
     yield f"    component: {document}"
     missing = {} if _has_values(linked) else _required(linked.parameters.parameters)
     if missing:
@@ -99,7 +99,7 @@ def _required(parameters: Parameters) -> dict[str, Any]:
 
 
 def _connections(
-    linked: LinkedComponent, names: dict[int, str], components: Sequence[LinkedComponent]
+    linked: LinkedComponent, names: dict[LinkedComponent, str], components: Sequence[LinkedComponent]
 ) -> Iterator[str]:
     """What has to be said: who serves it where several do, and where it is where nobody does."""
     for port in linked.requires:
@@ -107,8 +107,8 @@ def _connections(
         if len(serving) == 1:
             continue
         if serving:
-            others = ", ".join(dict.fromkeys(names[id(other)] for other in serving[1:]))
-            yield f"      {port.name}: {names[id(serving[0])]}  # or {others}"
+            others = ", ".join(dict.fromkeys(names[other] for other in serving[1:]))
+            yield f"      {port.name}: {names[serving[0]]}  # or {others}"
         else:
             where = f'"{port.interface.name.lower()}:tcp -h localhost -p 10000"'
             yield f"      {port.name}: {where}  # no component here implements it: where is it?"

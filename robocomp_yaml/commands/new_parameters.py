@@ -16,7 +16,7 @@ class ParametersView(msgspec.Struct, frozen=True):
 def parameters_document(root: Path, name: str) -> tuple[Path, str]:
     """Path and text: beside the component `name` of the workspace; where there is none, where it would be."""
     from robocomp_yaml.emit.render import render
-    from robocomp_yaml.source.workspace_files import modeline
+    from robocomp_yaml.link.workspace_files import modeline
 
     found = _component(root, name)
     if found is None:

@@ -17,7 +17,7 @@ _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", 
 
 def _kinds(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Shell completion: the kinds, else files."""
-    from robocomp_yaml.source.workspace_files import GLOBS
+    from robocomp_yaml.link.workspace_files import GLOBS
 
     kinds = [CompletionItem(kind) for kind in GLOBS if kind.startswith(incomplete)]
     return kinds or [CompletionItem(incomplete, type="file")]
@@ -29,7 +29,7 @@ def _kinds(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
 def command(ctx: click.Context, kind: str | None) -> None:
     """Print the JSON Schema of a KIND of document, or say which one applies to FILE; without either, list the kinds."""
     from robocomp_yaml import resources
-    from robocomp_yaml.source.workspace_files import GLOBS
+    from robocomp_yaml.link.workspace_files import GLOBS
 
     if kind is None:
         for name, globs in GLOBS.items():
@@ -43,7 +43,7 @@ def command(ctx: click.Context, kind: str | None) -> None:
 def _tell(document: Path) -> None:
     """Which schema applies to a document, and by what its editor finds it."""
     from robocomp_yaml.link.workspace import root_above
-    from robocomp_yaml.source.workspace_files import modeline, schema_path
+    from robocomp_yaml.link.workspace_files import modeline, schema_path
 
     kind = _kind_of(document)
     root = Path(root_above(str(document.parent)) or document.parent)
@@ -64,8 +64,8 @@ def _tell(document: Path) -> None:
 
 def _kind_of(document: Path) -> str:
     from robocomp_yaml.diag.suggest import suggest
+    from robocomp_yaml.link.workspace_files import GLOBS
     from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
-    from robocomp_yaml.source.workspace_files import GLOBS
 
     kind = "workspace" if document.name == WORKSPACE_FILE else kind_of(str(document))
     if kind is None:

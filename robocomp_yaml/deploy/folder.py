@@ -6,11 +6,12 @@ import contextlib
 import fcntl
 import os
 import re
-import tempfile
 import time
 from collections.abc import Iterator
 
+from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions import whole_file
 
 _NAME = re.compile(r"""^["']?deployment["']?[ \t]*:[ \t]*["']?([_A-Za-z][-A-Za-z0-9_]*)""", re.MULTILINE)
 _PARTS = ("config", "logs", "state")
@@ -32,14 +33,7 @@ def write(folder: str, path: str, text: str) -> None:
     """Writes a file of mode 0600, at once. Raises OSError."""
     target = f"{folder}/{path}"
     os.makedirs(os.path.dirname(target), mode=0o700, exist_ok=True)
-    descriptor, part = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".")
-    try:
-        with open(descriptor, "w", encoding="utf-8", errors="surrogateescape", newline="") as file:
-            file.write(text)
-        os.replace(part, target)
-    except BaseException:
-        os.unlink(part)
-        raise
+    whole_file.put(target, text.encode("utf-8", "surrogateescape"), 0o600)
 
 
 def remove(folder: str, path: str) -> None:
@@ -91,6 +85,6 @@ def document_in(folder: str, deployment: str) -> str:
     with contextlib.suppress(OSError):
         for name in sorted(os.listdir(folder)):
             path = os.path.join(folder, name)
-            if name.endswith("ddsl.yaml") and deployment_in(path) == deployment:
+            if kind_of(name) == "ddsl" and deployment_in(path) == deployment:
                 return path
     return folder

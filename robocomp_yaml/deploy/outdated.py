@@ -16,7 +16,7 @@ from robocomp_yaml.source.regular import regular
 
 def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
     """A warning for each component whose Slice is not that of its documents; one that has none is not compiled."""
-    texts: dict[int, str] = {}
+    texts: dict[LinkedModule, str] = {}
     seen: set[str] = set()
     for instance in linked.instances.values():
         component = instance.component
@@ -37,7 +37,7 @@ def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
             )  # fmt: skip
 
 
-def _differs(folder: str, linked: LinkedModule, texts: dict[int, str]) -> bool:
+def _differs(folder: str, linked: LinkedModule, texts: dict[LinkedModule, str]) -> bool:
     """`texts` remembers what was rendered for other components."""
     path = os.path.join(folder, "slice", slice_target.file_name(linked))
     try:
@@ -45,6 +45,6 @@ def _differs(folder: str, linked: LinkedModule, texts: dict[int, str]) -> bool:
             found = file.read()
     except OSError:
         return False
-    if id(linked) not in texts:
-        texts[id(linked)] = slice_target.text(linked)
-    return found != texts[id(linked)]
+    if linked not in texts:
+        texts[linked] = slice_target.text(linked)
+    return found != texts[linked]

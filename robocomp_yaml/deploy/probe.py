@@ -8,6 +8,7 @@ the day on which it was made.
 from __future__ import annotations
 
 import asyncio
+import os
 import shlex
 from collections.abc import Sequence
 
@@ -15,7 +16,7 @@ import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.deploy.local.obstacles import is_here
-from robocomp_yaml.network.network import Host, Network
+from robocomp_yaml.network.network import Host, Network, Process
 
 WITHIN = 60.0
 NODE = "the IceGrid node"
@@ -23,6 +24,17 @@ NODE = "the IceGrid node"
 SCRIPT = "templates/probe/ask.sh"
 MODULES = ("templates/python/runtime/interpreter.py", "templates/probe/modules.py")
 """What is told to each Python, as one text: which Python runs a component, and what the one at hand does not find."""
+
+
+VARIABLE = "RCYAML_PYTHON"
+"""With this, a process says which Python runs it."""
+
+
+class Wanted(msgspec.Struct, frozen=True):
+    """A program to ask for; `python` is the process's VARIABLE, '' where it has none of its own."""
+
+    program: str
+    python: str = ""
 
 
 class ProbeFailed(Exception):
@@ -45,18 +57,30 @@ class Found(msgspec.Struct, frozen=True):
         return bool(self.path) and not self.missing
 
 
-def programs(network: Network) -> dict[str, tuple[str, ...]]:
+def programs(network: Network) -> dict[Wanted, tuple[str, ...]]:
     """The programs of a network's processes, each with the names of those. One whose name has a line break in it
     cannot be asked for. Where there are several hosts, each needs IceGrid's node as well."""
-    found: dict[str, tuple[str, ...]] = {}
+    found: dict[Wanted, tuple[str, ...]] = {}
     for process in network.enabled():
-        program = process.command[0]
-        if "\n" not in program:
-            found[program] = (*found.get(program, ()), process.name)
-    return found | {"icegridnode": (NODE,)} if network.is_distributed else found
+        wanted = Wanted(process.command[0], _python_of(process, network))
+        if "\n" not in wanted.program:
+            found[wanted] = (*found.get(wanted, ()), process.name)
+    return found | {Wanted("icegridnode"): (NODE,)} if network.is_distributed else found
 
 
-async def probe(host: Host, wanted: dict[str, tuple[str, ...]]) -> list[Found]:
+def _python_of(process: Process, network: Network) -> str:
+    """What its own environment says; what only the host knows, no document can say here."""
+    for variable in process.env:
+        if variable.name == VARIABLE:
+            is_ours = variable.source and not network.is_distributed
+            value = os.environ.get(variable.source, "") if is_ours else variable.value
+            if {"\n", "\t"} & set(value):
+                return ""
+            return os.path.join(process.cwd, value) if "/" in value and value[0] != "~" else value
+    return ""
+
+
+async def probe(host: Host, wanted: dict[Wanted, tuple[str, ...]]) -> list[Found]:
     """Raises ProbeFailed."""
     script = ["sh", "-c", resources.text(SCRIPT), "ask", "".join(map(resources.text, MODULES))]
     command = script if is_here(host.address) else _over_ssh(host, script)
@@ -66,7 +90,7 @@ async def probe(host: Host, wanted: dict[str, tuple[str, ...]]) -> list[Found]:
         )
     except OSError as error:
         raise ProbeFailed(f"cannot run {command[0]}: {(error.strerror or str(error)).lower()}") from error
-    questions = "".join(f"{program}\n" for program in wanted).encode(errors="surrogateescape")
+    questions = "".join(f"{one.python}\t{one.program}\n" for one in wanted).encode(errors="surrogateescape")
     try:
         answer, said = await asyncio.wait_for(asked.communicate(questions), WITHIN)
     except TimeoutError as error:
@@ -77,8 +101,8 @@ async def probe(host: Host, wanted: dict[str, tuple[str, ...]]) -> list[Found]:
     if asked.returncode or len(lines) != len(wanted):
         text = said.decode("utf-8", "replace").strip().splitlines()
         raise ProbeFailed(text[-1] if text else f"the answer is not understood (exit code {asked.returncode})")
-    return [_found(program, used_by, line.split("\t")) for (program, used_by), line in zip(wanted.items(), lines,
-                                                                                            strict=True)]  # fmt: skip
+    answers = zip(wanted.items(), lines, strict=True)
+    return [_found(one.program, used_by, line.split("\t")) for (one, used_by), line in answers]
 
 
 def _found(program: str, used_by: tuple[str, ...], fields: Sequence[str]) -> Found:

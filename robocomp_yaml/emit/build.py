@@ -17,11 +17,12 @@ from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
+from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import Options
-from robocomp_yaml.emit.plan import FilePlan, RootPlan
 from robocomp_yaml.emit.targets import slice as slice_target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 if TYPE_CHECKING:
     from robocomp_yaml.model.component import Component
@@ -40,14 +41,14 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
     """Plans for every asked document without errors, in its own text or in what it imports."""
     result = Build()
     state = _State.of(diagnostics)
-    texts: dict[int, FilePlan] = {}
+    texts: dict[LinkedModule, FilePlan] = {}
 
     def slices(modules: Iterable[LinkedModule], folder: str = "") -> Iterator[FilePlan]:
         for linked in modules:
-            if id(linked) not in texts:
+            if linked not in texts:
                 text, sources = slice_target.text(linked), (linked.module.path,)
-                texts[id(linked)] = FilePlan(slice_target.file_name(linked), text, sources=sources)
-            plain = texts[id(linked)]
+                texts[linked] = FilePlan(slice_target.file_name(linked), text, sources=sources)
+            plain = texts[linked]
             yield replace(plain, path=folder + plain.path) if folder else plain
 
     def slice_root(linked: LinkedModule) -> str:
@@ -61,7 +62,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             root = slice_root(linked)
             owner = os.path.relpath(linked.module.path, root)
             needed = [linked, *_imports(linked, lambda other, root=root: other in asked and slice_root(other) == root)]
-            result.plans.append(RootPlan(root, owner, list(slices(needed))))
+            result.plans.append(RootPlan(root, owner, tuple(slices(needed))))
         else:
             result.left_out.add(asked[linked])
     for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
@@ -74,12 +75,12 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
 
             plan = component_plan(component, options, slices, program)
             sources = _documents_of(component)
-            plan.files = [replace(file, sources=(*sources, *file.sources)) for file in plan.files]
+            files = [replace(file, sources=(*sources, *file.sources)) for file in plan.files]
             if any(document.path in state.faulty for document in values_of(component, program)):
                 # What is wrong has been said; what the values wrote before stays until they are right again.
-                files = [file for file in plan.files if not file.path.startswith("etc/")]
-                plan = RootPlan(plan.root, plan.owner, files, partial=True)
-            result.plans.append(plan)
+                files = [file for file in files if not is_settings(file.path)]
+                plan = replace(plan, partial=True)
+            result.plans.append(replace(plan, files=tuple(files)))
         else:
             result.left_out.add(real)
     result.left_out |= _unused(program, state, result.left_out)
@@ -94,8 +95,8 @@ def _documents_of(linked: LinkedComponent) -> tuple[str, ...]:
 
 def _unused(program: Program, state: _State, left_out: set[str]) -> set[str]:
     """Other documents that were of no use: they could not be read, they have errors, or their component has."""
-    lost = {id(program.components[real]) for real in left_out & program.components.keys()}
-    broken = {real for real, component in program.documents_of_components().items() if id(component) in lost}
+    lost = {program.components[real] for real in left_out & program.components.keys()}
+    broken = {real for real, component in program.documents_of_components().items() if component in lost}
     paths = {real: linked.document.path for real, linked in program.parameters.items() if linked.document}
     paths |= {real: linked.document.path for real, linked in program.values.items()}
     paths |= {real: linked.deployment.path for real, linked in program.deployments.items()}

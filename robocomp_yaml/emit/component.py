@@ -7,13 +7,14 @@ from collections.abc import Callable, Iterable, Iterator
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit import config, parameter_files
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.options import Options
-from robocomp_yaml.emit.plan import CONFIG, FilePlan, RootPlan
 from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.emit.targets import target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.model.pdsl import ValuesDocument
+from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 
 def component_plan(
@@ -25,30 +26,31 @@ def component_plan(
     """The plan of one component: Slice, its language, `etc/config` from its values or a first one, docs."""
     component = linked.component
     root = _component_root(component.path, options)
-    plan = RootPlan(root, os.path.relpath(component.path, root), partial=bool(options.targets))
+    files: list[FilePlan] = []
     if options.wants("slice"):
         modules = linked.modules()
-        plan.files += slices(modules, "slice/")
+        files += slices(modules, "slice/")
         if all(scope.module.name != "RoboCompCommonBehavior" for scope in modules):
             common = resources.text("templates/slice/CommonBehavior.ice")
-            plan.files.append(FilePlan("slice/CommonBehavior.ice", common))
+            files.append(FilePlan("slice/CommonBehavior.ice", common))
     if options.wants(component.language.name):
-        plan.files += target(component.language.name).plan(linked)
+        files += target(component.language.name).plan(linked)
         if component.sources or component.libraries:
             from robocomp_yaml.emit import uses
 
-            plan.files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
+            files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
     if options.wants("config"):
         if options.only is None:
-            plan.files += parameter_files.schemas(linked)
+            files += parameter_files.schemas(linked)
         made = list(_configs(linked, program, lambda: options.ports(linked)))
-        plan.files += made
+        files += made
         if all(file.path != CONFIG for file in made):
-            table = assign([linked]) if _is_complete(root, linked) else options.ports(linked)
-            plan.files.append(config.plan(linked, table))
+            table = assign([linked], program.disk) if _is_complete(root, linked) else options.ports(linked)
+            files.append(config.plan(linked, table))
     if options.wants("docs"):
-        plan.files += parameter_files.docs(linked)
-    return plan
+        files += parameter_files.docs(linked)
+    owner = os.path.relpath(component.path, root)
+    return RootPlan(root, owner, tuple(files), partial=bool(options.targets))
 
 
 def places(linked: LinkedComponent, workspace: Workspace, root: str) -> list[str]:

@@ -6,12 +6,13 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_yaml.emit import ports
-from robocomp_yaml.emit.plan import CONFIG, ONCE, FilePlan
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.ports import IceEndpoint, Ports, interface_key
 from robocomp_yaml.emit.specific.entries import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.source.properties import entry_line, read, unquoted
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 DEFAULT_PERIOD = 100
 

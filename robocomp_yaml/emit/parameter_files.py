@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.transactions.plan import FilePlan
 from robocomp_yaml.values.json_schema import DOCUMENT, EFFECTIVE, document_schemas
 
 SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"

@@ -15,23 +15,21 @@ import msgspec
 from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.plan import CONFIG
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, default_port, next_free
 from robocomp_yaml.source import properties
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint
 from robocomp_yaml.source.properties import Entry
-from robocomp_yaml.source.regular import regular
 
 
 class Ports(msgspec.Struct):
     """The endpoint of each adapter (real path of the component's document, interface's name) of a workspace, and which
-    components implement an interface (module, name), in order of their paths. `contents` are the files that say so,
-    None where there is none."""
+    components implement an interface (module, name), in order of their paths."""
 
     endpoints: dict[tuple[str, str], IceEndpoint] = {}
     implementers: dict[tuple[str, str], list[tuple[LinkedComponent, str]]] = {}
-    contents: dict[str, bytes | None] = {}
 
     def endpoint(self, linked: LinkedComponent, name: str) -> IceEndpoint:
         return self.endpoints[document(linked), name]
@@ -47,7 +45,7 @@ def adapters(linked: LinkedComponent) -> list[str]:
     return list(dict.fromkeys([*(use.name for use in linked.component.implements), COMMON_BEHAVIOR]))
 
 
-def assign(components: Iterable[LinkedComponent], values: Iterable[LinkedValues] = ()) -> Ports:
+def assign(components: Iterable[LinkedComponent], disk: Disk, values: Iterable[LinkedValues] = ()) -> Ports:
     """The ports of a workspace's components: those that their values give, those that stand in their `etc/config`,
     else defaults."""
     given = {id(one.parameters.component): one for one in values if one.parameters and is_own(one)}
@@ -56,8 +54,7 @@ def assign(components: Iterable[LinkedComponent], values: Iterable[LinkedValues]
     result = Ports()
     taken = set(RESERVED)
     for key, linked in ordered:
-        raw = result.contents[config_path(linked)] = _raw(linked)
-        texts = {name: entry.value for name, entry in _written(raw)}
+        texts = {name: entry.value for name, entry in _written(linked, disk)}
         if id(linked) in given:  # which `compile` writes there
             texts |= _given(given[id(linked)])
         for name, text in texts.items():
@@ -81,12 +78,12 @@ def interface_key(port: Port) -> tuple[str, str]:
     return port.scope.module.name, port.interface.name
 
 
-def clashes(components: Iterable[LinkedComponent]) -> list[Diagnostic]:
+def clashes(components: Iterable[LinkedComponent], disk: Disk) -> list[Diagnostic]:
     """Endpoints that stand in the components' `etc/config` and cannot be had at once on one machine."""
     diagnostics = []
     seen: dict[tuple[bool, int], list[tuple[str, str, Span]]] = {}
     for linked in sorted(components, key=lambda linked: linked.component.path):
-        for name, entry in _written(_raw(linked)):
+        for name, entry in _written(linked, disk):
             endpoint = parse_endpoint(entry.value)
             if endpoint is None:
                 continue
@@ -124,16 +121,10 @@ def _given(values: LinkedValues) -> dict[str, str]:
     return {name: node.lexeme for name, node in given(values, "endpoints") if isinstance(node, Scalar)}
 
 
-def _raw(linked: LinkedComponent) -> bytes | None:
-    try:
-        with open(config_path(linked), "rb", opener=regular) as file:
-            return file.read()
-    except OSError:
-        return None
-
-
-def _written(raw: bytes | None) -> Iterator[tuple[str, Entry]]:
+def _written(linked: LinkedComponent, disk: Disk) -> Iterator[tuple[str, Entry]]:
     """The endpoint properties of an `etc/config`, by adapter, in either dialect."""
+    path = config_path(linked)
+    raw = disk.read(path)[0] if disk.has_file(path) else None
     for key, entry in properties.read((raw or b"").decode(errors="replace")).last.items():
         if key.startswith("Endpoints."):
             yield key.removeprefix("Endpoints."), entry

@@ -11,10 +11,10 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.component import CMAKE, LINK, PIP, PKG_CONFIG, Component, Library
+from robocomp_yaml.transactions.plan import FilePlan
 
 COMPILED = (".cpp", ".cc", ".cxx", ".c")
 _CONSTRAINT = re.compile(r"(>=|<=|==|!=|~=|>|<|=)? *(.+)")

@@ -6,9 +6,10 @@ import os
 from collections.abc import Callable, Iterator
 
 from robocomp_yaml.emit import config
-from robocomp_yaml.emit.plan import CONFIG, FilePlan
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
+from robocomp_yaml.transactions.plan import FilePlan
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties, secret_keys
 from robocomp_yaml.values.property_text import property_text
@@ -49,6 +50,7 @@ def configs(
         yield FilePlan(
             path, property_text(sections, linked.component.name, source), secrets=secret_keys(sections),
             sources=tuple(layer.document.path for layer in values.layers()),
+            stated_in=f"{CONFIG}.yaml" if path == CONFIG else "",
         )  # fmt: skip
 
 

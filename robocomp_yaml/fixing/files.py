@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 
 import msgspec
 
-from robocomp_yaml.source import whole_file
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions import whole_file
 
 
 class Written(msgspec.Struct, frozen=True):

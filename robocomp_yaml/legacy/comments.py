@@ -31,14 +31,18 @@ class _Place(msgspec.Struct, eq=False):
 
 
 class Placed(msgspec.Struct):
-    """The notes of each construct, by the identity of its tree, and those around the whole file."""
+    """The notes of each construct, by its rule and its place, and those around the whole file."""
 
-    by_tree: dict[int, Notes] = {}
+    by_place: dict[tuple[str, int, int], Notes] = {}
     around: Notes = msgspec.field(default_factory=Notes)
     diagnostics: list[Diagnostic] = []
 
     def of(self, tree: Tree[Token]) -> Notes:
-        return self.by_tree.get(id(tree), Notes())
+        return Notes() if tree.meta.empty else self.by_place.get(_key(tree), Notes())
+
+
+def _key(tree: Tree[Token]) -> tuple[str, int, int]:
+    return str(tree.data), tree.meta.start_pos, tree.meta.end_pos
 
 
 def place(tree: Tree[Token], comments: Sequence[Token], source: Source, rules: Rules) -> Placed:
@@ -64,7 +68,7 @@ def _collect(tree: Tree[Token], parent: _Place | None, rules: Rules, places: lis
             if child.data in rules.places and not child.meta.empty:
                 inner = _Place(child.meta.start_pos, child.meta.end_pos, str(child.data), parent, Notes())
                 places.append(inner)
-                placed.by_tree[id(child)] = inner.notes
+                placed.by_place[_key(child)] = inner.notes
             _collect(child, inner, rules, places, placed)
 
 

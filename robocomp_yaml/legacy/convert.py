@@ -10,16 +10,15 @@ from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
-from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import comments, directives
 from robocomp_yaml.legacy.draft import Draft, Reader, plain
 from robocomp_yaml.legacy.formats import by_name, recognize
-from robocomp_yaml.legacy.grammar import MAX_DEPTH, Parsed, depth, marked, parse, words
+from robocomp_yaml.legacy.grammar import Parsed, marked, parse, words
 from robocomp_yaml.legacy.reading import Source, read
 from robocomp_yaml.legacy.rules import Rules
 
 
-class Converted(msgspec.Struct):
+class Converted(msgspec.Struct, frozen=True):
     """A legacy file with what became of it. No draft: it is refused."""
 
     path: str
@@ -27,7 +26,7 @@ class Converted(msgspec.Struct):
     source: Source | None = None
     parsed: Parsed | None = None
     draft: Draft | None = None
-    diagnostics: list[Diagnostic] = []
+    diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
     def refused(self) -> bool:
@@ -35,37 +34,33 @@ class Converted(msgspec.Struct):
 
 
 def convert(path: str) -> Converted:
-    source, diagnostics = read(path)
+    source, said = read(path)
     if source is None:
-        return Converted(path, by_name(path), diagnostics=diagnostics)
+        return Converted(path, by_name(path), diagnostics=tuple(said))
     rules, told = recognize(source)
-    result = Converted(path, rules or by_name(path), source, diagnostics=diagnostics + told)
-    if rules is not None:
-        _convert(result, source, rules)
-    return result
-
-
-def _convert(result: Converted, source: Source, rules: Rules) -> None:
-    said = result.diagnostics
-    result.parsed = parsed = parse(source, rules)
+    said += told
+    if rules is None:
+        return Converted(path, by_name(path), source, diagnostics=tuple(said))
+    parsed = parse(source, rules)
     said += parsed.diagnostics
+    draft = _draft(parsed, source, rules, said)
+    return Converted(path, rules, source, parsed, draft, tuple(said))
+
+
+def _draft(parsed: Parsed, source: Source, rules: Rules, said: list[Diagnostic]) -> Draft | None:
     if parsed.tree is None:
-        return
-    if depth(parsed.tree) > MAX_DEPTH:
-        parsed.tree = None
-        said.append(codes.SYNTAX.at(Span(result.path), problem="this file nests things too deeply", hint=""))
-        return
+        return None
     said += _review(parsed.tree, source, rules)
     placed = comments.place(parsed.tree, parsed.comments, source, rules)
     said += placed.diagnostics
     reader = Reader(source, rules, parsed, placed)
     converter = importlib.import_module(f"robocomp_yaml.legacy.converters.{rules.converter}")
-    draft = converter.convert(reader)
+    draft: Draft | None = converter.convert(reader)
     said += reader.diagnostics
     marks = directives.review(parsed.trivia, source, rules)
     refused = has_errors([*said, *marks])
     said += [mark for mark in marks if not refused or mark.severity == ERROR]  # a refused file loses nothing
-    result.draft = None if refused else draft
+    return None if refused else draft
 
 
 def _review(tree: Tree[Token], source: Source, rules: Rules) -> list[Diagnostic]:

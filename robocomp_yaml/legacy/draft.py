@@ -1,4 +1,5 @@
-"""What a converter makes of one legacy file: a document, but for what its imports will be called."""
+"""What a converter makes of one legacy file: for each kind of file a type of its own, with what a run still needs to
+make a document of it."""
 
 from __future__ import annotations
 
@@ -48,7 +49,7 @@ class ModuleNames(msgspec.Struct):
     references: list[Reference] = []
 
 
-class MachineDraft(msgspec.Struct, frozen=True):
+class NamedMachine(msgspec.Struct, frozen=True):
     """The state machine that a component names: its path as the file spells it; `entry` is where the new one goes."""
 
     path: str
@@ -61,19 +62,59 @@ class MachineDraft(msgspec.Struct, frozen=True):
         return re.sub(r"\.smdsl$", ".scxml", self.path, flags=re.IGNORECASE)
 
 
-class Draft(msgspec.Struct):
-    """`text` is the whole document where it is no YAML."""
+class ModuleDraft(msgspec.Struct, frozen=True):
+    """Of an interface file: its document, but for what its imports will be called."""
 
     document: Map
-    imports: list[ImportDraft]
     around: Notes
-    module: ModuleNames | None = None
-    settings: Settings | None = None
-    """Of a config: its documents are made together with those of the other configs of its component."""
-    machine: MachineDraft | None = None
-    text: str = ""
-    network: NetworkDraft | None = None
+    imports: tuple[ImportDraft, ...]
+    names: ModuleNames
+
+
+class ComponentDraft(msgspec.Struct, frozen=True):
+    """Of a component's file: its document, but for what its imports and its state machine will be called."""
+
+    document: Map
+    around: Notes
+    imports: tuple[ImportDraft, ...]
+    machine: NamedMachine | None = None
+
+
+class ParametersDraft(msgspec.Struct, frozen=True):
+    """Of a file that declares parameters: its document, but for the component that it belongs to."""
+
+    document: Map
+    around: Notes
+
+
+class ValuesDraft(msgspec.Struct, frozen=True):
+    """Of the values for such a file: their document, but for the path of what declares them."""
+
+    document: Map
+    around: Notes
+
+
+class ConfigDraft(msgspec.Struct, frozen=True):
+    """Of a config: its document is made together with those of the other configs of its component."""
+
+    settings: Settings
+    around: Notes
+
+
+class DeploymentDraft(msgspec.Struct, frozen=True):
     """Of a manager or a launcher: its document is made once the run's components are known."""
+
+    network: NetworkDraft
+    around: Notes
+
+
+class MachineDraft(msgspec.Struct, frozen=True):
+    """Of a state machine: the whole text of its SCXML."""
+
+    text: str
+
+
+Draft = ModuleDraft | ComponentDraft | ParametersDraft | ValuesDraft | ConfigDraft | DeploymentDraft | MachineDraft
 
 
 class Reader(msgspec.Struct, eq=False):

@@ -12,8 +12,10 @@ from lark.exceptions import UnexpectedInput
 from lark.lexer import PatternRE, PatternStr, TerminalDef
 
 from robocomp_yaml import resources
+from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.legacy import syntax_error
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.legacy import flat, syntax_error
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
 
@@ -27,19 +29,19 @@ COMMENTS = ("LINE_COMMENT", "BLOCK_COMMENT")
 _IGNORED = re.compile(r"^%ignore (?!BLANK)(\w+)", re.MULTILINE)
 
 
-class Parsed(msgspec.Struct):
+class Parsed(msgspec.Struct, frozen=True):
     """`trivia` are comments and other tokens that no rule of the grammar takes, in order. No tree: there are errors."""
 
     tree: Tree[Token] | None
-    trivia: list[Token] = []
-    diagnostics: list[Diagnostic] = []
+    trivia: tuple[Token, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
     def comments(self) -> list[Token]:
         return [token for token in self.trivia if token.type in COMMENTS]
 
 
-class _Parser(msgspec.Struct):
+class _Parser(msgspec.Struct, frozen=True):
     lark: Lark
     trivia: list[Token]
     literals: dict[str, str]
@@ -73,6 +75,9 @@ def _parser(grammar: str) -> _Parser:
 
 def parse(source: Source, rules: Rules) -> Parsed:
     """After an error, the statement it stands in is blanked out and all is parsed again, for the next one."""
+    if not rules.grammar:
+        lines, comments = flat.parse(source)
+        return Parsed(lines, tuple(comments))
     parser = _parser(rules.grammar)
     text: str | None = source.text
     said: list[Diagnostic] = []
@@ -86,8 +91,10 @@ def parse(source: Source, rules: Rules) -> Parsed:
                 said.append(fault.diagnostic)
             text = fault.rest
         else:
-            return Parsed(None if said else tree, list(parser.trivia), said)
-    return Parsed(None, [], said)
+            if not said and depth(tree) > MAX_DEPTH:
+                said.append(codes.SYNTAX.at(Span(source.path), problem="this file nests things too deeply", hint=""))
+            return Parsed(None if said else tree, tuple(parser.trivia), tuple(said))
+    return Parsed(None, (), tuple(said))
 
 
 def depth(tree: Tree[Token]) -> int:

@@ -10,7 +10,7 @@ import msgspec
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.convert import Converted
-from robocomp_yaml.legacy.draft import ImportDraft, ModuleNames, Reference, base_name
+from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, ModuleDraft, ModuleNames, Reference, base_name
 from robocomp_yaml.link.workspace import Search, Workspace
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
@@ -54,19 +54,21 @@ class Neighbours(msgspec.Struct):
         """Where a name that is missing can be found, as a hint."""
         for stem, files in sorted(self.by_stem.items()):
             for file in files:
-                module = file.draft.module if file.draft is not None else None
-                if module is not None and name in module.defined:
-                    return f"{stem} has it: import {stem}, and write {module.name}::{name}"
+                names = file.draft.names if isinstance(file.draft, ModuleDraft) else None
+                if names is not None and name in names.defined:
+                    return f"{stem} has it: import {stem}, and write {names.name}::{name}"
         return ""
+
+
+def _imports(file: Converted) -> tuple[ImportDraft, ...]:
+    return file.draft.imports if isinstance(file.draft, ModuleDraft | ComponentDraft) else ()
 
 
 def name_imports(
     file: Converted, document: str, workspace: Workspace, neighbours: Neighbours
 ) -> Iterable[Diagnostic]:
     """Puts each import's name into the document; warns of those found in another spelling, or not at all."""
-    if file.draft is None:
-        return
-    for wanted in file.draft.imports:
+    for wanted in _imports(file):
         name = _name(wanted, file, document, workspace, neighbours)
         if name is None:
             yield codes.IMPORT_UNKNOWN.at(wanted.span, name=wanted.stem)
@@ -96,7 +98,7 @@ def _name(
 def name_machine(file: Converted, chosen: Mapping[str, str]) -> Iterable[Diagnostic]:
     """Puts the path of a component's state machine into its document: that of what this run makes of it. Warns where
     there will be nothing at that path."""
-    machine = file.draft.machine if file.draft is not None else None
+    machine = file.draft.machine if isinstance(file.draft, ComponentDraft) else None
     if machine is None:
         return
     home = os.path.dirname(chosen[file.path])
@@ -115,7 +117,7 @@ def not_searched(
     """Imports whose documents will stand where this one's workspace does not look, each with its folder."""
     looked_in = {os.path.dirname(chosen[file.path]), *workspace.interfaces, *neighbours.search.extra}
     known = {os.path.realpath(folder or ".") for folder in looked_in}
-    for wanted in file.draft.imports if file.draft is not None else ():
+    for wanted in _imports(file):
         target = neighbours.imported(file, str(wanted.entry.value))
         document = chosen.get(target.path) if target is not None else None
         folder = os.path.dirname(document) or "." if document is not None else ""
@@ -130,17 +132,17 @@ def resolve_references(file: Converted, neighbours: Neighbours) -> Iterable[Diag
 
     In Slice, several files may hold parts of one module, and need not qualify each other's names; documents do.
     """
-    if file.draft is None or file.draft.module is None:
+    if not isinstance(file.draft, ModuleDraft):
         return
     imported: list[tuple[str, ModuleNames]] = []
     complete = True
     for wanted in file.draft.imports:
         target = neighbours.imported(file, str(wanted.entry.value))
-        if target is None or target.draft is None or target.draft.module is None:
+        if target is None or not isinstance(target.draft, ModuleDraft):
             complete = False
         else:
-            imported.append((wanted.stem, target.draft.module))
-    own = file.draft.module
+            imported.append((wanted.stem, target.draft.names))
+    own = file.draft.names
     for reference in own.references:
         if reference.module in ("", own.name) and reference.name in own.defined:
             continue
@@ -154,7 +156,7 @@ def resolve_references(file: Converted, neighbours: Neighbours) -> Iterable[Diag
             problem = _problem(reference, own, dict(imported), complete)
             if problem:
                 hint = neighbours.who_defines(reference.name)
-                yield codes.UNKNOWN_TYPE.at(reference.span, problem=problem, hint=hint)
+                yield codes.UNKNOWN_TYPE.at(reference.span, problem=problem, name=reference.name, hint=hint)
 
 
 def _problem(reference: Reference, own: ModuleNames, imported: Mapping[str, ModuleNames], complete: bool) -> str:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from robocomp_yaml.diag.codes import idsl as idsl_codes
+from robocomp_yaml.check.idsl import cpp
+from robocomp_yaml.diag.codes import cdsl, idsl, machines, pdsl
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -13,6 +15,7 @@ from robocomp_yaml.legacy import document as yaml
 from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.document import Notes
+from robocomp_yaml.legacy.draft import ConfigDraft, DeploymentDraft, MachineDraft
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
 from robocomp_yaml.legacy.networks.settle import settle as settle_networks
@@ -22,7 +25,21 @@ from robocomp_yaml.legacy.settings.plan import Guesses
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.legacy.upgrade import upgrade
 from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.model.build_interface import build
+from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
+from robocomp_yaml.source.migrated import HEADING
+from robocomp_yaml.source.tree import Mapping as Tree
+from robocomp_yaml.source.tree import parse
+
+_IMPORTS = (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id)
+_SAME = {
+    codes.UNKNOWN_TYPE.id: (idsl.UNKNOWN_TYPE.id,),
+    codes.IMPORT_UNKNOWN.id: _IMPORTS,
+    codes.NOT_SEARCHED.id: _IMPORTS,
+    codes.STATE_MACHINE.id: (machines.UNREADABLE.id,),
+    codes.NO_PDSL.id: (pdsl.NO_COMPONENT.id,),
+}  # what `migrate` says of what is not there, and what `check` says of it
 
 Progress = Callable[[Sequence[LegacyFile]], Iterator[LegacyFile]]
 
@@ -37,7 +54,7 @@ def migrate(
     by_file: list[tuple[LegacyFile, Entry]] = []
     for file in progress(found.files):
         entry = Entry(convert(file.path), skipped=bool(file.preferred))
-        entry.diagnostics = entry.file.diagnostics
+        entry.diagnostics = [*entry.file.diagnostics]
         if file.preferred:
             entry.diagnostics = [codes.PREFERRED.at(Span(file.path), other=file.preferred)]
         by_file.append((file, entry))
@@ -52,9 +69,9 @@ def migrate(
     chosen, said = names([(file, entry.file.rules) for file, entry in good if entry.file.rules is not None])
     _tell(run, said)
     _link(run, good, chosen, known, extra)
-    settle_networks([entry for _, entry in good], chosen, known)
-    inferred = settle(good, chosen, run.remembers, guesses, exact=exact)
-    _plan(run, good, chosen, known, inferred, force)
+    networks = settle_networks([entry for _, entry in good], chosen, known)
+    settled = settle(good, chosen, run.remembers, guesses, exact=exact)
+    _plan(run, good, chosen, known, networks | dict(settled.documents), settled.inferred, force)
     upgrade(run, paths)
     return run
 
@@ -72,14 +89,27 @@ def look_back(run: Migration, extra: Sequence[str]) -> None:
         if told.severity == ERROR:
             found.setdefault(os.path.realpath(told.span.file), []).append(told)
     for path, entry in documents:
-        is_told = any(said.code == codes.UNKNOWN_TYPE.id for said in entry.diagnostics)
-        errors = [told for told in found.get(os.path.realpath(path), [])
-                  if not (is_told and told.code == idsl_codes.UNKNOWN_TYPE.id)]  # fmt: skip
+        errors = [told for told in found.get(os.path.realpath(path), []) if not _is_said(told, entry.diagnostics)]
         if errors:
             first, more = errors[0], f" (and {len(errors) - 1} more)" if errors[1:] else ""
             entry.diagnostics.append(codes.NOT_ACCEPTED.at(
                 Span(entry.file.path), path=path, line=first.span.line, reason=first.message + more, hint=first.hint
             ))
+
+
+def _is_said(error: Diagnostic, said: Sequence[Diagnostic]) -> bool:
+    """Whether an error of `check` is of what migrating has told already: the same thing that is not there."""
+    for told in said:
+        if error.code in _SAME.get(told.code, ()):
+            name = re.escape(_missing(told).rpartition("::")[2])
+            if re.search(rf"(?<!\w){name}(?!\w)", _missing(error)):
+                return True
+    return False
+
+
+def _missing(told: Diagnostic) -> str:
+    """The name or path that is not there."""
+    return str(told.fact("path") if told.fact("name") is None else told.fact("name"))
 
 
 def _tell(run: Migration, said: Sequence[Diagnostic]) -> None:
@@ -112,21 +142,26 @@ def _link(
 
 def _plan(
     run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
-    inferred: Sequence[Inferred], force: bool,
+    settled: Mapping[str, yaml.Map], inferred: Sequence[Inferred], force: bool,
 ) -> None:  # fmt: skip
+    """`settled` are the documents that were made for several files together, by the path of each."""
     written: dict[str, list[tuple[str, str, yaml.Map]]] = {folder: [] for folder in known.new}
     planned: list[tuple[LegacyFile, Entry, str, str, yaml.Map, Notes, str]] = []
     for file, entry in good:
         rules, draft = entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
-        document = chosen[file.path]
-        planned.append((file, entry, rules.kind, document, draft.document, draft.around, draft.text))
+        kind, document = rules.kind, chosen[file.path]
+        if isinstance(draft, MachineDraft):
+            planned.append((file, entry, kind, document, yaml.Map(), Notes(), draft.text))
+        else:
+            content = settled[file.path] if isinstance(draft, ConfigDraft | DeploymentDraft) else draft.document
+            planned.append((file, entry, kind, document, content, draft.around, ""))
     planned += [(made.file, made.entry, "pdsl", made.path, made.document, Notes(), "") for made in inferred]
     for file, entry, kind, document, content, around, raw in planned:
         home = known.of(document).root
         gap = "\n" if around.head else ""
         root = run.root(file.root)
-        text = raw or _modeline(document, home, kind, content) + gap + yaml.text(content, around)
+        text = raw or _with_heading(yaml.text(content, around), gap, _modeline(document, home, kind, content), kind)
         output = root.add(os.path.relpath(document, file.root), text, force=force, sources=(file.path,))
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
@@ -135,6 +170,19 @@ def _plan(
     run.tell_failures()
     for folder in known.new:
         run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)
+
+
+def _with_heading(text: str, gap: str, modeline: str, kind: str) -> str:
+    """A document below what says where its schema is and, where that counts, that it was migrated."""
+    return modeline + (HEADING if kind == "idsl" and _has_taken(text) else "") + gap + text
+
+
+def _has_taken(text: str) -> bool:
+    """Whether a document of interfaces has names that C++ takes."""
+    tree, _ = parse("", text)
+    if not isinstance(tree, Tree) or schema.validate("idsl", tree):
+        return False
+    return cpp.has_taken(build(tree, ""))
 
 
 def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:

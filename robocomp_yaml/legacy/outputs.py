@@ -12,12 +12,12 @@ import msgspec
 
 from robocomp_yaml import secrets
 from robocomp_yaml.diag.render.json import dumps
-from robocomp_yaml.emit.atomic import Batch, Step, WriteFailed, carry_out, recover
-from robocomp_yaml.emit.changes import unified
-from robocomp_yaml.emit.places import Root
-from robocomp_yaml.emit.plan import rights_of
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.migrated import MEMORY
+from robocomp_yaml.transactions.atomic import Batch, Step, WriteFailed, carry_out, recover
+from robocomp_yaml.transactions.changes import unified
+from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.plan import rights_of
 
 CREATED, CHANGED, UNCHANGED, EDITED, TAKEN, FAILED = "created", "changed", "unchanged", "edited", "taken", "failed"
 UPGRADED = "upgraded"

@@ -15,7 +15,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.outputs import CHANGED, EDITED, FAILED, TAKEN, Output, OutputRoot
 from robocomp_yaml.legacy.sources import LegacyFile
-from robocomp_yaml.source import workspace_files
+from robocomp_yaml.link import workspace_files
 
 
 class Migration(msgspec.Struct):

@@ -43,11 +43,11 @@ class Rules(msgspec.Struct, frozen=True, eq=False):
     suffixes: tuple[str, ...]
     rank: int
     signature: re.Pattern[str]
-    grammar: str
     converter: str
     names: re.Pattern[str]
     doc_strip: re.Pattern[str]
     doc_drop: str
+    grammar: str = ""
     words: Texts = {}
     places: Texts = {}
     repairs: Texts = {}

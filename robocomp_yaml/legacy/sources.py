@@ -11,12 +11,12 @@ from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit import manifest
-from robocomp_yaml.emit.places import contents, in_words
 from robocomp_yaml.legacy.formats import by_name, candidate
 from robocomp_yaml.legacy.rules import Rules, formats
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.transactions import manifest
+from robocomp_yaml.transactions.places import contents, in_words
 
 _SKIPPED = frozenset(("node_modules", "__pycache__"))
 

@@ -13,8 +13,8 @@ from robocomp_yaml.diag.codes import cdsl, idsl, machines
 from robocomp_yaml.legacy.document import List, Map, Notes, text
 from robocomp_yaml.legacy.outputs import OutputRoot
 from robocomp_yaml.link import workspace as link_workspace
+from robocomp_yaml.link import workspace_files
 from robocomp_yaml.link.workspace import Workspace, root_above
-from robocomp_yaml.source import workspace_files
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
 

@@ -12,6 +12,7 @@ from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related, has_errors
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link import component_references as references
+from robocomp_yaml.link.component_references import References
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.parameters import of_no_document, resolve
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Program
@@ -19,24 +20,31 @@ from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
 from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.disk import Disk
 
 SUFFIX = ".pdsl.yaml"
 
 
 class Attachments(msgspec.Struct):
-    """Follows the references between components, parameters and values. Keys of the tables are real paths; `absent`
-    collects the paths at which a document would be found if it were there, and `root_of` gives the folder below which
-    a document's component may be."""
+    """Follows the references between components, parameters and values. Keys of the tables are real paths; `root_of`
+    gives the folder below which a document's component may be."""
 
     documents: Documents
     program: Program
-    absent: set[str]
     root_of: Callable[[str], str]
     diagnostics: list[Diagnostic] = []
     _parameters_of: dict[str, list[tuple[str, Span]]] = {}  # component: its PDSLs
     _component_of: dict[str, str] = {}  # PDSL or values: what `component:` names
     _extends: dict[str, list[str]] = {}
     _names: dict[str, dict[str, list[str]]] = {}  # folder: its component documents by name
+
+    @property
+    def _disk(self) -> Disk:
+        return self.documents.disk
+
+    @property
+    def _references(self) -> References:
+        return References(self._disk)
 
     def follow(self, document: Document) -> Iterator[Document]:
         """The documents that a document refers to."""
@@ -49,7 +57,7 @@ class Attachments(msgspec.Struct):
             yield from self._follow_reference(document, model)
             if isinstance(model, ValuesDocument):
                 yield from self._follow_layers(document, model)
-                home = references.components_of(document.path)
+                home = self._references.components_of(document.path)
                 if len(home) == 1:
                     yield self.documents.get(home[0])
 
@@ -58,39 +66,38 @@ class Attachments(msgspec.Struct):
         linked = self.program.components[document.real]
         if model.parameters:
             path = os.path.normpath(os.path.join(folder, model.parameters))
-            if not references.is_document(path, ("pdsl",)):
-                advice = references.advice(model.parameters, folder, "parameters", ("pdsl",))
+            if not self._references.is_document(path, ("pdsl",)):
+                advice = self._references.advice(model.parameters, folder, "parameters", ("pdsl",))
                 told = codes.NO_PARAMETERS.at(model.parameters_span, name=model.parameters, hint=advice.hint)
                 self.diagnostics.append(told)
-                self.absent.add(path)
                 linked.parameters.broken = linked.broken = True
             else:
                 target = self.documents.get(path)
                 self._parameters_of.setdefault(document.real, []).insert(0, (target.real, model.parameters_span))
                 yield target
         yield from self._beside(document, folder)
-        self.absent.add(os.path.normpath(os.path.join(folder, "etc", "config.yaml")))
-        for values in references.beside(os.path.join(folder, "etc"), "config"):
-            self.absent.discard(values)
+        self._disk.has_file(os.path.normpath(os.path.join(folder, "etc", "config.yaml")))
+        for values in self._references.beside(os.path.join(folder, "etc"), "config"):
             if os.path.basename(values) == "config.yaml" or _is_compiled(self.documents.glance(values)):
                 yield self.documents.get(values)
 
     def _beside(self, document: Document, folder: str) -> Iterator[Document]:
         """The documents beside a component that name it as theirs. Where none does, those are read too that may have
         been meant to: what is wrong with them is told, and the component is not taken to have no parameters."""
-        self.absent.add(os.path.join(folder, f"{references.stem(document.path)}{SUFFIX}"))
+        self._disk.has_file(os.path.join(folder, f"{references.stem(document.path)}{SUFFIX}"))
         doubtful = []
-        for path in references.beside(folder, "pdsl"):
-            self.absent.discard(path)
+        for path in self._references.beside(folder, "pdsl"):
             target = self.documents.glance(path)
             said = target.component
             if said and self._is_named(document, folder, said):
                 if target.model is None:  # it will not name the component itself
                     self._parameters_of.setdefault(document.real, []).append((target.real, Span(path)))
                 yield self.documents.get(path)
-            elif said is None or not references.is_document(os.path.normpath(os.path.join(folder, said)), ("cdsl",)):
+                continue
+            named = os.path.normpath(os.path.join(folder, said)) if said is not None else ""
+            if not (named and self._references.is_document(named, ("cdsl",))):
                 doubtful.append(target)
-        if self._parameters_of.get(document.real) or (doubtful and len(references.beside(folder, "cdsl")) > 1):
+        if self._parameters_of.get(document.real) or (doubtful and len(self._references.beside(folder, "cdsl")) > 1):
             return
         for target in doubtful:
             if target.model is None:
@@ -112,13 +119,13 @@ class Attachments(msgspec.Struct):
         span = model.component_span if isinstance(model, ParameterDocument) else model.span
         kinds = ("cdsl",) if is_parameters else ("cdsl", "pdsl")
         path = os.path.normpath(os.path.join(folder, name))
-        if not references.is_document(path, kinds):
+        if not self._references.is_document(path, kinds):
             root = self.root_of(document.path)
             is_name = os.path.basename(name) == name and not name.endswith((".yaml", ".yml"))
             found = self._called(name, root) if is_name else []
             is_plain = is_parameters and "/" not in name and not name.endswith(".yaml")
-            advice = references.advice_for_name(name, folder) if is_plain else (
-                references.advice(name, folder, "component", kinds)
+            advice = self._references.advice_for_name(name, folder) if is_plain else (
+                self._references.advice(name, folder, "component", kinds)
             )
             if found:
                 told = codes.NAMED.at(span, name=name, hint=references.write(found, folder, "component", name))
@@ -134,8 +141,8 @@ class Attachments(msgspec.Struct):
             else:
                 return
             self._component_of[document.real] = ""
-            found = references.beside(folder, "cdsl") if is_parameters and not found else found
-            found = references.components_of(document.path) or found
+            found = self._references.beside(folder, "cdsl") if is_parameters and not found else found
+            found = self._references.components_of(document.path) or found
             if len(found) != 1:
                 return
             path = found[0]  # what follows is judged as if it were right
@@ -149,7 +156,8 @@ class Attachments(msgspec.Struct):
         """The documents whose component is called so, or whose file is: below a folder, and in this run."""
         if root not in self._names:
             known = self._names[root] = {}
-            below = [path for path in documents_below(root or ".") if kind_of(path) == "cdsl"]
+            disk = self._disk
+            below = [path for path in documents_below(root or ".", disk=disk) if kind_of(path, disk) == "cdsl"]
             read = [document.path for document in self.documents.read.values() if document.kind == "cdsl"]
             documents = {document.real: document for document in map(self.documents.glance, (*below, *read))}
             for document in documents.values():
@@ -158,10 +166,12 @@ class Attachments(msgspec.Struct):
         return self._names[root].get(name, [])
 
     def _follow_layers(self, document: Document, model: ValuesDocument) -> Iterator[Document]:
+        disk = self._disk
         for layer in model.extends:
             path = os.path.normpath(os.path.join(os.path.dirname(document.path), str(layer.value)))
-            if not (path.endswith(".yaml") and os.path.isfile(path) and kind_of(path) in ("config", None)):
-                advice = references.advice(str(layer.value), os.path.dirname(document.path), "extends", ("config",))
+            if not (path.endswith(".yaml") and disk.has_file(path) and kind_of(path, disk) in ("config", None)):
+                folder = os.path.dirname(document.path)
+                advice = self._references.advice(str(layer.value), folder, "extends", ("config",))
                 self.diagnostics.append(value_codes.NO_LAYER.at(layer.span, name=layer.value, hint=advice.hint))
                 self.program.values[document.real].broken = True
                 continue
@@ -201,7 +211,7 @@ class Attachments(msgspec.Struct):
     def _unclaimed(self, document: ParameterDocument) -> Iterator[Diagnostic]:
         """Parameters that name no component, beside one that names no parameters."""
         folder = os.path.dirname(document.path)
-        beside = references.beside(folder, "cdsl")
+        beside = self._references.beside(folder, "cdsl")
         component = self.program.components.get(os.path.realpath(beside[0])) if len(beside) == 1 else None
         if component is not None and not document.component and component.parameters.document is None:
             yield codes.UNCLAIMED.at(
@@ -249,7 +259,7 @@ class Attachments(msgspec.Struct):
                     linked.extends.append(values[other])
                     values[other].is_extended = True
         for linked in values.values():
-            home = references.components_of(linked.document.path)
+            home = self._references.components_of(linked.document.path)
             here = [found for path in home if (found := self.program.components.get(os.path.realpath(path)))]
             for base in reversed(linked.layers()):  # its own component, else that of the nearest layer
                 target = self._component_of.get(os.path.realpath(base.document.path))

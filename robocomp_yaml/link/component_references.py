@@ -12,38 +12,12 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.fix import NO_HINT, Hint
 from robocomp_yaml.diag.suggest import meaning, suggest
 from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.disk import Disk
 
 _PLAIN = re.compile(r"[\w./][\w./() -]*[\w./()]")
 _WORDS = {
     "idsl": "interfaces", "cdsl": "a component", "pdsl": "parameters", "ddsl": "a deployment", "config": "values",
 }  # fmt: skip
-
-
-def is_document(path: str, kinds: tuple[str, ...]) -> bool:
-    return kind_of(path) in kinds and os.path.isfile(path)
-
-
-def beside(folder: str, kind: str) -> list[str]:
-    """The documents of a kind in a folder, sorted."""
-    try:
-        names = sorted(os.listdir(folder or "."))
-    except OSError:
-        return []
-    return [path for name in names if is_document(path := os.path.normpath(os.path.join(folder, name)), (kind,))]
-
-
-def components_of(values: str) -> list[str]:
-    """The component documents that a values document is `etc/config.yaml` of; none for any other."""
-    folder, name = os.path.split(values)
-    if name != "config.yaml" or os.path.basename(os.path.abspath(folder)) != "etc":
-        return []
-    return beside(os.path.normpath(os.path.join(folder, os.pardir)), "cdsl")
-
-
-def stem(path: str) -> str:
-    """`speech` for `speech.cdsl.yaml`."""
-    name = os.path.basename(path)
-    return name.removesuffix(f"{kind_of(path) or ''}.yaml").removesuffix(".")
 
 
 class Advice(msgspec.Struct, frozen=True):
@@ -53,41 +27,77 @@ class Advice(msgspec.Struct, frozen=True):
     is_known: bool = False
 
 
-def advice(text: str, folder: str, key: str, kinds: tuple[str, ...]) -> Advice:
-    """What to write behind a key where `text` stands, and leads to no document of these kinds from the folder."""
-    path = os.path.normpath(os.path.join(folder, text))
-    if meant := _completed(path, kinds):
-        return Advice(write([meant], folder, key, text, safe=True), is_known=True)
-    if os.path.isdir(path):
-        found = [other for kind in kinds for other in beside(path, kind)]
-        named = " or ".join(f"NAME.{kind}.yaml" for kind in kinds)
-        said = write(found, folder, key, text)
-        words = f"that is a folder{f': {said}' if found else f', without a {named}'}"
-        return Advice(replace(said, text=words), is_known=True)
-    where = os.path.dirname(path)
-    if os.path.isfile(path):
-        kind = kind_of(path)
-        what = f"a document of {_WORDS[kind]}" if kind else "no document of rcyaml"
-        near = [other for wanted in kinds for other in beside(where, wanted)]
-        said = write(near, folder, key, text)
-        return Advice(replace(said, text=f"that is {what}" + (f"; {said}" if near else "")), is_known=True)
-    if not os.path.isdir(where or "."):
-        return Advice(Hint(f"there is no folder '{where}'"))
-    names = {os.path.basename(other): other for kind in kinds for other in beside(where, kind)}
-    near_by = suggest(os.path.basename(path), names)
-    return Advice(meaning(text, os.path.relpath(names[near_by], folder or "."))) if near_by else Advice()
+class References(msgspec.Struct, frozen=True):
+    """What references lead to, on this disk."""
+
+    disk: Disk
+
+    def is_document(self, path: str, kinds: tuple[str, ...]) -> bool:
+        if os.path.basename(path) == "config.yaml" and self.disk.has_file(path):
+            self.disk.read(path)  # whether it is ours may depend on what stands in it
+        return kind_of(path, self.disk) in kinds and self.disk.has_file(path)
+
+    def beside(self, folder: str, kind: str) -> list[str]:
+        """The documents of a kind in a folder, sorted."""
+        paths = (os.path.normpath(os.path.join(folder, name)) for name in self.disk.documents(folder))
+        return [path for path in paths if self.is_document(path, (kind,))]
+
+    def components_of(self, values: str) -> list[str]:
+        """The component documents that a values document is `etc/config.yaml` of; none for any other."""
+        folder, name = os.path.split(values)
+        if name != "config.yaml" or os.path.basename(os.path.abspath(folder)) != "etc":
+            return []
+        return self.beside(os.path.normpath(os.path.join(folder, os.pardir)), "cdsl")
+
+    def advice(self, text: str, folder: str, key: str, kinds: tuple[str, ...]) -> Advice:
+        """What to write behind a key where `text` stands, and leads to no document of these kinds from the folder."""
+        path = os.path.normpath(os.path.join(folder, text))
+        if meant := self._completed(path, kinds):
+            return Advice(write([meant], folder, key, text, safe=True), is_known=True)
+        if self.disk.has_folder(path):
+            found = [other for kind in kinds for other in self.beside(path, kind)]
+            named = " or ".join(f"NAME.{kind}.yaml" for kind in kinds)
+            said = write(found, folder, key, text)
+            words = f"that is a folder{f': {said}' if found else f', without a {named}'}"
+            return Advice(replace(said, text=words), is_known=True)
+        where = os.path.dirname(path)
+        if self.disk.has_file(path):
+            kind = kind_of(path, self.disk)
+            what = f"a document of {_WORDS[kind]}" if kind else "no document of rcyaml"
+            near = [other for wanted in kinds for other in self.beside(where, wanted)]
+            said = write(near, folder, key, text)
+            return Advice(replace(said, text=f"that is {what}" + (f"; {said}" if near else "")), is_known=True)
+        if not self.disk.has_folder(where or "."):
+            return Advice(Hint(f"there is no folder '{where}'"))
+        names = {os.path.basename(other): other for kind in kinds for other in self.beside(where, kind)}
+        near_by = suggest(os.path.basename(path), names)
+        return Advice(meaning(text, os.path.relpath(names[near_by], folder or "."))) if near_by else Advice()
+
+    def advice_for_name(self, name: str, folder: str) -> Advice:
+        """The same for a plain name under `component:` in a document of parameters; none where it may well stand for a
+        component that has no document."""
+        path = os.path.normpath(os.path.join(folder, name))
+        meant = self._completed(path, ("cdsl",))
+        alone = self.beside(folder, "cdsl")
+        if meant or self.disk.has_folder(path) or len(alone) != 1 or len(self.beside(folder, "pdsl")) > 1:
+            is_near = meant or self.disk.has_folder(path)
+            return self.advice(name, folder, "component", ("cdsl",)) if is_near else Advice()
+        # The only parameters beside the only component.
+        return Advice(write(alone, folder, "component", name), is_known=True)
+
+    def _completed(self, path: str, kinds: tuple[str, ...]) -> str:
+        """The document that a path leads to once its end has what it lacks; '' where there is none."""
+        for kind in kinds:
+            for end in (".yaml", ".yml", f".{kind}", f".{kind}.yml", ""):
+                if path.endswith(end) and self.is_document(f"{path.removesuffix(end)}.{kind}.yaml", (kind,)):
+                    return f"{path.removesuffix(end)}.{kind}.yaml"
+        return ""
 
 
-def advice_for_name(name: str, folder: str) -> Advice:
-    """The same for a plain name under `component:` in a document of parameters; none where it may well stand for a
-    component that has no document."""
-    path = os.path.normpath(os.path.join(folder, name))
-    meant = _completed(path, ("cdsl",))
-    alone = beside(folder, "cdsl")
-    if meant or os.path.isdir(path) or len(alone) != 1 or len(beside(folder, "pdsl")) > 1:
-        return advice(name, folder, "component", ("cdsl",)) if meant or os.path.isdir(path) else Advice()
-    # The only parameters beside the only component.
-    return Advice(write(alone, folder, "component", name), is_known=True)
+def stem(path: str) -> str:
+    """`speech` for `speech.cdsl.yaml`."""
+    name = os.path.basename(path)
+    return name.removesuffix(f"{kind_of(path) or ''}.yaml").removesuffix(".")
 
 
 def write(paths: list[str], folder: str, key: str, word: str = "", *, safe: bool = False) -> Hint:
@@ -96,15 +106,6 @@ def write(paths: list[str], folder: str, key: str, word: str = "", *, safe: bool
     named = [os.path.relpath(path, folder or ".") for path in paths[:3]]
     meant = named[0] if word and len(named) == 1 else ""
     return Hint("write " + " or ".join(entry.format(_plain(path)) for path in named), word, meant, safe)
-
-
-def _completed(path: str, kinds: tuple[str, ...]) -> str:
-    """The document that a path leads to once its end has what it lacks; '' where there is none."""
-    for kind in kinds:
-        for end in (".yaml", ".yml", f".{kind}", f".{kind}.yml", ""):
-            if path.endswith(end) and is_document(f"{path.removesuffix(end)}.{kind}.yaml", (kind,)):
-                return f"{path.removesuffix(end)}.{kind}.yaml"
-    return ""
 
 
 def _plain(path: str) -> str:

@@ -23,12 +23,10 @@ from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment
 
 
 class DeploymentDocuments(msgspec.Struct):
-    """Follows what deployments name; `absent` collects the paths at which a document would be found if it were
-    there."""
+    """Follows what deployments name."""
 
     documents: Documents
     program: Program
-    absent: set[str]
     diagnostics: list[Diagnostic] = []
     _deployments: dict[str, Deployment] = {}
 
@@ -65,54 +63,64 @@ class DeploymentDocuments(msgspec.Struct):
                 yield self.documents.get(found, "config")
 
     def _component(self, model: Deployment, target: Text) -> str | None:
-        found = paths.components_at(model, target.text)
+        found = paths.components_at(model, target.text, self.documents.disk)
         if len(found) > 1:
             names = " or ".join(os.path.basename(path) for path in found)
             self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
         elif not found:
             path = paths.joined(paths.folder_of(model), target.text)
-            self.absent.add(path)
             self.diagnostics.append(codes.NO_COMPONENT.at(
-                target.span, path=target.text, hint=_nearby(path, ".cdsl.yaml", "cdsl.yaml")
+                target.span, path=target.text, hint=self._nearby(path, ".cdsl.yaml", "cdsl.yaml")
             ))
         return found[0] if len(found) == 1 else None
 
     def _config(self, model: Deployment, place: str, config: Text) -> str | None:
         places = paths.configs_at(model, place, config.text)
         for path in places:
-            if os.path.isfile(path):
+            if self.documents.disk.has_file(path):
                 return path
-            self.absent.add(path)
         self.diagnostics.append(codes.NO_CONFIG.at(
             config.span, path=config.text, places=" and no ".join(dict.fromkeys(places)),
-            hint=_nearby(places[0]) or _nearby(places[1]),
+            hint=self._nearby(places[0]) or self._nearby(places[1]),
         ))
         return None
 
     def _follow_include(self, model: Deployment, include: Text) -> Iterator[Document]:
-        found = paths.include_at(model, include.text)
+        found = paths.include_at(model, include.text, self.documents.disk)
         if found is not None:
             yield self.documents.get(found)
             return
         path = paths.joined(paths.folder_of(model), include.text)
-        self.absent.add(path)
-        self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=_nearby(path, ".ddsl.yaml")))
+        hint = self._nearby(path, ".ddsl.yaml")
+        self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=hint))
+
+    def _nearby(self, path: str, *suffixes: str) -> Hint:
+        """What was probably meant: a name in the same folder."""
+        folder, name = os.path.split(path)
+        disk = self.documents.disk
+        if not disk.has_folder(folder or "."):
+            return Hint(f"there is no folder '{folder}'")
+        names = disk.names(folder)
+        if suffixes:
+            names = [n for n in names if n.endswith(suffixes) or disk.has_folder(os.path.join(folder, n))]
+        return did_you_mean(name, names, open_=True)
 
     def join(self) -> None:
         """After all documents are linked: each deployment with what it includes."""
-        large = too_large(self._deployments)
+        disk = self.documents.disk
+        large = too_large(self._deployments, disk)
         self.diagnostics += [found for found in large.values() if found is not None]
         usable = {real: model for real, model in self._deployments.items() if real not in large}
         for real, model in usable.items():
             linked = self.program.deployments[real] = LinkedDeployment(model, real)
-            expansion = Expansion(linked, self.program, usable)
+            expansion = Expansion(linked, self.program, usable, disk)
             expansion.run()
             names = Names(linked, expansion.placed, expansion.included)
             names.resolve()
             self.diagnostics += expansion.diagnostics + names.diagnostics
             self.diagnostics += deployment_groups.resolve(linked, expansion.placed)
         for model in usable.values():
-            for path in filter(None, (paths.include_at(model, include.text) for include in _includes(model))):
+            for path in filter(None, (paths.include_at(model, include.text, disk) for include in _includes(model))):
                 if os.path.realpath(path) in usable:
                     self.program.deployments[os.path.realpath(path)].is_included = True
 
@@ -126,15 +134,3 @@ def _counted(entry: Entry, text: Text) -> Iterable[Text]:
     if INDEX not in text.text or entry.instances is None:
         return (text,)
     return (Text(text.text.replace(INDEX, str(n)), span=text.span) for n in range(entry.instances))
-
-
-def _nearby(path: str, *suffixes: str) -> Hint:
-    """What was probably meant: a name in the same folder."""
-    folder, name = os.path.split(path)
-    try:
-        names = sorted(os.listdir(folder or "."))
-    except OSError:
-        return Hint(f"there is no folder '{folder}'")
-    if suffixes:
-        names = [n for n in names if n.endswith(suffixes) or os.path.isdir(os.path.join(folder, n))]
-    return did_you_mean(name, names, open_=True)

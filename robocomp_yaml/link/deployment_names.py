@@ -56,20 +56,20 @@ class Names(msgspec.Struct):
 
     def _fill(self, here: Placed, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
         """All instances in a group, those of its inner groups too."""
-        todo, seen = deque(inside[group]), {id(group)}
+        todo, seen = deque(inside[group]), {group}
         while todo:
             target = todo.popleft()
             if target is group:
-                if here.is_own and not any(other.broken for other in self.root.groups.values() if id(other) in seen):
+                if here.is_own and not any(other.broken for other in self.root.groups.values() if other in seen):
                     self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))
                 group.broken = True
-            elif id(target) not in seen and isinstance(target, LinkedGroup):
+            elif target not in seen and isinstance(target, LinkedGroup):
                 group.inner.append(target)
                 todo += inside.get(target, ())
-            elif id(target) not in seen and isinstance(target, LinkedInstance):
+            elif target not in seen and isinstance(target, LinkedInstance):
                 group.members.append(target)
                 target.groups.append(group)
-            seen.add(id(target))
+            seen.add(target)
 
     def _processes(self, here: Placed, instance: LinkedInstance) -> None:
         if instance.entry.kind != PROCESS:

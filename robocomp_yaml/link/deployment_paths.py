@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 
 from robocomp_yaml.model.deployment import COMPONENT, Deployment, Entry
+from robocomp_yaml.source.disk import Disk
 
 COMPONENT_SUFFIXES = (".cdsl.yaml", os.sep + "cdsl.yaml")
 
@@ -18,16 +19,13 @@ def folder_of(deployment: Deployment) -> str:
     return os.path.dirname(deployment.path)
 
 
-def components_at(deployment: Deployment, text: str) -> list[str]:
+def components_at(deployment: Deployment, text: str, disk: Disk) -> list[str]:
     """The component's document at a path, or those in a folder; none where there is nothing of the kind."""
     path = joined(folder_of(deployment), text)
-    if os.path.isdir(path):
-        try:
-            names = sorted(name for name in os.listdir(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
-        except OSError:
-            names = []
+    if disk.has_folder(path):
+        names = (name for name in disk.documents(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
         return [os.path.join(path, name) for name in names]
-    is_component = f"{os.sep}{path}".endswith(COMPONENT_SUFFIXES) and os.path.isfile(path)
+    is_component = disk.has_file(path) and f"{os.sep}{path}".endswith(COMPONENT_SUFFIXES)
     return [path] if is_component else []
 
 
@@ -49,8 +47,8 @@ def is_values(path: str) -> bool:
     return name == "config.yaml" or name.endswith(".config.yaml")
 
 
-def include_at(deployment: Deployment, text: str) -> str | None:
+def include_at(deployment: Deployment, text: str, disk: Disk) -> str | None:
     path = joined(folder_of(deployment), text)
     name = os.path.basename(path)
     is_deployment = name == "ddsl.yaml" or name.endswith(".ddsl.yaml")
-    return path if is_deployment and os.path.isfile(path) else None
+    return path if disk.has_file(path) and is_deployment else None

@@ -15,8 +15,9 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.model import build_interface
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import COMPONENT, text_at_top
-from robocomp_yaml.source.text import decode, read_bytes
+from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, parse
 
 if TYPE_CHECKING:
@@ -59,13 +60,11 @@ class Document(msgspec.Struct):
 
 
 class Documents(msgspec.Struct):
-    """The documents of a run by real path, with all that is wrong with each by itself. `overlay` has contents, by
-    real path, that count instead of the disk's."""
+    """The documents of a run by real path, with all that is wrong with each by itself."""
 
+    disk: Disk = msgspec.field(default_factory=Disk)
     on_read: Callable[[str], None] = lambda path: None
     read: dict[str, Document] = {}
-    contents: dict[str, bytes] = {}
-    overlay: dict[str, bytes] = {}
     diagnostics: list[Diagnostic] = []
     _glanced: dict[str, tuple[Document, list[Diagnostic]]] = {}
 
@@ -85,18 +84,15 @@ class Documents(msgspec.Struct):
         if document is not None:
             return document
         if real not in self._glanced:
-            document = Document(path, real, kind_of(path) or kind or "idsl")
+            document = Document(path, real, kind_of(path, self.disk) or kind or "idsl")
             self._glanced[real] = document, list(self._load(document))
         return self._glanced[real][0]
 
     def _load(self, document: Document) -> Iterator[Diagnostic]:
-        raw = self.overlay.get(document.real)
-        if raw is None:
-            raw, diagnostics = read_bytes(document.path)
-            yield from diagnostics
+        raw, diagnostics = self.disk.read(document.path)
+        yield from diagnostics
         if raw is None:
             return
-        self.contents[document.path] = raw
         text, diagnostics = decode(document.path, raw)
         yield from diagnostics
         if text is None:

@@ -22,6 +22,7 @@ from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, Linked
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Host, Text
 from robocomp_yaml.model.instances import instance as instance_of
+from robocomp_yaml.source.disk import Disk
 
 
 class Placed(msgspec.Struct):
@@ -55,6 +56,7 @@ class Expansion(msgspec.Struct):
     root: LinkedDeployment
     program: Program
     deployments: Mapping[str, Deployment]
+    disk: Disk
     placed: list[Placed] = []
     included: dict[LinkedGroup, list[LinkedInstance]] = {}
     diagnostics: list[Diagnostic] = []
@@ -117,7 +119,7 @@ class Expansion(msgspec.Struct):
         """The instance's component and configuration; what is not there has been told where it was looked for."""
         entry, component = linked.entry, ""
         if entry.kind == COMPONENT:
-            found = paths.components_at(here.document, entry.target.text)
+            found = paths.components_at(here.document, entry.target.text, self.disk)
             if len(found) == 1:
                 component = found[0]
                 linked.component = self.program.components.get(os.path.realpath(component))
@@ -134,7 +136,7 @@ class Expansion(msgspec.Struct):
             usual = paths.joined(linked.folder, os.path.join("etc", "config.yaml"))
             return usual if linked.component is not None and os.path.realpath(usual) in self.program.values else ""
         places = paths.configs_at(document, linked.folder, linked.entry.config.text)
-        found = next((path for path in places if os.path.isfile(path)), "")
+        found = next((path for path in places if self.disk.has_file(path)), "")
         linked.broken |= not found
         return found
 
@@ -172,7 +174,7 @@ class Expansion(msgspec.Struct):
         if group.host is not None:
             host, linked.broken = self._host(here, group.host, group.name, group.span)
         if group.facade is not None:
-            found = paths.components_at(here.document, group.facade.text)
+            found = paths.components_at(here.document, group.facade.text, self.disk)
             linked.facade = self.program.components.get(os.path.realpath(found[0])) if len(found) == 1 else None
             linked.broken |= linked.facade is None
         if group.include is not None:
@@ -185,7 +187,7 @@ class Expansion(msgspec.Struct):
         self, here: Placed, include: Text, scope: str, host: Host | None, seen: set[str]
     ) -> str:
         """Puts an included deployment into a scope; its real path, or '' where it cannot be used."""
-        path = paths.include_at(here.document, include.text)
+        path = paths.include_at(here.document, include.text, self.disk)
         real = os.path.realpath(path) if path else ""
         target = self.deployments.get(real)
         chain = (*here.chain, os.path.realpath(here.document.path))

@@ -38,6 +38,7 @@ class Linker(msgspec.Struct):
 
     def link(self, paths: Iterable[str]) -> Program:
         """The program of these documents and of all that they import."""
+        self.program.disk = self.documents.disk
         todo = [self.documents.get(path) for path in paths]
         self.program.asked = {document.real for document in todo}
         components: list[tuple[Document, LinkedComponent]] = []
@@ -94,7 +95,7 @@ class Linker(msgspec.Struct):
     def _attachments(self) -> Attachments:
         from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
 
-        return Attachments(self.documents, self.program, self.search.absent, self._root_of, self.diagnostics)
+        return Attachments(self.documents, self.program, self._root_of, self.diagnostics)
 
     def _root_of(self, path: str) -> str:
         """The folder that a document's workspace consists of; without a declared one, that of its component."""
@@ -105,19 +106,19 @@ class Linker(msgspec.Struct):
     def _deployments(self) -> DeploymentDocuments:
         from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
 
-        return DeploymentDocuments(self.documents, self.program, self.search.absent, self.diagnostics)
+        return DeploymentDocuments(self.documents, self.program, self.diagnostics)
 
     def workspace_of(self, path: str) -> Workspace:
         """The workspace that a document belongs to; without a declared one, its own folder."""
         folder = os.path.dirname(path)
         if folder not in self._by_folder:
-            root = root_above(folder, self.search.absent)
+            root = root_above(folder, self.documents.disk)
             if root is None:
                 self._by_folder[folder] = Workspace(folder)
             else:
                 real = os.path.realpath(root)
                 if real not in self.workspaces:
-                    self.workspaces[real], diagnostics = read(root)
+                    self.workspaces[real], diagnostics = read(root, self.documents.disk)
                     self.diagnostics += diagnostics
                 self._by_folder[folder] = self.workspaces[real]
         return self._by_folder[folder]
@@ -128,11 +129,10 @@ class Linker(msgspec.Struct):
             return
         from robocomp_yaml.link.machines import MachineReader  # with XML, which few need
 
-        reader = MachineReader(self.documents.overlay, absent=self.search.absent)
+        reader = MachineReader(self.documents.disk)
         linked.machine = reader.of(linked.component)
-        linked.machine_files = tuple(reader.contents)
+        linked.machine_files = tuple(reader.files)
         linked.broken |= linked.machine is None
-        self.documents.contents.update(reader.contents)
         self.diagnostics += reader.diagnostics
 
     def _imports(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
 
 import msgspec
 
@@ -16,7 +15,8 @@ from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.scxml_shape import misshapen
 from robocomp_yaml.model.statemachine import StateMachine
 from robocomp_yaml.source import xml
-from robocomp_yaml.source.text import decode, read_bytes
+from robocomp_yaml.source.disk import FILE, NOTHING, Disk
+from robocomp_yaml.source.text import decode
 
 MAX_INCLUDED = 8  # machines that invoke machines, each from its own file
 
@@ -24,12 +24,10 @@ _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
 class MachineReader(msgspec.Struct):
-    """Reads a machine; `overlay` has contents, by real path, that count instead of the disk's. `contents` are the bytes
-    of each file read, `absent` are the paths that there are not."""
+    """Reads a machine; `files` are those that it was read from."""
 
-    overlay: Mapping[str, bytes] = {}
-    contents: dict[str, bytes] = {}
-    absent: set[str] = set()
+    disk: Disk
+    files: list[str] = []
     diagnostics: list[Diagnostic] = []
     _open: list[str] = []
 
@@ -44,10 +42,8 @@ class MachineReader(msgspec.Struct):
         return self._machine(path)
 
     def _unreadable(self, path: str) -> str:
-        if not os.path.lexists(path):
-            self.absent.add(path)
-            return "there is no such file"
-        return "" if os.path.isfile(path) else "it is no file"
+        state = self.disk.state(path)
+        return "" if state == FILE else "it is no file" if state != NOTHING else "there is no such file"
 
     def _machine(self, path: str) -> StateMachine | None:
         text = self._text(path)
@@ -66,13 +62,12 @@ class MachineReader(msgspec.Struct):
         return None if has_errors(self.diagnostics[before:]) else machine
 
     def _text(self, path: str) -> str | None:
-        raw = self.overlay.get(os.path.realpath(path))
-        if raw is None:
-            raw, said = read_bytes(path)
-            self.diagnostics += said
+        raw, said = self.disk.read(path)
+        self.diagnostics += said
         if raw is None:
             return None
-        self.contents[path] = raw
+        if path not in self.files:
+            self.files.append(path)
         text, said = decode(path, raw)
         self.diagnostics += said
         return text

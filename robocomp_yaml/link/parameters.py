@@ -251,17 +251,19 @@ _FOREIGN = {
 }  # fmt: skip
 
 
-def _size(type_: Type, known: dict[int, int]) -> int:
-    """How many plain values a value of a type has at least, each list and map counted as one entry."""
-    if id(type_) not in known:
-        match type_:
-            case RecordType(members=members):
-                known[id(type_)] = sum(_size(member.type, known) for member in members)
-            case ListType(element=element) | MapType(element=element):
-                known[id(type_)] = _size(element, known)
-            case _:
-                known[id(type_)] = 1
-    return known[id(type_)]
+def _size(type_: Type, known: dict[str, int]) -> int:
+    """How many plain values a value of a type has at least, each list and map counted as one entry. `known` are those
+    of structs, which stand in many places."""
+    match type_:
+        case RecordType(name=name, members=members):
+            if name not in known:
+                size = sum(_size(member.type, known) for member in members)
+                return known.setdefault(name, size) if name else size
+            return known[name]
+        case ListType(element=element) | MapType(element=element):
+            return _size(element, known)
+        case _:
+            return 1
 
 
 def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[Diagnostic]]:

@@ -15,6 +15,7 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
+from robocomp_yaml.source.disk import Disk
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.deployments import LinkedDeployment
@@ -66,18 +67,18 @@ class LinkedModule(msgspec.Struct, eq=False):
 
     def closure(self) -> list[LinkedModule]:
         """This module and all that it imports, directly or not: imported ones first, each once."""
-        done: dict[int, LinkedModule] = {}
+        done: dict[LinkedModule, None] = {}
         todo: list[tuple[LinkedModule, bool]] = [(self, False)]
-        entered: set[int] = set()
+        entered: set[LinkedModule] = set()
         while todo:  # without recursion: a chain of imports may be long
             scope, left = todo.pop()
             if left:
-                done[id(scope)] = scope
-            elif id(scope) not in entered:
-                entered.add(id(scope))
+                done[scope] = None
+            elif scope not in entered:
+                entered.add(scope)
                 todo.append((scope, True))
                 todo += [(imported, False) for imported in reversed(scope.imports)]
-        return list(done.values())
+        return list(done)
 
 
 class Port(msgspec.Struct, frozen=True):
@@ -123,12 +124,8 @@ class LinkedValues(msgspec.Struct, eq=False):
 
     def layers(self) -> list[LinkedValues]:
         """This document and all that it builds on: the most general first, each once, this one last."""
-        done: dict[int, LinkedValues] = {}
-        for base in self.extends:
-            for layer in base.layers():
-                done.setdefault(id(layer), layer)
-        done.setdefault(id(self), self)
-        return list(done.values())
+        below = [layer for base in self.extends for layer in base.layers()]
+        return list(dict.fromkeys([*below, self]))
 
 
 class LinkedComponent(msgspec.Struct, eq=False):
@@ -155,15 +152,12 @@ class LinkedComponent(msgspec.Struct, eq=False):
 
     def modules(self) -> list[LinkedModule]:
         """Every module that the component's Slice needs, imported ones first, each once."""
-        done: dict[int, LinkedModule] = {}
-        for scope in self.imports:
-            for needed in scope.closure():
-                done.setdefault(id(needed), needed)
-        return list(done.values())
+        return list(dict.fromkeys(needed for scope in self.imports for needed in scope.closure()))
 
 
 class Program(msgspec.Struct):
-    """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported)."""
+    """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported).
+    Checks read other files through `disk`."""
 
     modules: dict[str, LinkedModule] = {}
     components: dict[str, LinkedComponent] = {}
@@ -172,6 +166,7 @@ class Program(msgspec.Struct):
     deployments: dict[str, LinkedDeployment] = {}
     asked: set[str] = set()
     documents: int = 0
+    disk: Disk = msgspec.field(default_factory=Disk)
 
     def documents_of_components(self) -> dict[str, LinkedComponent | None]:
         """The documents of parameters and of values, each with its component."""
@@ -183,18 +178,15 @@ class Program(msgspec.Struct):
     def asked_components(self) -> set[str]:
         """The components that the user named, be it by their parameters, their values or a deployment of them."""
         documents = self.documents_of_components()
-        wanted = {id(documents[real]) for real in self.asked & documents.keys()}
+        wanted = {documents[real] for real in self.asked & documents.keys()}
         wanted |= {
-            id(instance.component) for real in self.asked & self.deployments.keys()
+            instance.component for real in self.asked & self.deployments.keys()
             for instance in self.deployments[real].instances.values()
         }
-        named = {real for real, linked in self.components.items() if id(linked) in wanted}
+        named = {real for real, linked in self.components.items() if linked in wanted}
         return (self.asked & self.components.keys()) | named
 
     def parameter_documents(self) -> Iterator[LinkedParameters]:
         """Every document of parameters, once for each component that has it."""
-        seen: set[int] = set()
-        for linked in (*self.parameters.values(), *(c.parameters for c in self.components.values())):
-            if linked.document is not None and id(linked) not in seen:
-                seen.add(id(linked))
-                yield linked
+        every = (*self.parameters.values(), *(component.parameters for component in self.components.values()))
+        yield from (linked for linked in dict.fromkeys(every) if linked.document is not None)

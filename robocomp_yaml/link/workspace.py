@@ -11,8 +11,9 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
 from robocomp_yaml.model.build_interface import entries, items, text
 from robocomp_yaml.source import schema
-from robocomp_yaml.source.discover import WORKSPACE_FILE, documents_in
-from robocomp_yaml.source.text import decode, read_bytes
+from robocomp_yaml.source.discover import WORKSPACE_FILE
+from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Scalar, parse
 
 SUFFIX = ".idsl.yaml"
@@ -20,38 +21,35 @@ SUFFIX = ".idsl.yaml"
 
 class Workspace(msgspec.Struct):
     """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
-    look for imports in, `slice_folder` is where Slice goes (both joined with the root), `content` the bytes of the
-    file, `lint` a severity (or 'off') by code."""
+    look for imports in, `slice_folder` is where Slice goes (both joined with the root), `lint` a severity (or
+    'off') by code."""
 
     root: str
     declared: bool = False
     interfaces: tuple[str, ...] = ()
     slice_folder: str = ""
-    content: bytes = b""
     lint: dict[str, str] = {}
 
 
-def root_above(folder: str, absent: set[str] | None = None) -> str | None:
-    """The nearest folder at or above one that holds `rcyaml.yaml`, spelled relative where `folder` is. The paths at
-    which there is none are added to `absent`."""
+def root_above(folder: str, disk: Disk | None = None) -> str | None:
+    """The nearest folder at or above one that holds `rcyaml.yaml`, spelled relative where `folder` is."""
+    disk = disk or Disk()
     here = folder or "."
     for _ in range(len(os.path.abspath(here).split(os.sep)) + 1):
-        if os.path.isfile(os.path.join(here, WORKSPACE_FILE)):
+        if disk.has_file(os.path.join(here, WORKSPACE_FILE)):
             return os.path.normpath(here)
-        if absent is not None:
-            absent.add(os.path.join(here, WORKSPACE_FILE))
         here = os.path.join(here, os.pardir)
     return None
 
 
-def read(root: str) -> tuple[Workspace, list[Diagnostic]]:
+def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnostic]]:
     """The workspace that `root/rcyaml.yaml` declares; an empty file is one without settings."""
+    disk = disk or Disk()
     workspace = Workspace(root, declared=True)
     path = os.path.normpath(os.path.join(root, WORKSPACE_FILE))
-    raw, diagnostics = read_bytes(path)
+    raw, diagnostics = disk.read(path)
     if raw is None:
         return workspace, diagnostics
-    workspace.content = raw
     content, diagnostics = decode(path, raw)
     if content is None:
         return workspace, diagnostics
@@ -69,14 +67,14 @@ def read(root: str) -> tuple[Workspace, list[Diagnostic]]:
     slice_folder = text(tree.get("output"), "slice")
     workspace.slice_folder = os.path.normpath(os.path.join(root, slice_folder)) if slice_folder else ""
     workspace.lint = {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None}
-    return workspace, list(_idle_settings(tree, root))
+    return workspace, list(_idle_settings(tree, root, disk))
 
 
-def _idle_settings(tree: Mapping, root: str) -> Iterator[Diagnostic]:
+def _idle_settings(tree: Mapping, root: str, disk: Disk) -> Iterator[Diagnostic]:
     from robocomp_yaml.diag.codes import table
 
     for node in items(tree, "interfaces"):
-        if isinstance(node, Scalar) and not os.path.isdir(os.path.join(root, node.lexeme)):
+        if isinstance(node, Scalar) and not disk.has_folder(os.path.join(root, node.lexeme)):
             yield codes.WORKSPACE_SETTING.at(node.span, problem=f"there is no folder '{node.lexeme}'")
     for key, value in entries(tree, "lint"):
         if key.lexeme not in table():
@@ -88,13 +86,10 @@ def _idle_settings(tree: Mapping, root: str) -> Iterator[Diagnostic]:
 
 
 class Search(msgspec.Struct):
-    """Looks imports up: beside the document, in the workspace's folders, then in the extra ones (`-I`, RCYAML_PATH).
-
-    `absent` collects the paths at which nothing was found, so that a later run can tell whether the answer still holds.
-    """
+    """Looks imports up: beside the document, in the workspace's folders, then in the extra ones (`-I`, RCYAML_PATH)."""
 
     extra: tuple[str, ...] = ()
-    absent: set[str] = set()
+    disk: Disk = msgspec.field(default_factory=Disk)
     _names: dict[str, tuple[frozenset[str], dict[str, str]]] = {}
 
     def find(self, name: str, document: str, workspace: Workspace) -> tuple[str | None, bool]:
@@ -108,7 +103,6 @@ class Search(msgspec.Struct):
         for path in candidates:
             if os.path.basename(path) in self._listed(path)[0]:
                 return path, False
-            self.absent.add(path)
         for path in candidates:
             actual = self._listed(path)[1].get(os.path.basename(path).lower())
             if actual:
@@ -121,17 +115,10 @@ class Search(msgspec.Struct):
         names = {n for f in folders for n in self._listed(os.path.join(f, "x"))[0] if n.endswith(SUFFIX)}
         return sorted(name.removesuffix(SUFFIX) for name in names)
 
-    def listed(self) -> dict[str, list[str]]:
-        """The folders that were looked into, with the names that an import could have meant."""
-        return {folder or ".": documents_in(names) for folder, (names, _) in self._names.items()}
-
     def _listed(self, path: str) -> tuple[frozenset[str], dict[str, str]]:
         """The names in a path's folder, and the same by their lower case."""
         folder = os.path.dirname(path)
         if folder not in self._names:
-            try:
-                names = sorted(os.listdir(folder or "."))
-            except OSError:
-                names = []
+            names = self.disk.documents(folder)
             self._names[folder] = frozenset(names), {name.lower(): name for name in names}
         return self._names[folder]

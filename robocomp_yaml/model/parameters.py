@@ -7,7 +7,7 @@ range's limits are compared before anything is narrowed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -243,6 +243,11 @@ def leaves(record: RecordType, prefix: str = "") -> Iterator[tuple[str, Member]]
             yield path, member
 
 
+def one_of(values: Collection[str], secret: bool) -> str:
+    """Which values something may have, for messages: of a secret, only how many."""
+    return f"one of the {len(values)} values allowed" if secret else f"one of {', '.join(values)}"
+
+
 def kind_in_words(type_: Type) -> str:
     """What a value of a type is, for messages."""
     match type_:
@@ -252,8 +257,8 @@ def kind_in_words(type_: Type) -> str:
             return "text"
         case BasicType(name=name):
             return "a whole number" if name in INTEGERS else "a number"
-        case EnumType(allowed=allowed):
-            return f"one of {', '.join(allowed)}"
+        case EnumType(allowed=allowed, secret=secret):
+            return one_of(allowed, secret)
         case ListType():
             return "a list"
         case MapType():

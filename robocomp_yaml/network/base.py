@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import msgspec
 
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import LinkedValues
 from robocomp_yaml.source import properties
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, dialect, given
 
-Read = Callable[[str], "bytes | None"]
 _DIALECT_B = ("Endpoints.", "Proxies.", "Period.", "Agent.")
 
 
@@ -63,23 +60,14 @@ class Base(msgspec.Struct):
         return key if isinstance(key, Scalar) else None
 
 
-def base_of(instance: LinkedInstance, read: Read) -> Base:
+def base_of(instance: LinkedInstance, disk: Disk) -> Base:
     if instance.values is not None:
         return Base(instance.values)
-    raw = read(instance.flat) if instance.flat else None
+    raw = disk.read(instance.flat)[0] if instance.flat and disk.has_file(instance.flat) else None
     if raw is None:
         return Base()
     text = raw.decode("utf-8", "replace")
     return Base(None, text, properties.read(text).values)
-
-
-def from_disk(path: str) -> bytes | None:
-    """The bytes of a file."""
-    try:
-        with open(path, "rb", opener=regular) as file:
-            return file.read()
-    except OSError:
-        return None
 
 
 def _text(node: Node | None) -> str:

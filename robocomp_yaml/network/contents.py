@@ -37,13 +37,13 @@ class Difference(msgspec.Struct, frozen=True):
 class Contents(msgspec.Struct):
     """Compares interfaces, each pair once."""
 
-    _known: dict[tuple[int, str, int, str], Difference | None] = {}
+    _known: dict[tuple[LinkedModule, str, LinkedModule, str], Difference | None] = {}
 
     def difference(self, first: Port, second: Port) -> Difference | None:
         """The first difference of two interfaces; None for equal ones."""
         if first.scope is second.scope and first.interface is second.interface:
             return None
-        key = (id(first.scope), first.interface.name, id(second.scope), second.interface.name)
+        key = (first.scope, first.interface.name, second.scope, second.interface.name)
         if key not in self._known:
             found = _Pair(first.scope, second.scope).interfaces(first.interface, second.interface)
             self._known[key] = next(found, None)

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.network import ports, processes
-from robocomp_yaml.network.base import Base, Read, base_of, from_disk
+from robocomp_yaml.network.base import Base, base_of
 from robocomp_yaml.network.configuration import Configuration
 from robocomp_yaml.network.connections import Connections
 from robocomp_yaml.network.contents import Contents
@@ -23,11 +23,12 @@ from robocomp_yaml.network.network import FOLDER, Network
 from robocomp_yaml.network.order import AFTER, Need, optional, ordered
 from robocomp_yaml.network.targets import Targets
 from robocomp_yaml.network.topics import Topics
+from robocomp_yaml.source.disk import Disk
 
 
-def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, list[Diagnostic]]:
-    """The network of a deployment, as far as it can be told, and all that is wrong with it. `read` gives the bytes of
-    a flat configuration file, None where there is none."""
+def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnostic]]:
+    """The network of a deployment, as far as it can be told, and all that is wrong with it. Flat configuration
+    files are read from `disk`."""
     deployment = linked.deployment
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
     drafts = drafts_of(linked)
@@ -39,7 +40,7 @@ def derive(linked: LinkedDeployment, read: Read = from_disk) -> tuple[Network, l
 
     def base(draft: Draft) -> Base:
         if draft not in bases:
-            bases[draft] = base_of(draft.instance, read)
+            bases[draft] = base_of(draft.instance, disk)
         return bases[draft]
 
     contents = Contents()

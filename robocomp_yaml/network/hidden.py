@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.network.network import ConfigFile, Network, Process
-from robocomp_yaml.source import properties
+from robocomp_yaml.source.hidden_properties import without_secret
 
 
 def hidden(network: Network) -> Network:
@@ -31,15 +31,8 @@ def _process(process: Process) -> Process:
 def _config(config: ConfigFile, names: tuple[str, ...]) -> ConfigFile:
     """A line is known as one of Ice's, or by the words of any other text."""
     known = frozenset((*config.secrets, *names))
-    lines = [_line(line, known) for line in config.text.split("\n")]
+    lines = [without_secret(line, known) for line in config.text.split("\n")]
     return replace(config, text="".join(secrets.hidden_lines("\n".join(lines), known)))
-
-
-def _line(line: str, names: frozenset[str]) -> str:
-    for entry in properties.read(line).last.values():
-        if secrets.value(entry.key, entry.value, names) == secrets.HIDDEN:
-            return properties.entry_line(entry.key, secrets.HIDDEN)
-    return line
 
 
 def _extra(extra: tuple[tuple[str, object], ...]) -> tuple[tuple[str, object], ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 
 import msgspec
 
@@ -12,7 +12,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.disk import NOTHING, Disk
 
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config")
 _MODELINE = re.compile(
@@ -25,31 +25,24 @@ MANIFEST = ".rcyaml/manifest.json"
 _SKIPPED = frozenset(("node_modules", "__pycache__", "build", "generated"))
 
 
-def kind_of(path: str) -> str | None:
+def kind_of(path: str, disk: Disk | None = None) -> str | None:
     """`idsl` for `NAME.idsl.yaml` and for `idsl.yaml`; None for what is no document of ours."""
     name = os.path.basename(path)
     for kind in KINDS:
         if name == f"{kind}.yaml" or name.endswith(f".{kind}.yaml"):
-            return kind if name != "config.yaml" or _is_ours(path) else None
+            return kind if name != "config.yaml" or _is_ours(path, disk or Disk()) else None
     return None
 
 
-def _is_ours(path: str) -> bool:
+def _is_ours(path: str, disk: Disk) -> bool:
     """Many programs have a `config.yaml`: ours stands in `etc/` beside a component, or names our schema in a comment
     above its content, where editors look for it."""
     folder = os.path.dirname(path)
     if os.path.basename(os.path.abspath(folder)) == "etc":
-        try:
-            names = os.listdir(os.path.join(folder, os.pardir))
-        except OSError:
-            names = []
+        names = disk.documents(os.path.join(folder, os.pardir))
         if any(name == "cdsl.yaml" or name.endswith(".cdsl.yaml") for name in names):
             return True
-    try:
-        with open(path, "rb", opener=regular) as file:
-            return _MODELINE.match(file.read(1 << 12)) is not None
-    except OSError:
-        return False
+    return _MODELINE.match(disk.peek(path, 1 << 12)) is not None
 
 
 class Found(msgspec.Struct):
@@ -62,15 +55,16 @@ class Found(msgspec.Struct):
     diagnostics: list[Diagnostic] = []
 
 
-def discover(paths: list[str] | tuple[str, ...]) -> Found:
+def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Found:
     """The documents named, and all below the folders named; hidden and generated folders are passed over."""
+    disk = disk or Disk()
     found = Found()
     seen: set[str] = set()
     for path in paths:
-        if os.path.isdir(path):
+        if disk.has_folder(path):
             found.folders.append(path)
             closed: list[OSError] = []
-            below = list(documents_below(path, found.roots, closed.append))
+            below = list(documents_below(path, found.roots, closed.append, disk))
             found.diagnostics += [
                 codes.UNREADABLE.at(
                     Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower()
@@ -82,7 +76,7 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
                     Span(path), hint="`rcyaml new interface NAME` writes a first one, "
                     f"`{typed('rcyaml', 'migrate', path)}` carries over what you have",
                 ))
-        elif kind_of(path) is None and os.path.lexists(path):
+        elif kind_of(path, disk) is None and disk.state(path) != NOTHING:
             expected = " or ".join(f".{kind}.yaml" for kind in KINDS)
             migrate = f"`{typed('rcyaml', 'migrate', path)}` carries legacy files over"
             hint = migrate if not path.endswith(".yaml") else ""
@@ -99,20 +93,22 @@ def discover(paths: list[str] | tuple[str, ...]) -> Found:
     return found
 
 
-def documents_in(names: Iterable[str]) -> list[str]:
-    """Those names, sorted, that documents may have, in whatever case."""
-    return sorted(name for name in names if name.lower().endswith(".yaml"))
-
-
 def documents_below(
-    folder: str, roots: list[str] | None = None, on_error: Callable[[OSError], None] | None = None
+    folder: str,
+    roots: list[str] | None = None,
+    on_error: Callable[[OSError], None] | None = None,
+    disk: Disk | None = None,
 ) -> Iterator[str]:
     """Every document below a folder, sorted within each folder; a link to a folder is not followed. The folders that
     have a manifest are added to `roots`, and `on_error` is told of those that cannot be read."""
-    for where, folders, names in os.walk(folder, onerror=on_error):
+    disk = disk or Disk()
+    found: list[str] = []
+    for where, folders, names in disk.walk(folder, on_error):
         if roots is not None and ".rcyaml" in folders and os.path.isfile(os.path.join(where, MANIFEST)):
             roots.append(os.path.normpath(where))
-        folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
-        for name in sorted(names):
-            if name.endswith(".yaml") and kind_of(path := os.path.normpath(os.path.join(where, name))):
+        folders[:] = [name for name in folders if name not in _SKIPPED and not name.startswith(".")]
+        for name in names:
+            if name.endswith(".yaml") and kind_of(path := os.path.normpath(os.path.join(where, name)), disk):
+                found.append(path)
                 yield path
+    disk.walked[folder] = found

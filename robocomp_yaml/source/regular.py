@@ -10,14 +10,31 @@ import stat
 
 def regular(path: str, flags: int) -> int:
     """What open() asks of an opener, for reading: a descriptor of a regular file."""
+    return _opened(path, flags)[0]
+
+
+def whole(path: str) -> tuple[bytes, os.stat_result]:
+    """The bytes of a regular file and what the disk says of it, with a third of the calls that open() makes."""
+    opened, status = _opened(path, os.O_RDONLY)
+    try:
+        parts = [os.read(opened, status.st_size + 1)]
+        while len(parts[-1]) > 0 and (len(parts) > 1 or len(parts[0]) != status.st_size):  # it may grow meanwhile
+            parts.append(os.read(opened, 1 << 20))
+    finally:
+        os.close(opened)
+    return b"".join(parts), status
+
+
+def _opened(path: str, flags: int) -> tuple[int, os.stat_result]:
     _refuse_special(path, os.stat(path))  # before it is opened, which may do something to a device
     opened = os.open(path, flags | os.O_NONBLOCK | os.O_CLOEXEC)
     try:
-        _refuse_special(path, os.fstat(opened))
+        status = os.fstat(opened)
+        _refuse_special(path, status)
     except OSError:
         os.close(opened)
         raise
-    return opened
+    return opened, status
 
 
 def _refuse_special(path: str, status: os.stat_result) -> None:

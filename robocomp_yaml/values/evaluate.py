@@ -216,15 +216,18 @@ def by_code_names(record: RecordType, data: dict[str, Any]) -> dict[str, Any]:
     return data if not _renames(record, {}) else _renamed(record, data)
 
 
-def _renames(type_: Type, known: dict[int, bool]) -> bool:
-    if id(type_) not in known:
-        known[id(type_)] = False
-        match type_:
-            case RecordType(members=members):
-                known[id(type_)] = any(m.code_name != m.name or _renames(m.type, known) for m in members)
-            case ListType(element=element) | MapType(element=element):
-                known[id(type_)] = _renames(element, known)
-    return known[id(type_)]
+def _renames(type_: Type, known: dict[str, bool]) -> bool:
+    """`known` remembers structs, which stand in many places."""
+    match type_:
+        case RecordType(name=name, members=members):
+            if name not in known:
+                found = any(m.code_name != m.name or _renames(m.type, known) for m in members)
+                return known.setdefault(name, found) if name else found
+            return known[name]
+        case ListType(element=element) | MapType(element=element):
+            return _renames(element, known)
+        case _:
+            return False
 
 
 def _renamed(type_: Type, data: Any) -> Any:

@@ -31,7 +31,7 @@ def is_harmless(parameters: Parameters, data: dict[str, Any]) -> bool:
     return _record(parameters.root, data, {})
 
 
-def _record(record: RecordType, data: dict[str, Any], known: dict[int, bool]) -> bool:
+def _record(record: RecordType, data: dict[str, Any], known: dict[str, bool]) -> bool:
     for member in record.members:
         if _can_be_trouble(member.type, known) and member.name in data:
             value = data[member.name]
@@ -42,7 +42,7 @@ def _record(record: RecordType, data: dict[str, Any], known: dict[int, bool]) ->
     return True
 
 
-def _value(type_: Type, value: Any, known: dict[int, bool]) -> bool:
+def _value(type_: Type, value: Any, known: dict[str, bool]) -> bool:
     if isinstance(value, str):
         return _ODD.isdisjoint(value)
     if isinstance(type_, RecordType):
@@ -56,15 +56,17 @@ def _value(type_: Type, value: Any, known: dict[int, bool]) -> bool:
     return True
 
 
-def _can_be_trouble(type_: Type, known: dict[int, bool]) -> bool:
-    if id(type_) not in known:
-        match type_:
-            case BasicType(name=name):
-                known[id(type_)] = name == "string"
-            case EnumType():
-                known[id(type_)] = False
-            case RecordType(members=members):
-                known[id(type_)] = any(_can_be_trouble(member.type, known) for member in members)
-            case _:
-                known[id(type_)] = True
-    return known[id(type_)]
+def _can_be_trouble(type_: Type, known: dict[str, bool]) -> bool:
+    """`known` remembers structs, which stand in many places."""
+    match type_:
+        case BasicType(name=name):
+            return name == "string"
+        case EnumType():
+            return False
+        case RecordType(name=name, members=members):
+            if name not in known:
+                found = any(_can_be_trouble(member.type, known) for member in members)
+                return known.setdefault(name, found) if name else found
+            return known[name]
+        case _:
+            return True

@@ -9,7 +9,7 @@ from robocomp_yaml import secrets
 from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, RecordType, Type
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 from robocomp_yaml.values import paths
-from robocomp_yaml.values.references import is_reference
+from robocomp_yaml.values.references import is_sound
 
 
 def holds_secret(type_: Type) -> bool:
@@ -38,7 +38,8 @@ def declared(type_: Type) -> Iterator[str]:
 
 
 def hidden(type_: Type, data: Any) -> Any:
-    """The data with its secrets hidden. References stay: they say where a value comes from, not what it is."""
+    """The data with its secrets hidden. References that can be followed stay: they say where a value comes from, not
+    what it is."""
     match type_:
         case BasicType() | EnumType():
             return plain(type_, data)
@@ -57,7 +58,7 @@ def hidden(type_: Type, data: Any) -> Any:
 def plain(type_: Type, data: Any) -> Any:
     """One plain value; passwords in URLs are hidden, whatever the type says."""
     if isinstance(type_, BasicType | EnumType) and type_.secret:
-        return data if data is None or data == "" or is_reference(data) else secrets.HIDDEN
+        return data if data is None or data == "" or is_sound(data) else secrets.HIDDEN
     return secrets.url(data) if isinstance(data, str) else data
 
 
@@ -70,7 +71,7 @@ def nodes(type_: Type, node: Node) -> Iterator[Scalar]:
     """Every plain value below a node that is a secret. Wherever a node does not fit the type, names alone count."""
     match type_:
         case BasicType() | EnumType():
-            if type_.secret and not is_reference(node.data):
+            if type_.secret and not is_sound(node.data):
                 yield from plain_below(node)
         case ListType(element=element) if isinstance(node, Sequence):
             for item in node.items:
@@ -83,7 +84,7 @@ def nodes(type_: Type, node: Node) -> Iterator[Scalar]:
             for key, value in node.items():
                 yield from _of_member(type_, key, value)
         case _:
-            if not is_reference(node.data):
+            if not is_sound(node.data):
                 yield from plain_below(node) if holds_secret(type_) else named_nodes(node)
 
 
@@ -115,7 +116,7 @@ def _is_close(record: RecordType, name: str) -> bool:
 
 def named_nodes(node: Node, names: Collection[str] = ()) -> Iterator[Scalar]:
     """Every plain value that stands below a key whose name says that it is secret, or is one of these."""
-    if isinstance(node, Mapping) and not is_reference(node.data):
+    if isinstance(node, Mapping) and not is_sound(node.data):
         for key, value in node.items():
             last = (paths.parse(key.lexeme) or [key.lexeme])[-1] if names else ""
             named = secrets.is_secret(key.lexeme) or last in names
@@ -131,7 +132,7 @@ def plain_below(node: Node) -> Iterator[Scalar]:
         if node.data is not None and node.data != "":
             yield node
     elif isinstance(node, Mapping):
-        if not is_reference(node.data):
+        if not is_sound(node.data):
             for _, value in node.items():
                 yield from plain_below(value)
     elif isinstance(node, Sequence):

@@ -24,6 +24,7 @@ from robocomp_yaml.model.parameters import (
     Type,
     is_secret,
     kind_in_words,
+    one_of,
 )
 from robocomp_yaml.secrets import HIDDEN, url
 from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
@@ -205,8 +206,9 @@ def _not_allowed(type_: BasicType, node: Node, path: Path, key: Scalar | None) -
     unit = f" {type_.unit}" if type_.unit else ""
     found = HIDDEN if type_.secret else _short(node.lexeme) if isinstance(node, Scalar) else ""
     value = f"{found!r}" if type_.name == "string" and not type_.secret else f"{found}{unit}"
+    wanted = f"{one_of(allowed, type_.secret)}{unit}"
     return _at(
-        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=f"one of {', '.join(allowed)}{unit}",
+        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=wanted,
         hint=did_you_mean(str(node.data), allowed) if type_.name == "string" and not type_.secret else NO_HINT,
     )
 

@@ -1,8 +1,11 @@
-# Written by rcyaml. Reads names of programs, a line each, and answers with a line each: the program's path ("" where
-# there is none that can be executed), digest, day, and what it needs that is not here. $1 is modules.py. Nothing that it
-# is asked about is run, but for the interpreters of Python programs.
+# Written by rcyaml. Reads names of programs, a line each, behind the Python that the process asks for (RCYAML_PYTHON, ""
+# for none) and a tab; answers with a line each: the program's path ("" where there is none that can be executed),
+# digest, day, and what it needs that is not here. $1 is modules.py. Nothing that it is asked about is run, but for the
+# interpreters of Python programs.
 set -f
-while IFS= read -r program; do
+tab=$(printf '\t')
+while IFS= read -r asked; do
+  python=${asked%%"$tab"*} program=${asked#*"$tab"}
   path=$(command -v -- "$program" 2>/dev/null) || path=
   case $path in /*) ;; *) path= ;; esac
   [ -f "$path" ] && [ -x "$path" ] || path=
@@ -20,7 +23,7 @@ while IFS= read -r program; do
       missing="$missing $interpreter"
     else
       case ${interpreter##*/} in
-        python*) missing="$missing $("$interpreter" -c "$1" "$path" "$1" </dev/null 2>/dev/null)" ;;
+        python*) missing="$missing $([ -z "$python" ] || export RCYAML_PYTHON="$python"; "$interpreter" -c "$1" "$path" "$1" </dev/null 2>/dev/null)" ;;
       esac
     fi
     missing=$(printf '%s' "$missing" | tr '\n' ' ')

@@ -10,8 +10,8 @@ import pytest
 from click.testing import Result
 
 from conftest import read_tree, write_tree
-from robocomp_yaml.emit import atomic
 from robocomp_yaml.source import text
+from robocomp_yaml.transactions import atomic
 
 Run = Callable[..., Result]
 

@@ -353,14 +353,14 @@ def test_a_host_is_asked_over_ssh(robot: Path, rcyaml: Rcyaml, monkeypatch: pyte
 
 
 def test_several_hosts_need_icegrid_too(robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
-    from robocomp_yaml.deploy.probe import NODE
+    from robocomp_yaml.deploy.probe import NODE, Wanted
 
     hosts = "hosts: {one: 127.0.0.1, two: 127.0.0.2}\ncomponents:\n"
     entries = "  a: {program: sh, host: one}\n  b: {program: sh, host: two}\n"
     write_tree(robot, {"robot.ddsl.yaml": f"deployment: Robot\n{hosts}{entries}"})
     result = deploy(rcyaml, "probe", "one", "--format", "json")
     assert [one["program"] for one in json.loads(result.stdout)["hosts"]["one"]] == ["sh", "icegridnode"]
-    monkeypatch.setattr("robocomp_yaml.commands._probing.programs", lambda network: {"no-node": (NODE,)})
+    monkeypatch.setattr("robocomp_yaml.commands._probing.programs", lambda network: {Wanted("no-node"): (NODE,)})
     assert deploy(rcyaml, "probe", "one").exit_code == 1
 
 
@@ -392,6 +392,16 @@ def test_a_program_that_lacks_something(robot: Path, rcyaml: Rcyaml) -> None:
     }  # fmt: skip
 
 
+OF_TWO_PYTHONS = """\
+deployment: Robot
+components:
+  arm: {{program: ./arm/bin/ArmComp, env: {{RCYAML_PYTHON: "{0}"}}}}
+  hand: {{program: ./arm/bin/ArmComp, env: {{RCYAML_PYTHON: "{0}"}}}}
+  leg: {{program: ./arm/bin/ArmComp, env: {{RCYAML_PYTHON: "$(touch broken) 'x"}}}}
+  wing: {{program: ./arm/bin/ArmComp, cwd: arm, env: {{RCYAML_PYTHON: ../.venv/bin/python}}}}
+"""
+
+
 def test_a_component_is_looked_at_by_the_python_that_would_run_it(
     robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -417,6 +427,11 @@ def test_a_component_is_looked_at_by_the_python_that_would_run_it(
     assert missing() == []
     monkeypatch.setenv("RCYAML_PYTHON", "/no/such/python")
     assert missing() == ["Ice", "only_there"]
+    write_tree(robot, {"robot.ddsl.yaml": OF_TWO_PYTHONS.format(robot / ".venv/bin/python")})
+    (found,) = json.loads(deploy(rcyaml, "probe", "--format", "json").stdout)["hosts"].values()
+    assert [(one["used_by"], one["missing"]) for one in found] == [
+        (["arm", "hand"], []), (["leg"], ["Ice", "only_there"]), (["wing"], []),
+    ]  # fmt: skip
 
 
 def test_it_is_exported(robot: Path, rcyaml: Rcyaml) -> None:

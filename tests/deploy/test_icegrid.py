@@ -33,12 +33,14 @@ class SpecificWorker(GenericWorker):
         self.words_proxy.word(self.number)
 """
 HEARER = """\
+import os
+
 from generated.genericworker import GenericWorker
 
 
 class SpecificWorker(GenericWorker):
     def initialize(self):
-        pass
+        self.log.info("was told %r", os.environ["GREETING"])
 
     def compute(self):
         pass
@@ -57,7 +59,7 @@ services:
 components:
   mouth: {{component: talkinghead/components/mouth, host: arm, ready: 20 s}}
   speech: {{component: talkinghead/components/speech, host: head, ready: 20 s}}
-  hearer: {{component: words/hearer, host: arm, ready: 20 s}}
+  hearer: {{component: words/hearer, host: arm, ready: 20 s, env: {{GREETING: {{file: words/greeting}}}}}}
   teller: {{component: words/teller, host: head, after: [hearer], ready: 20 s}}
 """
 
@@ -75,6 +77,7 @@ def talk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Deployment]:
             )
             for name, key in (("teller", "publishes"), ("hearer", "subscribes"))
         },
+        "words/greeting": "good $morning\n",
         "words/teller/src/specificworker.py": TELLER,
         "words/hearer/src/specificworker.py": HEARER,
     }
@@ -114,6 +117,12 @@ def test_a_topic_crosses_hosts(talk: Deployment) -> None:
 
     first = until(heard, lambda: talk.logs())[-1]
     until(lambda: heard()[-1] > first, lambda: talk.logs())
+
+
+def test_a_variable_comes_from_a_file_of_its_host(talk: Deployment) -> None:
+    assert "was told 'good $morning'" in talk.logs("hearer")
+    kept = [path for path in talk.state.rglob("*") if path.is_file() and path.suffix != ".log"]
+    assert kept and not [path for path in kept if b"$morning" in path.read_bytes()]
 
 
 def test_a_second_up_touches_nothing(talk: Deployment, ready: dict[str, int]) -> None:
@@ -183,8 +192,7 @@ def test_a_killed_node_is_started_again_on_its_host(talk: Deployment, ready: dic
 
 def test_a_host_that_is_cut_off_works_on(talk: Deployment, ready: dict[str, int]) -> None:
     """Nobody knows how it is meanwhile; when it is back, it is found as it was, and nothing is doubled."""
-    if not talk.hosts.prefix:
-        pytest.skip("network namespaces are not permitted here: there is no cable to pull")
+    talk.hosts.need_a_network("so no cable to pull")
     talk.hosts.link("arm", "down")
     try:
         until(lambda: talk.status()["hearer"]["state"] == "lost", "the host does not answer")

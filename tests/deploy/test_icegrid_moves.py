@@ -90,8 +90,7 @@ def test_a_component_moves_and_those_that_use_it_follow(talk: Deployment) -> Non
 
 def test_a_component_moves_away_from_a_host_that_is_cut_off(talk: Deployment) -> None:
     """There it goes on, and nobody calls it; it ends when that host is back."""
-    if not talk.hosts.prefix:
-        pytest.skip("network namespaces are not permitted here: there is no cable to pull")
+    talk.hosts.need_a_network("so no cable to pull")
     _move(talk, "onboard", "arm")
     talk.deploy("up")
     _greets(talk)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 from collections.abc import Iterator
@@ -48,6 +49,11 @@ class Runner:
         path = self.folder / "logs" / "arm.log"
         lines = path.read_text().splitlines() if path.exists() else []
         return "\n".join(line[len("2026-11-21T10:02:03.123Z ") :] for line in lines)
+
+    def said_pid(self) -> int:
+        """The number that the program says, wherever it stands among the lines of the log."""
+        found = until(lambda: re.search(r"^it is (\d+)\.$", self.log, re.MULTILINE), lambda: self.log)
+        return int(found[1])
 
     @property
     def told(self) -> tuple[str, str, int]:
@@ -180,9 +186,9 @@ def test_a_program_that_is_not_there_ends_like_one_that_fails(runner: Runner) ->
 
 
 def test_asked_to_end_it_takes_all_it_started_with_it(runner: Runner) -> None:
-    process = runner.start("=sh", "=-c", "=sleep 600 & echo $!; wait")
-    until(lambda: "started, pid" in runner.log and runner.log.splitlines()[-1].isdigit(), lambda: runner.log)
-    child = int(runner.log.splitlines()[-1])
+    process = runner.start("=sh", "=-c", "=sleep 600 & echo it is $!.; wait")
+    until(lambda: "started, pid" in runner.log, lambda: runner.log)
+    child = runner.said_pid()
     process.terminate()
     assert process.wait(20) == 0
     until(lambda: not _is_alive(child), "the child's child ends")
@@ -198,9 +204,8 @@ def test_one_that_does_not_listen_is_killed(runner: Runner) -> None:
 
 
 def test_when_it_is_killed_so_is_the_program(runner: Runner) -> None:
-    process = runner.start("=sh", "=-c", "=echo $$; exec sleep 600")
-    until(lambda: runner.log and runner.log.splitlines()[-1].isdigit(), lambda: runner.log)
-    pid = int(runner.log.splitlines()[-1])
+    process = runner.start("=sh", "=-c", "=echo it is $$.; exec sleep 600")
+    pid = runner.said_pid()
     process.kill()
     process.wait()
     until(lambda: not _is_alive(pid), "the program ends")

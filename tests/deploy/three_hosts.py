@@ -15,11 +15,12 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import pytest
 from conftest import ROOT, write_tree
 from processes import until
 
@@ -31,10 +32,17 @@ NAME = "Talk"
 
 @dataclass(frozen=True)
 class Hosts:
-    """`addresses` by the host's name; `prefix` is that of the namespaces, '' where there are none."""
+    """`addresses` by the host's name; `prefix` is that of the namespaces, '' where there are none: then `why` says what
+    stood against them."""
 
     addresses: dict[str, str]
     prefix: str = ""
+    why: str = ""
+
+    def need_a_network(self, for_what: str) -> None:
+        """Skips the test where all hosts are this machine."""
+        if not self.prefix:
+            pytest.skip(f"there are no network namespaces here, {for_what}: {self.why}")
 
     def run(self, host: str, command: list[str], **how: Any) -> subprocess.CompletedProcess[str]:
         """A command's outcome on a host."""
@@ -60,17 +68,27 @@ class Hosts:
         _ip("-n", f"{self.prefix}net", "link", "set", f"port{NAMES.index(host)}", state)
 
 
+class NotPermitted(Exception):
+    """A step that network namespaces need; the text is what the system says against it."""
+
+
 @contextmanager
 def three_hosts() -> Iterator[Hosts]:
     prefix = f"rc{os.getpid()}x{random.SystemRandom().randrange(1000)}-"
-    if not _can_make(f"{prefix}net"):
-        print("network namespaces are not permitted here: three loopback addresses stand for three hosts")
-        yield Hosts({name: f"127.0.0.{number}" for number, name in enumerate(NAMES, 1)})
-        return
     try:
+        yield _joined(prefix)
+    finally:
+        _remove(prefix)
+
+
+def _joined(prefix: str) -> Hosts:
+    """Hosts in namespaces that see each other and run commands; where one step fails, loopback addresses."""
+    addresses = {name: f"10.99.0.{number}" for number, name in enumerate(NAMES, 1)}
+    hosts = Hosts(addresses, prefix)
+    try:
+        _ip("netns", "add", f"{prefix}net")
         _ip("-n", f"{prefix}net", "link", "add", "bridge", "type", "bridge")
         _ip("-n", f"{prefix}net", "link", "set", "bridge", "up")
-        addresses = {name: f"10.99.0.{number}" for number, name in enumerate(NAMES, 1)}
         for number, (name, address) in enumerate(addresses.items()):
             space = prefix + name
             _ip("netns", "add", space)
@@ -79,22 +97,28 @@ def three_hosts() -> Iterator[Hosts]:
             _ip("-n", space, "address", "add", f"{address}/24", "dev", "eth0")
             _ip("-n", space, "link", "set", "eth0", "up")
             _ip("-n", space, "link", "set", "lo", "up")
-        yield Hosts(addresses, prefix)
-    finally:
-        for name in (*NAMES, "net"):
+            _ip("netns", "exec", space, "true")  # which wants mounts of its own as well
+    except NotPermitted as why:
+        _remove(prefix)
+        hosts = Hosts({name: f"127.0.0.{number}" for number, name in enumerate(NAMES, 1)}, why=str(why))
+        print(f"three loopback addresses stand for three hosts: {why}")
+    return hosts
+
+
+def _remove(prefix: str) -> None:
+    for name in (*NAMES, "net"):
+        with suppress(OSError):
             subprocess.run(["ip", "netns", "del", prefix + name], capture_output=True, check=False)
 
 
-def _can_make(space: str) -> bool:
-    try:
-        return subprocess.run(["ip", "netns", "add", space], capture_output=True, check=False).returncode == 0
-    except OSError:
-        return False
-
-
 def _ip(*words: str) -> None:
-    done = subprocess.run(["ip", *words], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, f"ip {shlex.join(words)}: {done.stderr}"
+    try:
+        done = subprocess.run(["ip", *words], capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise NotPermitted(f"ip: {error.strerror}") from None
+    if done.returncode:
+        said = done.stderr.strip().splitlines()
+        raise NotPermitted(f"`ip {shlex.join(words)}` fails: {said[-1] if said else done.returncode}")
 
 
 @contextmanager

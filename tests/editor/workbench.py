@@ -14,7 +14,7 @@ from typing import Any
 
 from editor.yaml_language_server import LanguageServer
 
-from robocomp_yaml.source import workspace_files
+from robocomp_yaml.link import workspace_files
 
 SUFFIX = {
     "idsl": ".idsl.yaml", "cdsl": ".cdsl.yaml", "pdsl": ".pdsl.yaml", "ddsl": ".ddsl.yaml", "config": ".config.yaml",

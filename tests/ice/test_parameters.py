@@ -38,6 +38,8 @@ parameters:
   locks: {list: string, unique: true, secret: true, optional: true, editable: true}
   password: {type: string, pattern: "[a-z0-9]+", optional: true, editable: true}
   server: {type: string, optional: true, editable: true}
+  door: {type: string, values: [unter2, sesame], secret: true, optional: true}
+  speed: {type: Mode, secret: true, optional: true}
 constraints:
   - {that: "all(m.min < m.max for m in motors)", else: a motor's min must be below its max}
 legacy:
@@ -450,6 +452,8 @@ SECRETS = ("4711", "oak", "elm", "hunter2", "beech", "birch", "larch")
         (("--pin=hunter2",), "pin must be a whole number, and is ***"),
         (("--locks.0=hunter2", "--locks.1=hunter2"), "locks holds *** twice"),
         (("--password=HUNTER2",), "password is ***, and must match [a-z0-9]+"),
+        (("--door=unter2x",), "door is ***, and must be one of the 2 values allowed"),
+        (("--speed=unter2",), "speed is ***, and must be one of the 2 values allowed"),
         (("--pin=${file:/nowhere/pin}",), "comes from the file /nowhere/pin, which cannot be read: No such file or directory"),
         (("--mode=${file:/}",), "mode is '${file:/}', and must be one of slow, fast"),
         (("--mode=${file:/etc}",), "mode comes from the file /etc, which is no regular file"),

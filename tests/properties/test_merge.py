@@ -19,11 +19,11 @@ from verdicts import CASES
 
 from robocomp_yaml.diag.codes.specific import CONFLICT
 from robocomp_yaml.diag.diagnostic import has_errors
-from robocomp_yaml.emit import writer
-from robocomp_yaml.emit.plan import RootPlan
 from robocomp_yaml.emit.specific import threeway
 from robocomp_yaml.emit.specific.reading import read
 from robocomp_yaml.emit.specific.review import review
+from robocomp_yaml.transactions import writer
+from robocomp_yaml.transactions.plan import RootPlan
 
 CHUNKS, PAIRS, EDITS = 20, 10, max(CASES // 100, 1)
 REFUSED = 0.25  # of all merges, at most: what two sides changed can be too much
@@ -106,7 +106,7 @@ def _methods(text: str) -> list[str]:
 def _write(plan: RootPlan, *, merge: bool) -> list:
     own = review([plan], merge=merge)
     changes = writer.prepare([plan], merges=own.merges)
-    return [*own.diagnostics, *changes.diagnostics, *writer.commit(changes)]
+    return [*own.diagnostics, *writer.commit(changes).diagnostics]
 
 
 def _skeletons(plan: RootPlan) -> Files:

@@ -11,6 +11,7 @@ from hypothesis.strategies import SearchStrategy
 
 from robocomp_yaml.legacy import document, ledger
 from robocomp_yaml.legacy.convert import Converted, convert
+from robocomp_yaml.legacy.draft import ConfigDraft
 from robocomp_yaml.legacy.yamltext import scalar
 from robocomp_yaml.model import build_component, build_interface
 from robocomp_yaml.model.component import Component, Gui, Language, Option, Use
@@ -196,7 +197,7 @@ def _converted(name: str, text: str | bytes) -> tuple[Converted, str]:
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
         result = convert(str(path))
     draft = result.draft
-    if draft is None or draft.settings is not None:  # a config's document is made with those of its component
+    if draft is None or isinstance(draft, ConfigDraft):  # a config's document is made with those of its component
         return result, ""
     return result, document.text(draft.document, draft.around)
 
@@ -213,7 +214,7 @@ def _tree(kind: str, text: str) -> Mapping:
 def test_an_interface_file_says_the_same_as_its_document(data: st.DataObject, module: Module) -> None:
     source = idsl_text(data.draw, module)
     result, text = _converted("X.idsl", source)
-    assert result.diagnostics == [], source
+    assert not result.diagnostics, source
     assert build_interface.build(_tree("idsl", text), "X.idsl.yaml") == module, text
     assert all(len(line) <= 120 for line in text.splitlines() if "#" not in line and "doc:" not in line)
 
@@ -260,7 +261,7 @@ def cdsl_text(draw: st.DrawFn, component: Component) -> str:
 def test_a_component_file_says_the_same_as_its_document(data: st.DataObject, component: Component) -> None:
     source = cdsl_text(data.draw, component)
     result, text = _converted("c.cdsl", source)
-    assert result.diagnostics == [], source
+    assert not result.diagnostics, source
     assert build_component.build(_tree("cdsl", text), "c.cdsl.yaml") == component, text
 
 
@@ -281,7 +282,7 @@ PIECES = st.lists(st.sampled_from([*SAMPLE.split(" "), *OTHERS]))
 def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str | bytes) -> None:
     result, written = _converted(name, text)
     assert result.refused == any(d.severity == "error" for d in result.diagnostics)
-    entry = ledger.Entry(result, diagnostics=result.diagnostics)
+    entry = ledger.Entry(result, diagnostics=[*result.diagnostics])
     if result.source is not None:
         assert entry.lines().total() == result.source.lines
         for diagnostic in result.diagnostics:

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robocomp_yaml.diag.diagnostic import has_errors
-from robocomp_yaml.emit.plan import ONCE, FilePlan
+from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 PATHS = ("generated/a", "generated/deep/b", "etc/config")
 OWNERS = ("one.cdsl.yaml", "two.cdsl.yaml")

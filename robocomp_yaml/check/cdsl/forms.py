@@ -10,8 +10,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.model.component import Gui
+from robocomp_yaml.source.disk import NOTHING, Disk
 from robocomp_yaml.source.form import Form, read
-from robocomp_yaml.source.regular import regular
 
 FORM = os.path.join("src", "mainUI.ui")
 CLASS = "guiDlg"
@@ -20,19 +20,17 @@ CLASS = "guiDlg"
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in sorted(program.components.values(), key=lambda c: c.component.path):
         if linked.component.gui:
-            yield from _form(linked, linked.component.gui)
+            yield from _form(linked, linked.component.gui, program.disk)
 
 
-def _form(linked: LinkedComponent, gui: Gui) -> Iterator[Diagnostic]:
+def _form(linked: LinkedComponent, gui: Gui, disk: Disk) -> Iterator[Diagnostic]:
     """Nothing where there is no form yet: `compile` writes one."""
     path = os.path.normpath(os.path.join(os.path.dirname(linked.component.path), FORM))
-    try:
-        with open(path, "rb", opener=regular) as file:
-            raw = file.read()
-    except FileNotFoundError:
+    if disk.state(path) == NOTHING:
         return
-    except OSError as error:
-        yield codes.NOT_A_FORM.at(Span(path), reason=(error.strerror or str(error)).lower())
+    raw, said = disk.read(path)
+    if raw is None:
+        yield from (codes.NOT_A_FORM.at(Span(path), reason=fault.message) for fault in said)
         return
     form, said = read(path, raw)
     yield from said

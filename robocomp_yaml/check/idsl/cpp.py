@@ -16,7 +16,8 @@ from robocomp_yaml.link.references import Name, exceptions_of, groups, kind_of, 
 from robocomp_yaml.model.component import DEFAULT_STANDARD
 from robocomp_yaml.model.cpp_globals import GLOBALS
 from robocomp_yaml.model.cpp_macros import EVER, FAMILIES, is_macro
-from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Struct, TypeRef
+from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Module, Struct, TypeRef
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.migrated import is_migrated
 
 _GENERATED = frozenset(("GenericWorker", "Parameters", "SpecificWorker", "Worker", "main"))
@@ -29,12 +30,20 @@ def check(program: Program) -> Iterator[Diagnostic]:
             for scope in component.modules():
                 users[id(scope)].append(component)
     for linked in program.modules.values():
-        yield from _Module(linked, users[id(linked)]).check()
+        yield from _Module(linked, users[id(linked)], program.disk).check()
+
+
+def has_taken(module: Module) -> bool:
+    """Whether some component in C++ could not be built with the names of a module."""
+    linked = LinkedModule(module)
+    names = (name.text for definition in module.definitions for group in groups(definition) for name in group)
+    return any(_Module(linked, [], Disk()).check()) or any(name.startswith(FAMILIES) for name in names)
 
 
 class _Module(msgspec.Struct):
     linked: LinkedModule
     users: list[LinkedComponent]
+    disk: Disk
 
     def check(self) -> Iterator[Diagnostic]:
         module = self.linked.module
@@ -135,7 +144,7 @@ class _Module(msgspec.Struct):
         return self.said(_clash(name, other), self.users)
 
     def said(self, told: Diagnostic, users: list[LinkedComponent]) -> Diagnostic:
-        if not users or is_migrated(told.span.file):
+        if not users or is_migrated(told.span.file, self.disk):
             return told
         component = users[0].component
         related = Related(f"component {component.name} is in C++, and needs it", component.language.span)

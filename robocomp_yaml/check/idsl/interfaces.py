@@ -24,7 +24,7 @@ def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
     first: dict[object, TypeRef] = {}
     for ref in method.throws:
         found = linked.find(ref)
-        other = first.setdefault(id(found[1]) if found else ref.text, ref)
+        other = first.setdefault((found[0], found[1].name) if found else ref.text, ref)
         if other is not ref:
             yield codes.THROWN_TWICE.at(
                 ref.span, method=method.name, name=ref.text, hint="remove one of them",

@@ -11,7 +11,7 @@ from robocomp_yaml.model.interface import Map, Sequence, Struct, TypeRef
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    verdicts: dict[int, str] = {}
+    verdicts: dict[_Place, str] = {}
     for linked in program.modules.values():
         for definition in linked.module.types:
             if not isinstance(definition, Map):
@@ -29,24 +29,26 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 _SEQUENCE = "sequence"
+_Place = tuple[LinkedModule, str]
+"""A definition: its module, and its name there."""
 
 
-def _reason(linked: LinkedModule, key: TypeRef, verdicts: dict[int, str]) -> str:
-    """Why a type cannot be a key, or ''. `verdicts` remembers those of structs, by identity.
+def _reason(linked: LinkedModule, key: TypeRef, verdicts: dict[_Place, str]) -> str:
+    """Why a type cannot be a key, or ''. `verdicts` remembers those of structs.
 
     The parts of a struct are judged from a list, not by recursion: structs may be nested a thousand deep.
     """
     todo: list[tuple[LinkedModule, TypeRef]] = [(linked, key)]
-    seen: set[int] = set()
+    seen: set[_Place] = set()
     found = ""
     while todo:
         scope, ref = todo.pop()
         part = f"a {ref.text} cannot be compared exactly" if ref.text in ("float", "double") else ""
         target = None if ref.is_basic else scope.find(ref)
-        if target is not None and id(target[1]) not in seen:
-            seen.add(id(target[1]))
-            part = verdicts.get(id(target[1]), _of(target[1]))
-            if isinstance(target[1], Struct) and id(target[1]) not in verdicts:
+        if target is not None and (place := (target[0], target[1].name)) not in seen:
+            seen.add(place)
+            part = verdicts.get(place, _of(target[1]))
+            if isinstance(target[1], Struct) and place not in verdicts:
                 todo += [(target[0], member.type) for member in target[1].members]
         if part and part != _SEQUENCE:
             found = part
@@ -54,7 +56,7 @@ def _reason(linked: LinkedModule, key: TypeRef, verdicts: dict[int, str]) -> str
         found = found or part
     target = None if key.is_basic else linked.find(key)
     if target is not None:
-        verdicts[id(target[1])] = found
+        verdicts[target[0], target[1].name] = found
     return found
 
 

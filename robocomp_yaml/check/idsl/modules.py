@@ -23,12 +23,12 @@ _FILE_NAME = re.compile(r"\w[\w.+-]*\Z")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    importers: dict[int, list[Importer]] = defaultdict(list)
+    importers: dict[Importer, list[Importer]] = defaultdict(list)
     by_name: dict[str, list[LinkedModule]] = defaultdict(list)
     by_file: dict[str, list[LinkedModule]] = defaultdict(list)
     for importer in (*program.modules.values(), *program.components.values()):
         for imported in importer.imports:
-            importers[id(imported)].append(importer)
+            importers[imported].append(importer)
     for linked in sorted(program.modules.values(), key=lambda linked: linked.module.path):
         by_name[linked.module.name.lower()].append(linked)
         by_file[macro(linked.module.stem)].append(linked)
@@ -41,31 +41,30 @@ def check(program: Program) -> Iterator[Diagnostic]:
             yield from _meetings(alike, importers)
 
 
-def _meetings(alike: list[LinkedModule], importers: dict[int, list[Importer]]) -> Iterator[Diagnostic]:
+def _meetings(alike: list[LinkedModule], importers: dict[Importer, list[Importer]]) -> Iterator[Diagnostic]:
     """What is wrong where two of these documents first meet."""
-    seen_by: dict[int, dict[int, tuple[Importer, LinkedModule]]] = defaultdict(dict)
+    seen_by: dict[Importer, dict[LinkedModule, None]] = defaultdict(dict)
     for linked in alike:
         for importer in _reach(linked, importers):
-            seen_by[id(importer)][id(linked)] = (importer, linked)
-    for sees in seen_by.values():
-        importer = next(iter(sees.values()))[0]
-        below = [seen_by.get(id(imported), {}) for imported in importer.imports]
+            seen_by[importer][linked] = None
+    for importer, sees in seen_by.items():
+        below = [seen_by.get(imported, {}) for imported in importer.imports]
         if len(sees) > 1 and not any(len(lower) == len(sees) for lower in below):
-            met = [linked for _, linked in sees.values()]
-            for other in met[1:]:
-                yield from _together(importer, met[0], other)
+            first, *others = sees
+            for other in others:
+                yield from _together(importer, first, other)
 
 
-def _reach(linked: LinkedModule, importers: dict[int, list[Importer]]) -> list[Importer]:
+def _reach(linked: LinkedModule, importers: dict[Importer, list[Importer]]) -> list[Importer]:
     """A module and all that import it, directly or not."""
-    reached: dict[int, Importer] = {id(linked): linked}
+    reached: dict[Importer, None] = {linked: None}
     todo: list[Importer] = [linked]
     while todo:
-        for importer in importers.get(id(todo.pop()), ()):
-            if id(importer) not in reached:
-                reached[id(importer)] = importer
+        for importer in importers.get(todo.pop(), ()):
+            if importer not in reached:
+                reached[importer] = None
                 todo.append(importer)
-    return list(reached.values())
+    return list(reached)
 
 
 def _together(importer: Importer, one: LinkedModule, other: LinkedModule) -> Iterator[Diagnostic]:

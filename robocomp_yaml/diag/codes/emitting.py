@@ -6,6 +6,9 @@ from robocomp_yaml.diag.code import Family
 
 _PAGE = Family("emitting")
 
+APART = "give each component a folder of its own, and each interface document a name of its own"
+USERS_PLACES = "what is yours belongs in src/ and etc/"
+
 NOT_OURS = _PAGE.code("RC6001")
 OUTSIDE = _PAGE.code("RC6002")
 CONTESTED = _PAGE.code("RC6003")

@@ -14,19 +14,19 @@ def picture_of(name: str, components: Iterable[LinkedComponent]) -> Picture:
     made = Picture(name)
     listed = list(components)
     serving: dict[str, list[str]] = {}
-    names: dict[int, str] = {}
+    names: dict[LinkedComponent, str] = {}
     for component in listed:
         wanted = component.component.name
-        names[id(component)] = wanted if wanted not in made.nodes else component.component.path
+        names[component] = wanted if wanted not in made.nodes else component.component.path
         node = Node(
-            names[id(component)], wanted, parts.COMPONENT, about=(component.component.language.name,),
+            names[component], wanted, parts.COMPONENT, about=(component.component.language.name,),
             serves=tuple((port.interface.name, 0) for port in component.implements),
         )  # fmt: skip
         made.nodes[node.name] = node
         for port in component.implements:
             serving.setdefault(_key(port), []).append(node.name)
     for component in listed:
-        source = names[id(component)]
+        source = names[component]
         for port in component.requires:
             label = port.interface.name if port.name == port.interface.name else f"{port.name}: {port.interface.name}"
             targets = serving.get(_key(port), [])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from robocomp_yaml.emit.plan import CONFIG
+from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.source import properties
 
 _NEEDED = r"(?P<name>.+?)(?:Topic)?\.Endpoints|(?P<proxy>.+)Proxy|(?P<manager>TopicManager)\.Proxy"
@@ -25,15 +25,15 @@ def lacking(base: str | None, yours: str, new: str) -> list[str]:
 
 def paste(new: str, keys: list[str]) -> str:
     """The lines of these entries, with the comments above them."""
-    lines = new.splitlines(keepends=True)
-    parts = []
-    for n, line in enumerate(lines):
-        if line.partition("=")[0].strip() in keys:
-            first = n
+    lines = new.split("\n")
+    parts: list[str] = []
+    for entry in properties.read(new).entries:
+        if entry.key in keys:
+            first = entry.line - 1
             while first and lines[first - 1].startswith("#"):
                 first -= 1
-            parts += lines[first : n + 1]
-    return "".join(parts)
+            parts += lines[first : entry.line]
+    return "".join(f"{line}\n" for line in parts)
 
 
 def merge(base: str | None, yours: str, new: str) -> str:

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from robocomp_yaml.diag.codes import specific as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.emit.places import Root
-from robocomp_yaml.emit.plan import Merge
 from robocomp_yaml.emit.specific import sources
 from robocomp_yaml.emit.specific.merge import Result, Side, merge
 from robocomp_yaml.emit.specific.own import Own
+from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.plan import Merge
 
 _HINT = "nothing was written; make room by hand, or compile without --merge and paste what it names"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from robocomp_yaml.emit.plan import FilePlan
+from robocomp_yaml.transactions.plan import FilePlan
 
 
 class Own(msgspec.Struct, frozen=True):

@@ -2,34 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Set
 
 import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit.manifest import BASE
-from robocomp_yaml.emit.places import Root
-from robocomp_yaml.emit.plan import ONCE, SOURCES, Merge, Merges, RootPlan
-from robocomp_yaml.emit.specific import entries
+from robocomp_yaml.emit.layout import SOURCES
+from robocomp_yaml.emit.specific import entries, sources
 from robocomp_yaml.emit.specific.own import Own
+from robocomp_yaml.emit.specific.reading import is_code
+from robocomp_yaml.transactions.manifest import BASE
+from robocomp_yaml.transactions.places import Root
+from robocomp_yaml.transactions.plan import ONCE, Merge, Merges, RootPlan
 
 
-class Review(msgspec.Struct):
-    """`contents` and `absent` are what it read and looked for in vain."""
+class Review(msgspec.Struct, frozen=True):
+    """`contents` and `absent` are what it read and looked for in vain, `names` what it saw in folders."""
 
-    diagnostics: list[Diagnostic] = []
-    merges: Merges = msgspec.field(default_factory=Merges)
-    contents: dict[str, bytes] = {}
-    absent: set[str] = set()
+    diagnostics: tuple[Diagnostic, ...] = ()
+    merges: Merges = Merges()
+    contents: Mapping[str, bytes] = {}
+    absent: Set[str] = frozenset()
+    names: Mapping[str, list[str]] = {}
 
 
 def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
     """Looks at the files that are there; only where one of them is not as it would be written is it understood."""
-    result = Review()
+    diagnostics: list[Diagnostic] = []
+    merges: dict[tuple[str, str], Merge] = {}
+    refused: set[str] = set()
+    seen = _Seen()
     for plan in plans:
         root = Root(plan.root)
-        files = list(_own(plan, root, merge, result))
+        files = list(_own(plan, root, merge, seen))
         if all(file.is_settled for file in files):
             continue
         from robocomp_yaml.emit.specific import merging, telling  # with the parsers of the languages
@@ -37,32 +43,46 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
         if merge:
             merged, refusals = merging.merge_files(root, files)
             if refusals:
-                result.merges.refused.add(root.real)
-                result.diagnostics += refusals
+                refused.add(root.real)
+                diagnostics += refusals
                 continue
-            result.merges.files.update({(root.real, path): one for path, one in merged.items()})
+            merges.update({(root.real, path): one for path, one in merged.items()})
             files = [_after(file, merged.get(file.plan.path)) for file in files]
-        result.diagnostics += telling.tell(root, files, root.shown(plan.owner))
-    return result
+        _remember_code(seen, root, files)
+        diagnostics += telling.tell(root, files, root.shown(plan.owner))
+    return Review(tuple(diagnostics), Merges(merges, refused), seen.contents, seen.absent, seen.names)
 
 
-def _own(plan: RootPlan, root: Root, every: bool, result: Review) -> Iterator[Own]:
+class _Seen(msgspec.Struct):
+    contents: dict[str, bytes] = {}
+    absent: set[str] = set()
+    names: dict[str, list[str]] = {}
+
+
+def _remember_code(seen: _Seen, root: Root, files: Iterable[Own]) -> None:
+    """Parts of the class that it is about may stand in any file beside it."""
+    for folder in {file.plan.path.rpartition("/")[0] for file in files if is_code(file.plan.path)}:
+        seen.names[root.shown(folder)] = sources.names(root, folder)
+        seen.contents.update((root.shown(path), data) for path, data in sources.code_in(root, folder))
+
+
+def _own(plan: RootPlan, root: Root, every: bool, seen: _Seen) -> Iterator[Own]:
     """The user's files that there are skeletons for; unless `every`, only those that are looked into."""
     for file in plan.files:
         is_read = file.path.startswith(f"{SOURCES}/") or entries.is_entries(file.path)
         if file.policy != ONCE or not (is_read or every):
             continue
         found, path = root.look(file.path), root.shown(file.path)
-        result.contents[path] = found.data if found.data is not None else file.text.encode()
+        seen.contents[path] = found.data if found.data is not None else file.text.encode()
         if found.problem or found.data is None:
             continue
         own = Own(file, found.data, _text(found.data), is_link=not found.mode)
         if not own.is_settled:
             base, where = root.look(f"{BASE}/{file.path}"), root.shown(f"{BASE}/{file.path}")
             if base.data is None:
-                result.absent.add(where)
+                seen.absent.add(where)
             else:
-                result.contents[where] = base.data
+                seen.contents[where] = base.data
                 own = replace(own, base=_text(base.data))
         yield own
 

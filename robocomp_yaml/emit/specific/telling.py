@@ -8,13 +8,13 @@ from robocomp_yaml.diag.codes import specific as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.emit.places import Root
 from robocomp_yaml.emit.specific import entries, sources
 from robocomp_yaml.emit.specific.code import CLASS, Code, Method
 from robocomp_yaml.emit.specific.compare import Comparison, Lacking, compare
 from robocomp_yaml.emit.specific.insert import lead
 from robocomp_yaml.emit.specific.own import Own
 from robocomp_yaml.emit.specific.reading import is_code, read
+from robocomp_yaml.transactions.places import Root
 
 
 def tell(root: Root, files: Sequence[Own], document: str) -> Iterator[Diagnostic]:

@@ -6,25 +6,28 @@ import os
 from collections.abc import Iterable, Iterator, Sequence
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.emit.plan import SOURCES
+from robocomp_yaml.emit.layout import SOURCES
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Program
+
+
+def has_code(program: Program) -> bool:
+    """Whether a component that the user asked for has files of the user's own."""
+    return any(_is_written(program.components[real]) for real in program.asked_components())
 
 
 def of_written(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
     """The diagnostics about the user's own files, of components that have some; `diagnostics` are those of the
     documents."""
-    if not any(_is_written(program.components[real]) for real in program.asked_components()):
-        return
     from robocomp_yaml.emit.build import build
     from robocomp_yaml.emit.options import Options
-    from robocomp_yaml.emit.plan import RootPlan
     from robocomp_yaml.emit.ports import assign
     from robocomp_yaml.emit.specific.review import review
+    from robocomp_yaml.transactions.plan import RootPlan
 
     languages = {program.components[real].component.language.name for real in program.asked_components()}
     options = Options(
-        None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked]),
+        None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked], program.disk),
         only=_is_written,
     )  # fmt: skip
     plans: Iterable[RootPlan] = build(program, diagnostics, options).plans

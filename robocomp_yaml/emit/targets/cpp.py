@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml import resources
-from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets import cpp_parameters, cpp_qt
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
@@ -21,6 +20,7 @@ from robocomp_yaml.emit.targets.cpp_text import comment, one_line, quoted
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.component import DEFAULT_STANDARD
+from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.targets.cpp_statemachine import MachineView

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import msgspec
 
 from robocomp_yaml.emit.parameter_facts import inside, records
-from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.cpp_kinds import kind, pattern_count, spelling
 from robocomp_yaml.emit.targets.cpp_literals import number, string, value
@@ -17,6 +16,7 @@ from robocomp_yaml.emit.targets.cpp_names import Names
 from robocomp_yaml.emit.targets.cpp_text import IN, comment, folded, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.names import in_code
+from robocomp_yaml.transactions.plan import FilePlan
 from robocomp_yaml.model.parameters import (
     BasicType,
     EnumType,

@@ -11,13 +11,13 @@ from msgspec.structs import replace
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit import form
-from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.targets.cpp_names import ice_name, parameter, qualified
 from robocomp_yaml.emit.targets.cpp_ports import AccessorView, Ports, ServiceView
 from robocomp_yaml.emit.targets.cpp_text import IN, declaration
 from robocomp_yaml.emit.targets.cpp_types import input_type, type_name
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
+from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 _WINDOW_FILES = ("windowworker.h",)  # of the folder qt, only for windows whose worker has its own thread
 _MACHINE_FILES = ("machine.cpp", "machine.h")  # of the folder robocomp, only for components with a state machine

@@ -8,12 +8,12 @@ import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit.machines import lower, text
-from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.cpp_names import parameter
 from robocomp_yaml.emit.targets.cpp_text import comment, one_line
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.statemachine import State, StateMachine
+from robocomp_yaml.transactions.plan import FilePlan
 
 
 class EventView(msgspec.Struct, frozen=True):

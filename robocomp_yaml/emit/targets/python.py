@@ -16,7 +16,6 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml import resources
-from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets import python_parameters, python_qt
 from robocomp_yaml.emit.targets.python_names import ice_name, is_forgotten, module_variable
@@ -26,6 +25,7 @@ from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.emit.targets.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.references import groups
+from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.targets.python_statemachine import MachineView

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator
 import msgspec
 
 from robocomp_yaml.emit.parameter_facts import facts, inside, records
-from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.python_names import Names
 from robocomp_yaml.emit.targets.python_text import docstring, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.names import in_code
+from robocomp_yaml.transactions.plan import FilePlan
 from robocomp_yaml.model.parameters import (
     BasicType,
     EnumType,

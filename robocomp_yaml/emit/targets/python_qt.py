@@ -6,10 +6,10 @@ from functools import cache
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit import form
-from robocomp_yaml.emit.plan import ONCE, FilePlan
 from robocomp_yaml.emit.targets.python_names import module_variable, python_name
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.interface import Sequence
+from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 QT_STAGE, ROBOCOMP_STAGE = "generated.qt.stage", "generated.robocomp.stage"
 _MACHINE_FILES = ("machine.py",)  # of the folder robocomp, only for components with a state machine

@@ -12,13 +12,13 @@ import msgspec
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit.machines import lower, text
-from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.targets.python_names import python_name
 from robocomp_yaml.emit.targets.python_text import docstring, one_line
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import PYTHON, State, StateMachine
+from robocomp_yaml.transactions.plan import FilePlan
 
 _SCRIPTING = "scripting.py"
 

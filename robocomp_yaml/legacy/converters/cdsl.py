@@ -13,14 +13,14 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
-from robocomp_yaml.legacy.draft import Draft, MachineDraft, Reader
+from robocomp_yaml.legacy.draft import ComponentDraft, NamedMachine, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
 from robocomp_yaml.source.regular import regular
 
 LISTS = ("implements", "requires", "publishes", "subscribesto")
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> ComponentDraft | None:
     """The document of a file's component."""
     tree = reader.parsed.tree
     assert tree is not None
@@ -32,9 +32,9 @@ class _Converter:
         self.reader = reader
         self.entries: dict[str, Entry] = {}
         self.seen: dict[str, Tree[Token]] = {}
-        self.machine: MachineDraft | None = None
+        self.machine: NamedMachine | None = None
 
-    def document(self, tree: Tree[Token], component: Tree[Token]) -> Draft:
+    def document(self, tree: Tree[Token], component: Tree[Token]) -> ComponentDraft:
         reader, notes = self.reader, self.reader.notes(component)
         name = reader.name(component)
         self._put("component", name, Notes(notes.head, notes.tail))
@@ -60,7 +60,7 @@ class _Converter:
         around = reader.placed.around
         rest = [words(node) for node in trees(tree, "lenient_rest")]
         around.foot[:0] = [*notes.foot, *rest]
-        return Draft(document, imports, around, machine=self.machine)
+        return ComponentDraft(document, around, tuple(imports), self.machine)
 
     def _has_code_of_robocomp(self) -> bool:
         """Whether the user's code beside the file was written against what RoboComp's own tool generates."""
@@ -171,7 +171,7 @@ class _Converter:
         assert literal is not None
         legacy = literal[1:-1].strip()
         entry = self._put("statemachine", legacy, self.reader.notes(clause))
-        self.machine = MachineDraft(legacy, self.reader.span(literal), entry)
+        self.machine = NamedMachine(legacy, self.reader.span(literal), entry)
         entry.value = self.machine.document
         visual = token(clause, "VISUAL")
         if visual is not None:

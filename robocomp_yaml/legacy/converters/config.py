@@ -7,9 +7,9 @@ import re
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy.document import Map, Notes
-from robocomp_yaml.legacy.draft import Draft, Reader
-from robocomp_yaml.legacy.grammar import trees
+from robocomp_yaml.legacy import flat
+from robocomp_yaml.legacy.document import Notes
+from robocomp_yaml.legacy.draft import ConfigDraft, Reader
 from robocomp_yaml.legacy.settings.entries import (
     CLASSIC,
     FLAT_TOML,
@@ -27,21 +27,18 @@ _CLASSIC_KEY = re.compile(r"\.Endpoints$|Proxy\d*$")
 _PROTECTED = re.compile(r'\s*"(?P<value>[^"]*#[^"]*)"\s*(?:#(?P<comment>.*))?$')
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> ConfigDraft | None:
     """The settings of a file. Lines that set nothing stay as comments above the next setting."""
     tree = reader.parsed.tree
     assert tree is not None
-    source = reader.source
-    ice = properties.read(source.text)
-    by_line = {entry.line: entry for entry in ice.entries}
-    last = ice.last
-    dialect = _dialect(reader, ice)
+    lines = flat.lines(tree)
+    last = properties.last(line.entry for line in lines if line.entry is not None)
+    dialect = _dialect(reader, lines)
     found = Settings(dialect)
     around, waiting = reader.placed.around, list[str]()
-    for node in trees(tree, "entry", "invalid"):
-        line = source.line(node.meta.start_pos)
-        entry, notes = by_line.get(line), reader.notes(node)
-        protected = _protected(source.line_text(line)) if dialect == FLAT_TOML and entry is not None else None
+    for node in lines:
+        entry, notes = node.entry, reader.notes(node)
+        protected = _protected(node.rest) if dialect == FLAT_TOML and entry is not None else None
         if entry is None:
             reader.repaired("invalid", node)
         elif not entry.value and protected is None:
@@ -49,7 +46,7 @@ def convert(reader: Reader) -> Draft | None:
         elif reason := properties.unwritable(entry.key, entry.value) or _too_long(entry.key):
             what = reader.rules.losses["unwritable"].format(text=entry.key, reason=reason)
             reader.diagnostics.append(codes.LOST.at(reader.span(node), what=what))
-        elif entry.key in last and last[entry.key].line > line:
+        elif entry.key in last and last[entry.key].line > entry.line:
             reader.repaired("overridden", node, entry.key)
         elif entry.key in last or protected is not None:
             if waiting:
@@ -63,7 +60,7 @@ def convert(reader: Reader) -> Draft | None:
         waiting += [*notes.head, *_as_comment(reader, node, notes)]
     around.foot[:0] = waiting
     settle_head(found, around)
-    return Draft(Map(), [], around, settings=found)
+    return ConfigDraft(found, around)
 
 
 def _too_long(key: str) -> str:
@@ -71,19 +68,20 @@ def _too_long(key: str) -> str:
     return f"its name has more than {MAX_KEY} characters" if len(key) > MAX_KEY else ""
 
 
-def _dialect(reader: Reader, ice: properties.Properties) -> str:
+def _dialect(reader: Reader, lines: list[flat.LineTree]) -> str:
     """Flat TOML writes the words the other way round: `Endpoints.Laser`."""
     begins = reader.rules.sections["dialect"]
-    keys = [entry.key for entry in ice.entries]
+    keys = [line.entry.key for line in lines if line.entry is not None]
     if not any(begins.match(key) for key in keys):
         return CLASSIC
     sure = any(key.startswith(("Endpoints.", "Proxies.")) for key in keys)
     return FLAT_TOML if sure or not any(_CLASSIC_KEY.search(key) for key in keys) else CLASSIC
 
 
-def _protected(line: str) -> tuple[str, str] | None:
-    """Value and comment of a line whose quotes hold a '#', which flat TOML's reader takes for part of the value."""
-    found = _PROTECTED.match(line.partition("=")[2])
+def _protected(rest: str) -> tuple[str, str] | None:
+    """Value and comment of a line whose quotes hold a '#', which flat TOML's reader takes for part of the value. `rest`
+    is what stands behind its '='."""
+    found = _PROTECTED.match(rest)
     return (found["value"], (found["comment"] or "").strip()) if found else None
 
 

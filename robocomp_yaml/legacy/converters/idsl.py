@@ -11,7 +11,7 @@ from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import literals
 from robocomp_yaml.legacy.document import Doc, List, Map, Name, Notes, Raw, Value
-from robocomp_yaml.legacy.draft import Draft, ModuleNames, Reader, Reference, plain
+from robocomp_yaml.legacy.draft import ModuleDraft, ModuleNames, Reader, Reference, plain
 from robocomp_yaml.legacy.grammar import token, trees
 
 FEW = 4
@@ -24,7 +24,7 @@ SECTIONS = {
 }  # fmt: skip
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> ModuleDraft | None:
     """The document of a file's one module; None where it cannot be written, with the reason."""
     tree = reader.parsed.tree
     assert tree is not None
@@ -43,7 +43,7 @@ class _Converter:
         self.names = ModuleNames("")
         self.seen: dict[str, Span] = {}
 
-    def document(self, tree: Tree[Token], module: Tree[Token]) -> Draft:
+    def document(self, tree: Tree[Token], module: Tree[Token]) -> ModuleDraft:
         reader, notes = self.reader, self.reader.notes(module)
         self.names.name = reader.name(module)
         document = Map(block=True)
@@ -61,7 +61,7 @@ class _Converter:
                 document.put(name, section)
         around = reader.placed.around
         around.foot[:0] = notes.foot
-        return Draft(document, imports, around, self.names)
+        return ModuleDraft(document, around, tuple(imports), self.names)
 
     def _define(self, tree: Tree[Token], section: Map) -> None:
         name = self.reader.name(tree)

@@ -10,14 +10,14 @@ from lark import Token, Tree
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Value
-from robocomp_yaml.legacy.draft import Draft, ImportDraft, MachineDraft, Reader, base_name
+from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, NamedMachine, Reader, base_name
 from robocomp_yaml.legacy.grammar import token, trees
 
 _LISTS = {"implements": "implements", "requires": "requires", "publishes": "publishes", "subscribesto": "subscribes"}
 Node = Tree[Token]
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> ComponentDraft | None:
     tree = reader.parsed.tree
     assert tree is not None
     top = trees(tree)
@@ -33,9 +33,9 @@ class _Converter:
         self.entries: dict[str, Entry] = {}
         self.imports: list[ImportDraft] = []
         self.options: list[str] = []
-        self.machine: MachineDraft | None = None
+        self.machine: NamedMachine | None = None
 
-    def document(self, top: Node) -> Draft | None:
+    def document(self, top: Node) -> ComponentDraft | None:
         for key, name, value in _pairs(top):
             known = name.lower()
             if known in _LISTS:
@@ -62,7 +62,7 @@ class _Converter:
             self.reader.diagnostics.append(codes.NO_LANGUAGE.at(self.reader.span(top), name=named.value))
         order = [*self.reader.rules.order, *(key for key in self.entries if key not in self.reader.rules.order)]
         entries = [self.entries[key] for key in order if key in self.entries]
-        return Draft(Map(entries, block=True), self.imports, Notes(), machine=self.machine)
+        return ComponentDraft(Map(entries, block=True), Notes(), tuple(self.imports), self.machine)
 
     def put(self, key: str, value: Value) -> None:
         if not (isinstance(value, List) and not value.items):
@@ -147,7 +147,7 @@ class _Converter:
             return
         self.put("statemachine", parts[0])
         entry = self.entries["statemachine"]
-        self.machine = MachineDraft(parts[0], self.reader.span(node), entry)
+        self.machine = NamedMachine(parts[0], self.reader.span(node), entry)
         entry.value = self.machine.document
         if "visual" in parts[1:]:
             self.put(self.reader.rules.keys["visual"], "true")

@@ -7,8 +7,8 @@ import tomllib
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy.document import Map, Notes
-from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.document import Notes
+from robocomp_yaml.legacy.draft import DeploymentDraft, Reader
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.networks import command, endpoint
 from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
@@ -20,7 +20,7 @@ _KEYS = {"name": "", "cwd": "cwd", "cmd": "program", "ice_name": "endpoints"}
 _Pairs = dict[str, tuple[str, Tree[Token]]]
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> DeploymentDraft | None:
     tree = toml_tree(reader)
     return None if tree is None else _Converter(reader).draft(tree)
 
@@ -28,9 +28,9 @@ def convert(reader: Reader) -> Draft | None:
 class _Converter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self.network = NetworkDraft("", [])
+        self.network = NetworkDraft()
 
-    def draft(self, tree: Tree[Token]) -> Draft:
+    def draft(self, tree: Tree[Token]) -> DeploymentDraft:
         head: Tree[Token] | None = None
         pairs: _Pairs = {}
         is_foreign = False
@@ -48,7 +48,7 @@ class _Converter:
             else:
                 pairs[_key(node)] = (self.text(node), node)
         self.component(head, pairs)
-        return Draft(Map(), [], self.reader.placed.around, network=self.network)
+        return DeploymentDraft(self.network, self.reader.placed.around)
 
     def component(self, head: Tree[Token] | None, pairs: _Pairs) -> None:
         if head is None:

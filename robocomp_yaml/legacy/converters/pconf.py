@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from robocomp_yaml.legacy.converters.pdsl import literal, value
 from robocomp_yaml.legacy.document import Map, Notes
-from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.draft import Reader, ValuesDraft
 from robocomp_yaml.legacy.grammar import token, trees
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> ValuesDraft | None:
     tree = reader.parsed.tree
     assert tree is not None
     config = trees(tree, "config")[0]
@@ -30,4 +30,4 @@ def convert(reader: Reader) -> Draft | None:
     if parameters.entries:
         document.put("parameters", parameters)
     reader.placed.around.foot[:0] = notes.foot
-    return Draft(document, [], reader.placed.around)
+    return ValuesDraft(document, reader.placed.around)

@@ -7,13 +7,13 @@ from lark import Token, Tree
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy import literals
 from robocomp_yaml.legacy.document import List, Map, Notes, Raw, Value
-from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.draft import ParametersDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees
 
 LITERALS = ("STRING", "NUMBER", "BOOLEAN")
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> ParametersDraft | None:
     tree = reader.parsed.tree
     assert tree is not None
     component = trees(tree, "component")[0]
@@ -39,7 +39,7 @@ def convert(reader: Reader) -> Draft | None:
         parameters.put(name, body, reader.notes(node))
     document.put("parameters", parameters)
     reader.placed.around.foot[:0] = notes.foot
-    return Draft(document, [], reader.placed.around)
+    return ParametersDraft(document, reader.placed.around)
 
 
 def _parameter(reader: Reader, node: Tree[Token]) -> Map:

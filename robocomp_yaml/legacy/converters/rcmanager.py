@@ -9,7 +9,7 @@ from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Entry, List, Map, Notes
-from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.draft import DeploymentDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.networks import command, endpoint
 from robocomp_yaml.legacy.networks.exact import exact
@@ -41,7 +41,7 @@ class _Element(msgspec.Struct, eq=False):
         return self.places.get(name, self.tree)
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> DeploymentDraft | None:
     tree = reader.parsed.tree
     assert tree is not None
     if trees(tree, "refused_doctype"):
@@ -53,9 +53,9 @@ class _Converter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
 
-    def draft(self, tree: Tree[Token]) -> Draft:
+    def draft(self, tree: Tree[Token]) -> DeploymentDraft:
         root = self.element(tree)
-        network = NetworkDraft("", [], notes=root.notes)
+        network = NetworkDraft(notes=root.notes)
         if root.name != "rcmanager":
             self.refused("root", token(tree, "OPEN") or tree, root.name)
         taken: set[str] = set()
@@ -68,7 +68,7 @@ class _Converter:
             network.nodes.append(node)
         for name, value in root.attributes.items():
             network.extra.put(name, exact(value))
-        return Draft(Map(), [], self.reader.placed.around, network=network)
+        return DeploymentDraft(network, self.reader.placed.around)
 
     def element(self, tree: Tree[Token]) -> _Element:
         """An element with all that is in it; what the grammar does not judge is judged here."""

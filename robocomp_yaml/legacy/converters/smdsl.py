@@ -9,8 +9,8 @@ import msgspec
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy.document import Map, Notes
-from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.document import Notes
+from robocomp_yaml.legacy.draft import MachineDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.scxmltext import ScxmlState, document
 
@@ -26,7 +26,7 @@ class _Block(msgspec.Struct, eq=False):
     states: list[ScxmlState] = []
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> MachineDraft | None:
     """The document of a file's machine."""
     tree = reader.parsed.tree
     assert tree is not None
@@ -38,7 +38,7 @@ class _Converter:
         self.reader = reader
         self.known: dict[str, ScxmlState] = {}
 
-    def draft(self, tree: Tree[Token]) -> Draft:
+    def draft(self, tree: Tree[Token]) -> MachineDraft:
         reader = self.reader
         top = self._block(trees(tree, "machine")[0])
         inner = [self._block(block) for block in trees(tree, "submachine")]
@@ -53,7 +53,7 @@ class _Converter:
         text = document(top.name, top.initial, top.states, Notes([*around.head, *notes.head], notes.tail, [
             *notes.foot, *around.foot,
         ]))  # fmt: skip
-        return Draft(Map(), [], Notes(), text=text)
+        return MachineDraft(text)
 
     def _block(self, tree: Tree[Token]) -> _Block:
         block = _Block(tree, self.reader.name(tree), token(tree, "PARALLEL") is not None)

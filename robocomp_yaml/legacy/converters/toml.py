@@ -6,8 +6,8 @@ import tomllib
 
 from lark import Token, Tree
 
-from robocomp_yaml.legacy.document import Map, Notes
-from robocomp_yaml.legacy.draft import Draft, Reader
+from robocomp_yaml.legacy.document import Notes
+from robocomp_yaml.legacy.draft import ConfigDraft, Reader
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.settings import entries
 from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings
@@ -16,7 +16,7 @@ from robocomp_yaml.legacy.toml_tree import toml_tree
 _Path = tuple[str, ...]
 
 
-def convert(reader: Reader) -> Draft | None:
+def convert(reader: Reader) -> ConfigDraft | None:
     """The settings of a file, by their full paths."""
     tree = toml_tree(reader)
     return None if tree is None else _Converter(reader).draft(tree)
@@ -29,7 +29,7 @@ class _Converter:
         self.arrays: dict[_Path, Setting] = {}
         self.waiting: list[str] = []
 
-    def draft(self, tree: Tree[Token]) -> Draft:
+    def draft(self, tree: Tree[Token]) -> ConfigDraft:
         table: _Path = ()
         row: dict[str, Item] | None = None
         for node in trees(tree):
@@ -53,7 +53,7 @@ class _Converter:
                 notes = Notes()
         self.reader.placed.around.foot[:0] = self.waiting
         entries.settle_head(self.found, self.reader.placed.around)
-        return Draft(Map(), [], self.reader.placed.around, settings=self.found)
+        return ConfigDraft(self.found, self.reader.placed.around)
 
     def flat(self, path: _Path, value: entries.Tree) -> list[tuple[_Path, entries.Tree]]:
         """An inline table is as good as a table."""

@@ -10,6 +10,7 @@ import msgspec
 
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.document import List, Map, Name, Value
+from robocomp_yaml.legacy.draft import ComponentDraft
 from robocomp_yaml.legacy.networks.command import Command
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.source.text import decode, read_bytes
@@ -29,7 +30,7 @@ def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[Known]
     """Those that this run writes."""
     found = []
     for file in files:
-        if file.draft is not None and file.rules is not None and file.rules.kind == "cdsl":
+        if isinstance(file.draft, ComponentDraft):
             found.append(_known(chosen[file.path], _plain(file.draft.document)))
     return found
 

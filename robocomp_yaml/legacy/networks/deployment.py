@@ -19,14 +19,17 @@ from robocomp_yaml.source.text import OF_NO_LINE
 _IP = re.compile(r"[\d.:]+")
 
 
-def build(network: NetworkDraft, known: Sequence[Known], site: Site, key: str) -> tuple[Map, list[Diagnostic]]:
-    """The document of a network that starts some of the components known. What only an exporter needs stands under
-    `key`."""
-    builder = _Builder(network, known, site, key)
+def build(
+    name: str, network: NetworkDraft, known: Sequence[Known], site: Site, key: str
+) -> tuple[Map, list[Diagnostic]]:
+    """The document of the network of that name, which starts some of the components known. What only an exporter needs
+    stands under `key`."""
+    builder = _Builder(name, network, known, site, key)
     return builder.document(), builder.said
 
 
 class _Builder(msgspec.Struct, eq=False):
+    name: str
     network: NetworkDraft
     known: Sequence[Known]
     site: Site
@@ -50,7 +53,7 @@ class _Builder(msgspec.Struct, eq=False):
         hosts = self.hosts(running)
         notes = self.network.notes
         document, services, components = Map(block=True), Map(block=True), Map(block=True)
-        document.put("deployment", self.network.name, Notes(notes.head, notes.tail))
+        document.put("deployment", self.name, Notes(notes.head, notes.tail))
         if hosts:
             document.put("hosts", self.hosts_map(hosts))
         kept = Map(block=True)

@@ -39,8 +39,7 @@ class Node(msgspec.Struct, eq=False):
 class NetworkDraft(msgspec.Struct, eq=False):
     """`users` are the names for ssh by host; `extra` is what only an exporter needs of the network as such."""
 
-    name: str
-    nodes: list[Node]
+    nodes: list[Node] = []
     users: dict[str, str] = {}
     notes: Notes = msgspec.field(default_factory=Notes)
     extra: Map = msgspec.field(default_factory=Map)

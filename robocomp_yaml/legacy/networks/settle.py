@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 
+from robocomp_yaml.legacy.document import Map
+from robocomp_yaml.legacy.draft import DeploymentDraft
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.networks.components import Known, of_folder, of_run
 from robocomp_yaml.legacy.networks.deployment import build
@@ -13,22 +15,25 @@ from robocomp_yaml.legacy.networks.node import safe_name
 from robocomp_yaml.legacy.workspaces import Workspaces
 
 
-def settle(good: Sequence[Entry], chosen: Mapping[str, str], workspaces: Workspaces) -> None:
-    """Fills in the document of each network among these files, all of which become documents."""
-    networks = [entry for entry in good if entry.file.draft is not None and entry.file.draft.network is not None]
+def settle(good: Sequence[Entry], chosen: Mapping[str, str], workspaces: Workspaces) -> dict[str, Map]:
+    """The document of each network among these files, all of which become documents, by the file's path."""
+    made: dict[str, Map] = {}
+    networks = [(entry, entry.file.draft) for entry in good if isinstance(entry.file.draft, DeploymentDraft)]
     if not networks:
-        return
+        return made
     migrated = of_run((entry.file for entry in good), chosen)
     documents = {os.path.realpath(path): document for path, document in chosen.items()}
     there: dict[str, list[Known]] = {}
-    for entry in networks:
-        draft, rules = entry.file.draft, entry.file.rules
-        assert draft is not None and draft.network is not None and rules is not None
+    for entry, draft in networks:
+        rules = entry.file.rules
+        assert rules is not None
         document = chosen[entry.file.path]
         home = workspaces.of(document).root
         if home not in there:
             there[home] = of_folder(home, [known.path for known in migrated])
-        draft.network.name = safe_name(os.path.basename(document).removesuffix(rules.document))
+        name = safe_name(os.path.basename(document).removesuffix(rules.document))
         known = [*migrated, *there[home]]
-        draft.document, said = build(draft.network, known, Site(document, documents), f"x-{rules.name}")
+        content, said = build(name, draft.network, known, Site(document, documents), f"x-{rules.name}")
+        made[entry.file.path] = content
         entry.diagnostics += said
+    return made

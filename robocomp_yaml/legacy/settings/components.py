@@ -9,6 +9,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Map
+from robocomp_yaml.legacy.draft import ConfigDraft
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.settings import declared
 from robocomp_yaml.legacy.settings.grouping import Component, Components, Good, first_half
@@ -30,23 +31,32 @@ class Inferred(msgspec.Struct, frozen=True):
     entry: Entry
 
 
+class Settled(msgspec.Struct, frozen=True):
+    """The documents of configs, by the configs' paths, and the PDSLs that they imply."""
+
+    documents: Mapping[str, Map]
+    inferred: tuple[Inferred, ...]
+
+
 def settle(
     good: Good, chosen: Mapping[str, str], is_ours: Callable[[LegacyFile, str], bool], guesses: Guesses, *, exact: bool
-) -> list[Inferred]:
-    """Puts their documents into the drafts of all configs; gives the PDSLs. `is_ours`: whether an earlier run wrote
-    the document at a path."""
+) -> Settled:
+    """`is_ours`: whether an earlier run wrote the document at a path."""
     found = Components(good, chosen, is_ours)
     found.declare()
-    inferred = [_settle(component, chosen, guesses, exact) for component in found.all()]
-    return [made for made in inferred if made is not None]
+    documents: dict[str, Map] = {}
+    inferred = [_settle(component, chosen, guesses, exact, documents) for component in found.all()]
+    return Settled(documents, tuple(made for made in inferred if made is not None))
 
 
-def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, exact: bool) -> Inferred | None:
+def _settle(
+    component: Component, chosen: Mapping[str, str], guesses: Guesses, exact: bool, documents: dict[str, Map]
+) -> Inferred | None:
     configs, links = list[Config](), dict[str, Links]()
     by_path = {file.path: file for file, _ in component.configs}
     for file, entry in component.configs:
         draft, rules, source = entry.file.draft, entry.file.rules, entry.file.source
-        assert draft is not None and draft.settings is not None and rules is not None and source is not None
+        assert isinstance(draft, ConfigDraft) and rules is not None and source is not None
         first = first_half(file.path)
         after = first if first in by_path else ""
         config = Config(file.path, source, rules, sort(draft.settings, component.ports, rules))
@@ -66,9 +76,7 @@ def _settle(component: Component, chosen: Mapping[str, str], guesses: Guesses, e
         _tell(plan, entries)
     for config in configs:
         entries[config.name].diagnostics += config.sorted.diagnostics
-        draft = entries[config.name].file.draft
-        assert draft is not None
-        draft.document = values_document(config, planned, links[config.name], exact=exact)
+        documents[config.name] = values_document(config, planned, links[config.name], exact=exact)
     if component.declared is not None:
         return None
     document = pdsl_document(os.path.basename(component.document) or component.name, planned)

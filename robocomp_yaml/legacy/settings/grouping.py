@@ -10,6 +10,7 @@ import msgspec
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import List, Map
+from robocomp_yaml.legacy.draft import ComponentDraft, ConfigDraft, ParametersDraft, ValuesDraft
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.settings import declared
 from robocomp_yaml.legacy.settings.sorting import Ports
@@ -21,7 +22,7 @@ _PARTS = ("implements", "requires", "publishes", "subscribes")
 Good = Sequence[tuple[LegacyFile, Entry]]
 
 
-class Component(msgspec.Struct):
+class Component(msgspec.Struct, eq=False):
     """A component with its configs. `document`: its CDSL; '' where it has none, and is called as its config.
     `declared`: what the PDSL at `parameters` says already; None where it is to be inferred."""
 
@@ -49,7 +50,7 @@ class Components:
         self.listed: dict[str, list[str]] = {}
         self.known: dict[str, Component] = {}
         for file, entry in good:
-            if entry.file.rules is not None and entry.file.rules.kind == "cdsl" and entry.file.draft is not None:
+            if isinstance(entry.file.draft, ComponentDraft):
                 made = _of_cdsl(chosen[file.path], entry.file.draft.document)
                 self.by_folder.setdefault(_folder(file.path), []).append((_stem(file.path), made))
 
@@ -57,7 +58,7 @@ class Components:
         """Joins the PDSLs of 2011 with their components, and the values of 2011 with their PDSLs."""
         named: dict[str, str] = {}
         for file, entry in self.good:
-            if entry.file.rules is not None and entry.file.rules.kind == "pdsl" and entry.file.draft is not None:
+            if isinstance(entry.file.draft, ParametersDraft):
                 draft, path = entry.file.draft.document, self.chosen[file.path]
                 named.setdefault(str(draft.entries[0].value), path)
                 named[os.path.basename(file.path)] = path
@@ -70,24 +71,23 @@ class Components:
                     draft.entries[0].value = os.path.relpath(component.document, os.path.dirname(path) or ".")
                 component.declared, component.parameters = declared.of_draft(draft), path
         for file, entry in self.good:
-            draft_ = entry.file.draft
-            kind = entry.file.rules.kind if entry.file.rules is not None else ""
-            if draft_ is not None and draft_.settings is None and kind == "config":
-                wanted = os.path.basename(str(draft_.document.entries[0].value)).removesuffix(".yaml")
+            if isinstance(entry.file.draft, ValuesDraft):
+                declares = entry.file.draft.document.entries[0]
+                wanted = os.path.basename(str(declares.value)).removesuffix(".yaml")
                 path = named.get(wanted) or named.get(wanted.removesuffix(".pdsl"), "")
                 if path:
                     folder = os.path.dirname(self.chosen[file.path]) or "."
-                    draft_.document.entries[0].value = os.path.relpath(path, folder)
+                    declares.value = os.path.relpath(path, folder)
                 else:
                     entry.diagnostics.append(codes.NO_PDSL.at(Span(file.path), name=wanted))
 
     def all(self) -> list[Component]:
         """The components that have configs."""
-        found: dict[int, Component] = {}
+        found: dict[Component, None] = {}
         own: dict[str, Component] = {}
-        paths = {file.path for file, entry in self.good if entry.file.draft and entry.file.draft.settings}
+        paths = {file.path for file, entry in self.good if isinstance(entry.file.draft, ConfigDraft)}
         for file, entry in self.good:
-            if entry.file.draft is None or entry.file.draft.settings is None:
+            if not isinstance(entry.file.draft, ConfigDraft):
                 continue
             component = self._of(file)
             if component is None:
@@ -103,8 +103,8 @@ class Components:
                     if not self.is_ours(file, path):
                         component.declared = declared.of_document(path)
             component.configs.append((file, entry))
-            found[id(component)] = component
-        return list(found.values())
+            found[component] = None
+        return list(found)
 
     def _of(self, file: LegacyFile) -> Component | None:
         """The component in a config's folder, or in the one above: the only one, or the one of its name."""

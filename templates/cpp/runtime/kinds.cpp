@@ -385,10 +385,18 @@ std::string Kind::words() const
     case Form::decimal:
         return "a number";
     case Form::choice:
-        return "one of " + joinedNames(values_);
+        return oneOf();
     default:
         return "text";
     }
+}
+
+/// Which values it may have: of a secret, only how many.
+std::string Kind::oneOf() const
+{
+    if (isSecret)
+        return "one of the " + std::to_string(values_.size()) + " values allowed";
+    return "one of " + joinedNames(values_);
 }
 
 /// What the value must do to be within the limits, or an empty text.
@@ -397,7 +405,7 @@ std::string Kind::limit(const Value& value) const
     const auto in = unit.empty() ? "" : " " + unit;
     if (!values_.empty())
     {
-        return holds(values_, value) ? "" : "be one of " + joinedNames(values_) + in;
+        return holds(values_, value) ? "" : "be " + oneOf() + in;
     }
     if (pattern_ && !pattern_(*value.as<std::string>()))
     {

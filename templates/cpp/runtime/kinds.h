@@ -102,6 +102,7 @@ private:
     Value of(const Value& raw) const;
     Value read(const std::string& text) const;
     std::string words() const;
+    std::string oneOf() const;
     std::string limit(const Value& value) const;
     std::string shown(const Value& raw) const;
     std::string range() const;

@@ -72,6 +72,10 @@ class Plain:
         is_hidden = self.is_secret and isinstance(raw, (str, Real)) and not isinstance(raw, references.Referred)
         return HIDDEN if is_hidden else shown(raw)
 
+    def one_of(self, values: Sequence[Any]) -> str:
+        """Which values it may have, for messages: of a secret, only how many."""
+        return f"one of the {len(values)} values allowed" if self.is_secret else f"one of {', '.join(map(str, values))}"
+
     def of(self, raw: Any) -> Any:
         """The value of data of the right type, else None."""
         raise NotImplementedError
@@ -124,7 +128,7 @@ class Numeric(Plain):
     def limit(self, value: Any) -> str:
         unit = f" {self.unit}" if self.unit else ""
         if self.values:
-            return "" if value in self.values else f"be one of {', '.join(map(str, self.values))}{unit}"
+            return "" if value in self.values else f"be {self.one_of(self.values)}{unit}"
         if not self._is_within(value):
             return f"be {self._range()}{unit}"
         least, most = self.largest
@@ -199,7 +203,7 @@ class Text(Plain):
 
     def limit(self, value: Any) -> str:
         if self.values and value not in self.values:
-            return f"be one of {', '.join(self.values)}"
+            return f"be {self.one_of(self.values)}"
         if self._pattern and not self._pattern.fullmatch(value):
             return f"match {self._shown_as}"
         return ""
@@ -211,7 +215,7 @@ class Choice(Plain):
     takes_any_text = True
 
     def __init__(self, name: str, names: Sequence[str]) -> None:
-        super().__init__(name, f"one of {', '.join(names)}")
+        super().__init__(name, self.one_of(names))
         self.names = names
 
     def of(self, raw: Any) -> Any:
@@ -249,4 +253,6 @@ def choice(name: str, *names: str) -> Plain:
 def secret(kind: Plain) -> Plain:
     """The same type, of values that are never shown."""
     kind.is_secret = True
+    if isinstance(kind, Choice):
+        kind.words = kind.one_of(kind.names)
     return kind

@@ -71,3 +71,36 @@ def test_code_is_read_only_where_it_has_to_be(compiled: Path, rcyaml: Rcyaml) ->
 def test_nothing_is_said_before_the_first_compile(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, TREE)
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
+
+
+def test_what_a_compile_has_looked_at_is_not_looked_at_again(
+    compiled: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    looked: list[str] = []
+    monkeypatch.setattr("robocomp_yaml.emit.specific.written.of_written", lambda *_: looked.append("looked") or ())
+    (compiled / "py/generated/component.py").unlink()  # what rcyaml writes says nothing of the user's code
+    rcyaml("check")
+    assert looked == []
+    rcyaml("check", "py")  # nobody has compiled this alone
+    assert looked == ["looked"]
+    worker = compiled / "py/src/specificworker.py"
+    worker.write_text(worker.read_text(encoding="utf-8") + "# mine\n", encoding="utf-8")
+    rcyaml("check")
+    assert looked == ["looked"] * 2
+    rcyaml("compile")
+    rcyaml("check")
+    assert looked == ["looked"] * 2
+
+
+@pytest.mark.parametrize("command", ["check", "compile"])
+def test_code_beside_the_skeleton_counts_too(compiled: Path, rcyaml: Rcyaml, command: str) -> None:
+    """A method may stand in another file: when it goes from there, that is said."""
+    worker, more = compiled / "py/src/specificworker.py", compiled / "py/src/more.py"
+    text = worker.read_text(encoding="utf-8")
+    assert "(GenericWorker)" in text and "def Speech_stop(" in text
+    worker.write_text(text.replace("(GenericWorker)", "(More, GenericWorker)").replace("Speech_stop", "other"), "utf-8")
+    more.write_text("class More:\n    def Speech_stop(self):\n        pass\n", encoding="utf-8")
+    assert told(rcyaml("compile", "--format", "json")) == []
+    assert told(rcyaml(command, "--format", "json")) == []
+    more.write_text("class More:\n    pass\n", encoding="utf-8")
+    assert {code for code, _, _ in told(rcyaml(command, "--format", "json"))} == {"RC6201"}

@@ -12,7 +12,7 @@ import pytest
 from click.testing import Result
 
 from conftest import read_tree, write_tree
-from robocomp_yaml.emit import atomic
+from robocomp_yaml.transactions import atomic
 
 SPEECH = "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n      say: {in: {text: string}}\n"
 COMPONENT = "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n"

@@ -10,7 +10,7 @@ import pytest
 from click.testing import Result
 
 from conftest import Tree, write_tree
-from robocomp_yaml.commands import _compiling
+from robocomp_yaml.api.workspace import Workspace
 
 Rcyaml = Callable[..., Result]
 
@@ -61,7 +61,7 @@ def no_run(monkeypatch: pytest.MonkeyPatch) -> Callable[[], None]:
     def refuse(*args: object, **more: object) -> None:
         raise AssertionError("this was made already")
 
-    return lambda: monkeypatch.setattr(_compiling.Run, "carry_out", refuse)
+    return lambda: monkeypatch.setattr(Workspace, "__init__", refuse)
 
 
 @pytest.mark.parametrize("tree", [*FINE.values(), *FAULTY.values()], ids=[*FINE, *FAULTY])

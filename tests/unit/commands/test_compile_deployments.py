@@ -26,7 +26,7 @@ def runs(rcyaml: Callable[..., Result], tmp_path: Path, monkeypatch: pytest.Monk
         read.append(args)
         return analyse(*args, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("robocomp_yaml.commands._compiling.analyse", counted)
+    monkeypatch.setattr("robocomp_yaml.api.workspace.analyse", counted)
 
     def compile_() -> bool:
         read.clear()

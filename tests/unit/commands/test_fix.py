@@ -11,8 +11,8 @@ import pytest
 from click.testing import Result
 
 from conftest import Tree, write_tree
-from robocomp_yaml.commands import _fixing
-from robocomp_yaml.source import whole_file
+from robocomp_yaml.api import fixing
+from robocomp_yaml.transactions import whole_file
 
 Run = Callable[..., Result]
 SPEECH = (
@@ -223,8 +223,8 @@ def test_everything_else_stays_byte_by_byte(rcyaml: Run, tmp_path: Path, bom: by
 def test_many_at_once(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Hundreds of fixes take a few looks, and those that cannot be made do not keep others from it."""
     looks = []
-    real = _fixing.Fixing._look
-    monkeypatch.setattr(_fixing.Fixing, "_look", lambda self, changed: looks.append(1) or real(self, changed))
+    real = fixing.Fixing._look
+    monkeypatch.setattr(fixing.Fixing, "_look", lambda self, changed: looks.append(1) or real(self, changed))
     types = "".join(f"  T{n}: {{sequence: strng}}\n" for n in range(200))
     files = {f"D{n}.idsl.yaml": f"module: M{n}\ntypes:\n{types}" for n in range(2)}
     bad = "module: M\nintefaces: {I: {methods: {a: {in: {x: Quux, y: Zork}}}}}\n"
@@ -288,14 +288,14 @@ def test_a_document_that_is_read_only_stays(rcyaml: Run, tmp_path: Path) -> None
 
 def test_a_document_that_changed_meanwhile_stays(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_tree(tmp_path, {"Laser.idsl.yaml": LASER, IDSL: WRONG})
-    real = _fixing.mend
+    real = fixing.mend
 
     def meanwhile(*args: object, **options: bool) -> object:
         done = real(*args, **options)  # type: ignore[arg-type]
         (tmp_path / IDSL).write_text(WRONG + "# mine\n")
         return done
 
-    monkeypatch.setattr(_fixing, "mend", meanwhile)
+    monkeypatch.setattr(fixing, "mend", meanwhile)
     result = rcyaml("check", "--fix")
     assert (tmp_path / IDSL).read_text() == WRONG + "# mine\n"
     assert "it was changed meanwhile: check again" in result.stdout and result.exit_code == 1

@@ -12,7 +12,7 @@ import pytest
 from click.testing import Result
 
 from conftest import read_tree, write_tree
-from robocomp_yaml.source import whole_file
+from robocomp_yaml.transactions import whole_file
 
 Run = Callable[..., Result]
 OWN_FILES = {

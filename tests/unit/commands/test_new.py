@@ -187,7 +187,7 @@ def test_a_new_deployment_of_nothing_checks(rcyaml: Run, tmp_path: Path) -> None
         (["component", "Talk", "--requires", "Qwerty"], "`rcyaml new interface NAME` writes one"),
         (["component", "Talk", "--requires", "Speech", "--requires", "Speech"], "--requires Speech stands twice"),
         (["component"], "Missing argument 'NAME'"),
-        (["robot", "Shelly"], "No such command 'robot'"),
+        (["robot", "Shelly"], "there is no command 'new robot'"),
     ],
 )
 def test_wrong_usage_is_refused_and_writes_nothing(rcyaml: Run, workspace: Path, args: list[str], reason: str) -> None:

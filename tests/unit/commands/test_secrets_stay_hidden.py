@@ -13,6 +13,8 @@ from typing import Any
 
 import pytest
 
+from conftest import write_tree
+
 CDSL = "component: SpeechComp\nlanguage: python\n"
 PDSL = """\
 component: speech.cdsl.yaml
@@ -125,6 +127,11 @@ BROKEN = [
     'parameters: {wifi: "canary\\nWifi", name: 3}\n',
     'parameters: {wifi: "${env:canaryWifi}", name: 3}\n',
     "parameters: {wiffi: canaryWifi, Wifi: canaryB, name: 3}\n",
+    "parameters: {wifi: {env: canary-wifi}, password: {env: 'canary Password'}, name: 3}\n",
+    "parameters: {wifi: {env: [canaryWifi]}, password: {file: [canaryP]}, locks: [{env: 4711471}, {file: {x: canaryP}}]}\n",
+    "parameters: {wifi: {env: canaryWifi, file: canaryP}, password: {file: canaryP/}, name: 3}\n",
+    "parameters: {wifi: {evn: canaryWifi}, password: {env: }, locks: [{env: canary-lock}], mail: {token: {env: canary.token}}}\n",
+    "parameters: {wifi: {env: canary-wifi, password: {env: 'canary Password'}, name: 3}\n",
     "parameters: {wifi: " + "canary" * 20 + ", name: 3, url: 'x://a:canary@b'}\n",
 ]
 
@@ -139,6 +146,23 @@ def test_nor_by_values_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], t
         assert not sings(result.output)
 
 
+@pytest.mark.parametrize("type_", [
+    "{type: string, values: [canaryA, canaryB]}", "{type: int, values: [4711471, 7]}", "{type: Kind, secret: true}",
+    "{list: {type: string, values: [canaryA, canaryB]}}",
+])  # fmt: skip
+@pytest.mark.parametrize("value", ["canaryX", "8", "[canaryX]", "{x: canaryX}", "true", "null"])
+def test_nor_what_a_secret_may_be(robot: Path, rcyaml: Callable[..., Any], type_: str, value: str) -> None:
+    types = "types: {Kind: {enum: [canaryA, canaryB]}}\n" if "Kind" in type_ else ""
+    write_tree(robot, {
+        "speech/speech.pdsl.yaml": f"component: speech.cdsl.yaml\n{types}parameters: {{password: {type_}}}\n",
+        CONFIG: f"component: ../speech.cdsl.yaml\nparameters: {{password: {value}}}\n",
+    })  # fmt: skip
+    for path in ("speech/etc/base.config.yaml", "robot.ddsl.yaml"):
+        (robot / path).unlink()
+    for command in (("check",), ("config", "check", CONFIG), ("config", "set", CONFIG, "password", value)):
+        assert not sings(rcyaml(*command).output)
+
+
 DEPLOYMENTS = [
     "  a: {component: speech, set: {wifi: canaryA, pin: 4711471}, args: ['--wifi=canaryB']}\n",
     "  a: {program: /bin/true, args: [--token, canaryA, {token: canaryB}], env: {PASSWORD: [canaryC]}, port: x}\n",
@@ -150,6 +174,10 @@ DEPLOYMENTS = [
     "  [a, {program: /bin/true, env: {PASSWORD: canaryA}, args: [--token, canaryB]}]\n",
     "  a: {program: /bin/true, env: [PASSWORD=canaryA, {PASSWORD: canaryB}]}\n",
     "  a: {program: '/bin/x --password canaryA'}\nhosts: {h: {address: a, password: canaryB}}\n",
+    "  a: {component: speech, set: {wifi: {env: canary-a}, password: {file: [canaryB]}, pin: {env: canaryC, file: canaryD}}}\n",
+    "  a: {program: /bin/true, env: {PASSWORD: {env: canary-a}, TOKEN: {env: [canaryB]}, SECRET: {env: canaryC, file: canaryD}}}\n",
+    "  a: {program: /bin/true, env: {PASSWORD: {file: canaryA/}, TOKEN: {file: }, SECRET: {file: {x: canaryD}}, API_KEY: {evn: canary}}}\n",
+    "  a: {program: sh, args: [--password, {env: canary-a}, '--token={env: canary-b}', -c]}\n",
     "  a: {program: sh, args: [-c, 'PASSWORD=canaryA run --password canaryB'], prot: 1}\n",
 ]
 
@@ -173,6 +201,11 @@ def test_nor_by_deployments_that_are_wrong(
     "parameters: {wifi: {type: string, secret: true, default: canaryA, patern: x}}\n",
     "parameters: {db: {group: {password: {type: string, default: canaryA, rnge: 1}}}}\n",
     'parameters: {wifi: {type: string, secret: true, default: "canaryA"x}}\n',
+    "parameters: {wifi: {type: string, secret: true, values: [canaryA, canaryB], rnge: 1}}\n",
+    "parameters: {password: {type: string, one-of: [canaryA, canaryB]}, x: flaot}\n",
+    "parameters: {db: {group: {password: {type: string, values: [canaryA, 4711471], optional: 3}}}}\n",
+    "parameters: {pin: {type: int, secret: true, values: [4711471, canaryA]}}\n",
+    "parameters: {wifi: {enum: [canaryA, canaryB], secret: true, optinal: true}}\n",
 ])  # fmt: skip
 def test_nor_by_defaults_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], text: str) -> None:
     (robot / "speech/speech.pdsl.yaml").write_text(f"component: speech.cdsl.yaml\n{text}", encoding="utf-8")

@@ -76,7 +76,7 @@ MOMENTS = [
     ("open robot.ddsl.yaml", ("deploy", "plan")),
     ("open robot.ddsl.yaml", ("deploy", "status", "--format", "json")),
     ("open idsl.schema.json", ("schema", "idsl")),
-    ("open codes/machines", ("explain",)),
+    ("open diagnostics/machines.md", ("explain",)),
 ]
 
 

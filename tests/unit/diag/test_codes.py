@@ -6,6 +6,7 @@ import json
 import os
 import re
 import shlex
+import socket
 from collections.abc import Callable
 from pathlib import Path
 
@@ -25,10 +26,19 @@ ROWS = list(table().values())
 def _run(row: Code, files: Files, rcyaml: Callable[..., Result], folder: Path) -> list[dict[str, object]]:
     if "icegrid" in row.command:
         pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
-    write_tree(folder, {path: str(it) if isinstance(it, Repeated) else it for path, it in files.items()})
+    texts = {path: str(it) if isinstance(it, Repeated) else it for path, it in files.items()}
+    write_tree(folder, {path: _with_free_ports(it) if isinstance(it, str) else it for path, it in texts.items()})
     words = [name for word in shlex.split(row.command) for name in (sorted(os.listdir()) if word == "*" else [word])]
     result = rcyaml(*words, "--format", "json")
     return json.loads(result.stdout)["diagnostics"]
+
+
+def _with_free_ports(text: str) -> str:
+    """An example that listens at a port does so at one that nobody has."""
+    for port in re.findall(r"create_server\(\('127\.0\.0\.1', (\d+)\)\)", text):
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            text = text.replace(port, str(free.getsockname()[1]))
+    return text
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)

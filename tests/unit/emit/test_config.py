@@ -8,10 +8,11 @@ import pytest
 from talk import component, workspace
 
 from robocomp_yaml.emit import config, ports
-from robocomp_yaml.emit.plan import ONCE
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.source import properties
+from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.transactions.plan import ONCE
 
 @pytest.fixture(autouse=True)
 def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -19,7 +20,7 @@ def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def text(linked: dict[str, LinkedComponent], folder: str) -> str:
-    return config.plan(linked[folder], ports.assign(linked.values())).text
+    return config.plan(linked[folder], ports.assign(linked.values(), Disk())).text
 
 
 def values(linked: dict[str, LinkedComponent], folder: str) -> dict[str, str]:
@@ -33,7 +34,7 @@ def test_what_a_config_holds() -> None:
         "mouth": component("MouthComp", implements="[Mouth]"),
     })
     mouth = values(linked, "mouth")["Mouth.Endpoints"].removeprefix("tcp -p ")
-    plan = config.plan(linked["speech"], ports.assign(linked.values()))
+    plan = config.plan(linked["speech"], ports.assign(linked.values(), Disk()))
     assert (plan.path, plan.policy, plan.executable) == ("etc/config", ONCE, False)
     speech, behavior = (ports.default_port("SpeechComp", name) for name in ("Speech", "CommonBehavior"))
     assert plan.text == f"""\

@@ -13,9 +13,9 @@ from conftest import ROOT, write_tree
 from mouth import MOUTH
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.emit.plan import ONCE
 from robocomp_yaml.emit.targets import cpp
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.transactions.plan import ONCE
 
 RUNTIME = ROOT / "templates" / "cpp" / "runtime"
 

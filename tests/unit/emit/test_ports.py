@@ -10,6 +10,7 @@ from talk import component, workspace
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.ports import IceEndpoint
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.source.disk import Disk
 
 
 @pytest.fixture(autouse=True)
@@ -39,7 +40,7 @@ def test_the_later_name_moves_on(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ports, "default_port", lambda component, interface: 11310)
     linked = workspace({"z": component("A", implements="[Mouth, Speech]"), "a": component("B", implements="[Mouth]")})
     for order in (list(linked.values()), list(linked.values())[::-1]):
-        assert numbers(linked, ports.assign(order)) == {
+        assert numbers(linked, ports.assign(order, Disk())) == {
             "z.CommonBehavior": 11310, "z.Mouth": 11312, "z.Speech": 11313, "a.CommonBehavior": 11314,
             "a.Mouth": 11315,
         }, "11311 is ROS 1's"
@@ -48,7 +49,7 @@ def test_the_later_name_moves_on(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_the_range_is_a_ring(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ports, "default_port", lambda component, interface: 29999)
     linked = workspace({"a": component("A", implements="[Mouth]")})
-    assert [e.port for e in ports.assign(linked.values()).endpoints.values()] == [29999, 10000]
+    assert [e.port for e in ports.assign(linked.values(), Disk()).endpoints.values()] == [29999, 10000]
 
 
 def test_a_port_in_a_config_is_taken() -> None:
@@ -57,7 +58,7 @@ def test_a_port_in_a_config_is_taken() -> None:
         {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Speech]")},
         b=f"Speech.Endpoints=tcp -p {port}\n",
     )
-    assigned = numbers(linked, ports.assign(linked.values()))
+    assigned = numbers(linked, ports.assign(linked.values(), Disk()))
     assert assigned["b.Speech"] == port
     assert assigned["a.Mouth"] == port + 1
 
@@ -77,7 +78,7 @@ def test_clashes_are_told_at_their_line() -> None:
         a="Mouth.Endpoints=tcp -p 12000\nX.Endpoints=udp -p 12000\n",
         b="# mine\n\n  Mouth.Endpoints=tcp -p 12000\nCommonBehavior.Endpoints=tcp -p 12001\n",
     )
-    (said,) = ports.clashes(linked.values())
+    (said,) = ports.clashes(linked.values(), Disk())
     assert (said.code, said.severity) == ("RC6008", "warning")
     assert (said.span.file, said.span.line, said.span.column, said.span.end_column) == ("b/etc/config", 3, 3, 18)
     assert said.message == "port 12000 of B's Mouth is that of A's Mouth, too"
@@ -87,13 +88,13 @@ def test_clashes_are_told_at_their_line() -> None:
 def test_hosts_that_differ_do_not_clash() -> None:
     documents = {"a": component("A", implements="[Mouth]"), "b": component("B", implements="[Mouth]")}
     linked = workspace(documents, a="Mouth.Endpoints=tcp -h x -p 1\n", b="Mouth.Endpoints=tcp -h y -p 1\n")
-    assert not ports.clashes(linked.values())
+    assert not ports.clashes(linked.values(), Disk())
     linked = workspace(documents, a="Mouth.Endpoints=tcp -h x -p 1\n", b="Mouth.Endpoints=tcp -p 1\n")
-    assert len(ports.clashes(linked.values())) == 1
+    assert len(ports.clashes(linked.values(), Disk())) == 1
 
 
 def test_a_config_that_cannot_be_read_is_none(tmp_path: Path) -> None:
     linked = workspace({"a": component("A")})
     (tmp_path / "a/etc/config").mkdir(parents=True)
-    assert not ports.clashes(linked.values())
-    assert ports.assign(linked.values()).endpoints
+    assert not ports.clashes(linked.values(), Disk())
+    assert ports.assign(linked.values(), Disk()).endpoints

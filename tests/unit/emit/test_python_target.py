@@ -12,9 +12,9 @@ import pytest
 from conftest import ROOT, write_tree
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.emit.plan import ONCE
 from robocomp_yaml.emit.targets import python
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.transactions.plan import ONCE
 
 RUNTIME = ROOT / "templates" / "python" / "runtime"
 SPEECH = {

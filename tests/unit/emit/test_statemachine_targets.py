@@ -9,9 +9,9 @@ import pytest
 
 from conftest import write_tree
 from robocomp_yaml.emit.machines.text import cpp_string, python
-from robocomp_yaml.emit.plan import FilePlan
 from robocomp_yaml.emit.targets import target
 from robocomp_yaml.pipeline import analyse
+from robocomp_yaml.transactions.plan import FilePlan
 
 DOOR = """component: Door
 language: LANGUAGE

@@ -9,6 +9,7 @@ import pytest
 
 from robocomp_yaml.legacy import document
 from robocomp_yaml.legacy.convert import convert
+from robocomp_yaml.legacy.draft import ComponentDraft, ModuleDraft
 
 
 def migrated(folder: Path, text: str, name: str = "X.idsl") -> str:
@@ -16,7 +17,7 @@ def migrated(folder: Path, text: str, name: str = "X.idsl") -> str:
     path = folder / name
     path.write_text(textwrap.dedent(text).lstrip("\n"), encoding="utf-8")
     result = convert(str(path))
-    assert result.draft is not None, result.diagnostics
+    assert isinstance(result.draft, ModuleDraft | ComponentDraft), result.diagnostics
     return document.text(result.draft.document, result.draft.around)
 
 

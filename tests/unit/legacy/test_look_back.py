@@ -48,6 +48,41 @@ def test_what_check_refuses_is_told_once_for_a_document(rcyaml: Run, tmp_path: P
     assert rcyaml("check", ".").exit_code == 1
 
 
+COMPONENT = "Component C {{ Communications {{ implements {0}; }}; language cpp; {1} }};\n"
+NOT_THERE = {
+    "an interface": ({"c.cdsl": 'import "Nada.idsl";\n' + COMPONENT.format("Nada", "")}, ["RC5009"]),
+    "an interface of an interface": (
+        {"A.idsl": 'import "Nada.idsl";\nmodule RoboCompA { interface A { RoboCompNada::X f(); }; };\n'}, ["RC5009"],
+    ),
+    "a machine": ({"c.cdsl": "Component C { language cpp; statemachine \"sm/door.smdsl\"; };\n"}, ["RC5019"]),
+    "parameters": ({"left.pconf": 'import "left.pdsl";\nConfigFile Left{\n  volume = 3\n}\n'}, ["RC5030"]),
+    "a type": ({"A.idsl": "module RoboCompA { interface A { Eye f(); void g(out Eye x); }; };\n"}, ["RC5010"] * 2),
+    "a type and a module": (
+        {"A.idsl": "module RoboCompA { interface A { void h(RoboCompZ::Q x); Eye g(); }; };\n"}, ["RC5010"] * 2,
+    ),
+    "a folder that is not searched": (
+        {"a/A.idsl": "module RoboCompA {};\n", "c/c.cdsl": 'import "A.idsl";\nComponent C { language cpp; };\n'}, ["RC5026"],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", NOT_THERE)
+def test_what_is_not_there_is_said_once(name: str, rcyaml: Run, tmp_path: Path) -> None:
+    files, codes = NOT_THERE[name]
+    write_tree(tmp_path, {"rcyaml.yaml": "interfaces: []\n", **files})  # a workspace where each is an error
+    result = rcyaml("migrate", ".", "--format", "json")
+    assert [each["code"] for each in json.loads(result.stdout)["diagnostics"]] == codes
+    assert rcyaml("check", ".").exit_code == 1
+
+
+def test_another_of_the_same_kind_is_said(rcyaml: Run, tmp_path: Path) -> None:
+    interface = "module RoboCompA { interface A { Eye f(); void g(RoboCompZ::Ear x); }; };\n"
+    write_tree(tmp_path, {"rcyaml.yaml": "interfaces: []\n", "A.idsl": 'import "Nada.idsl";\n' + interface})
+    found = json.loads(rcyaml("migrate", ".", "--format", "json").stdout)["diagnostics"]
+    assert [each["code"] for each in found] == ["RC5039", "RC5009", "RC5010"]
+    assert "'RoboCompZ.Ear'" in found[0]["message"] and "more)" not in found[0]["message"]
+
+
 def test_a_dry_run_has_nothing_to_look_at(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"speech.cdsl": "Component C { Communications { implements A; }; language python; };\n"})
     assert "RC5039" not in rcyaml("migrate", ".", "--dry-run").output

@@ -9,6 +9,7 @@ import pytest
 
 from robocomp_yaml.legacy import reading
 from robocomp_yaml.legacy.convert import Converted, convert
+from robocomp_yaml.legacy.draft import ModuleDraft
 
 TEXT = "// Se\xf1al\nmodule M {\n\tstruct S { int a; };\n};\n"
 
@@ -23,7 +24,7 @@ def _convert(folder: Path, raw: bytes) -> Converted:
 ], ids=["plain", "byte order mark", "CRLF", "no last line end"])  # fmt: skip
 def test_text_is_text(tmp_path: Path, raw: bytes) -> None:
     result = _convert(tmp_path, raw)
-    assert result.diagnostics == [] and result.draft is not None and result.source is not None
+    assert not result.diagnostics and isinstance(result.draft, ModuleDraft) and result.source is not None
     assert result.draft.around.head == ["Se\xf1al"]
     assert result.source.lines == 4
 
@@ -33,7 +34,7 @@ def test_latin_1_is_read_with_a_warning(tmp_path: Path, encoding: str) -> None:
     result = _convert(tmp_path, TEXT.encode(encoding))
     (warning,) = result.diagnostics
     assert (warning.code, warning.severity, warning.span.line, warning.span.column) == ("RC5011", "warning", 1, 6)
-    assert result.draft is not None and result.draft.around.head == ["Se\xf1al"]
+    assert isinstance(result.draft, ModuleDraft) and result.draft.around.head == ["Se\xf1al"]
 
 
 @pytest.mark.parametrize(("raw", "code"), [
@@ -65,7 +66,7 @@ def test_what_is_no_file_is_refused(tmp_path: Path, make: object) -> None:
 
 def test_control_characters_in_comments_are_escaped(tmp_path: Path) -> None:
     result = _convert(tmp_path, "module M { // a\x07b\u2028c\x85d\n};".encode())
-    assert result.draft is not None
+    assert isinstance(result.draft, ModuleDraft)
     assert result.draft.document.entries[0].notes.tail == ["a\\x07b\\u2028c\\x85d"]
     assert [d.code for d in result.diagnostics] == ["RC5005"]
 

@@ -153,7 +153,7 @@ def test_what_is_set_on_a_flat_file_is_judged() -> None:
 
 def test_a_flat_file_is_part_of_what_was_read() -> None:
     analysis = analysed(files(", config: etc/config", **{"speech/etc/config": FLAT}))
-    assert analysis.contents["speech/etc/config"] == FLAT.encode()
+    assert analysis.disk.contents["speech/etc/config"] == FLAT.encode()
 
 
 @pytest.mark.parametrize(("how", "command"), [

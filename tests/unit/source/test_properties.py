@@ -43,3 +43,13 @@ def test_what_is_written_is_read_back(key: str, value: str) -> None:
 def test_what_cannot_be_written_is_refused(key: str, value: str) -> None:
     with pytest.raises(ValueError, match="property"):
         properties.entry_line(key, value)
+
+
+def test_lines_have_their_places() -> None:
+    text = "# c\n\n  a\\== x\\#y # one\nno entry # two\n\\#\n = 1\n"
+    lines = properties.read(text).lines
+    assert [(line.number, text[line.start : line.stop], text[line.stop : line.end]) for line in lines] == [
+        (1, "", "# c"), (3, "  a\\== x\\#y ", "# one"), (4, "no entry ", "# two"), (5, "\\#", ""), (6, " = 1", ""),
+    ]
+    assert [text[line.entry.at : line.stop] for line in lines if line.entry] == [" x\\#y "]
+    assert [line.number for line in lines if line.is_invalid] == [4, 5, 6]

@@ -1,0 +1,79 @@
+"""rcyaml as a library.
+
+    from robocomp_yaml import api
+
+    workspace = api.load("robot")
+    for diagnostic in workspace.check():
+        print(diagnostic)
+    plan = workspace.compile()
+    if not plan.has_errors:
+        plan.apply()
+
+What `__all__` names here, and its public attributes, keep their names and their meaning within a major version;
+docs/api.md says more. All else in `robocomp_yaml` may change at any time. The command line is made of this.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic, Related
+from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.span import Span
+
+if TYPE_CHECKING:
+    from robocomp_yaml.api.compiling import Compilation
+    from robocomp_yaml.api.migrating import Migration
+    from robocomp_yaml.api.outcome import File, Outcome
+    from robocomp_yaml.api.values import Change, Value, Values
+    from robocomp_yaml.api.workspace import Workspace
+    from robocomp_yaml.network.network import Network
+
+__all__ = [
+    "ERROR", "NOTE", "WARNING", "Change", "Compilation", "Diagnostic", "Faulty", "File", "Migration", "Network",
+    "Outcome", "Refused", "Related", "Span", "Value", "Values", "Workspace", "load", "migrate",
+]  # fmt: skip
+
+_HOMES = {
+    "Change": "api.values", "Compilation": "api.compiling", "File": "api.outcome", "Migration": "api.migrating",
+    "Network": "network.network", "Outcome": "api.outcome", "Value": "api.values", "Values": "api.values",
+    "Workspace": "api.workspace",
+}  # fmt: skip
+
+
+def load(
+    *paths: str, include: Iterable[str] = (), overlay: Mapping[str, bytes | str] | None = None,
+    on_read: Callable[[str], None] | None = None,
+) -> Workspace:  # fmt: skip
+    """Reads the documents at some paths, and all that belongs to them; a folder means all documents below it, and no
+    path the working folder. `include` are folders to look for imports in (`-I`). `overlay` has the texts of unsaved
+    documents by path: they count instead of what the disk has, be there such a file or not. `on_read` is told the
+    path of each document that is read.
+
+    Never raises for what documents say: `Workspace.check` tells what is wrong with them.
+    """
+    from robocomp_yaml.api.workspace import Workspace
+
+    texts = {path: text.encode() if isinstance(text, str) else text for path, text in (overlay or {}).items()}
+    return Workspace(paths or (".",), tuple(include), texts, on_read)
+
+
+def migrate(
+    *paths: str, output: str | None = None, include: Iterable[str] = (), force: bool = False, exact: bool = False
+) -> Migration:
+    """What carrying legacy files over to documents comes to: those at some paths, or all below a folder. Nothing is
+    written before `Migration.apply`. `output` is a folder to write below, else documents stand beside their sources;
+    `force` overwrites documents that were edited since; `exact` keeps blanks around the separators of lists."""
+    from robocomp_yaml.api.migrating import Migration
+
+    return Migration(paths, output, tuple(include), force=force, exact=exact)
+
+
+def __getattr__(name: str) -> Any:
+    """Types are imported when somebody asks for them: what a command does not need, it does not load."""
+    if name not in _HOMES:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    from importlib import import_module
+
+    return getattr(import_module(f"robocomp_yaml.{_HOMES[name]}"), name)

@@ -1,0 +1,66 @@
+"""Carrying legacy files over, as data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from robocomp_yaml.api.outcome import File
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.legacy import migration, outputs
+from robocomp_yaml.legacy.migration import Progress
+from robocomp_yaml.legacy.result import Migration as Run
+from robocomp_yaml.legacy.settings.plan import Guesses
+from robocomp_yaml.pipeline import search_folders
+
+_ACTIONS = {
+    outputs.CREATED: "create", outputs.CHANGED: "update", outputs.UPGRADED: "update", outputs.UNCHANGED: "unchanged",
+    outputs.EDITED: "kept", outputs.TAKEN: "refused", outputs.FAILED: "refused",
+}  # fmt: skip
+
+
+class Migration:
+    """What carrying legacy files over comes to. Nothing is written before `apply`, but that a folder in which an
+    earlier run was interrupted is put in order.
+
+    `run` is the whole of it, for the command line alone.
+    """
+
+    def __init__(
+        self, paths: Sequence[str], output: str | None, include: Sequence[str], *, force: bool = False,
+        exact: bool = False, guesses: Guesses = Guesses(), progress: Progress = iter,
+    ) -> None:  # fmt: skip
+        self._include = tuple(include)
+        self.run: Run = migration.migrate(
+            paths, output, search_folders(self._include), force=force, progress=progress, guesses=guesses, exact=exact
+        )
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """All that is to be said of the legacy files; after `apply` also what `check` says of the documents."""
+        return self.run.diagnostics
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether a file was refused, or could not be written."""
+        return self.run.failed
+
+    @property
+    def files(self) -> tuple[File, ...]:
+        """The documents, each with what becomes of it and a unified diff."""
+        return tuple(
+            File(root.root.path, path, _ACTIONS[output.state], diff=output.diff(path))
+            for root in self.run.roots.values()
+            for output in root.outputs
+            for path in [root.root.shown(output.path)]
+        )
+
+    @property
+    def lost(self) -> int:
+        """How many lines of the sources no document says."""
+        return sum(entry.lines()["lost"] for entry in self.run.entries)
+
+    def apply(self) -> None:
+        """Writes the documents, and looks at what was written as `check` does. Files that were edited since stay; what
+        could not be written is told by `diagnostics`."""
+        self.run.write()
+        migration.look_back(self.run, self._include)

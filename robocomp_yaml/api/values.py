@@ -1,0 +1,263 @@
+"""The values of a component's parameters: read, looked at, changed and exported without a build and without a robot."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import msgspec
+from msgspec.structs import replace
+
+from robocomp_yaml.api import which
+from robocomp_yaml.check.pdsl import values as check
+from robocomp_yaml.diag.codes import files as file_codes
+from robocomp_yaml.diag.codes import values as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
+from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.program import LinkedParameters, LinkedValues
+from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type, is_secret, leaves
+from robocomp_yaml.pipeline import Analysis, analyse
+from robocomp_yaml.secrets import HIDDEN, hidden_lines
+from robocomp_yaml.source import text as source_text
+from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.tree import Mapping as Tree
+from robocomp_yaml.source.tree import Node, Scalar, parse
+from robocomp_yaml.source.tree import Sequence as List
+from robocomp_yaml.transactions import whole_file
+from robocomp_yaml.transactions.changes import unified
+from robocomp_yaml.values import paths, show
+from robocomp_yaml.values.edit import NotEditable
+from robocomp_yaml.values.edit import set_value as edit
+from robocomp_yaml.values.effective import Effective, effective
+from robocomp_yaml.values.hidden import hidden
+from robocomp_yaml.values.judge import judge
+from robocomp_yaml.values.new import lines_above
+from robocomp_yaml.values.paths import Step
+from robocomp_yaml.values.show import Shown as Value
+
+# As `rcyaml config get` prints them.
+_REFERENCE = re.compile(r"\{ *(?:env *: *[A-Za-z_][A-Za-z0-9_]*|file *: *[^{}]*[^{} /]) *\}", re.ASCII)
+
+
+class Change(msgspec.Struct, frozen=True):
+    """A change of one value: nothing is written before `apply`. `value` and `was` are as documents spell them, with
+    secrets hidden; `was` is '' where nothing stood there."""
+
+    file: str
+    path: str
+    value: str
+    was: str
+    before: bytes
+    after: bytes
+
+    def diff(self) -> str:
+        """A unified diff of the document."""
+        old, new = (text.decode("utf-8", "surrogateescape") for text in (self.before, self.after))
+        return unified("".join(hidden_lines(old)), "".join(hidden_lines(new)), f"a/{self.file}", f"b/{self.file}")
+
+    def apply(self) -> None:
+        """Writes the document, whole or not at all. Raises Refused where it cannot be written."""
+        try:
+            whole_file.replace(self.file, self.after)
+        except OSError as error:
+            raise Refused(f"{self.file} cannot be written: {(error.strerror or str(error)).lower()}") from None
+
+
+class Values:
+    """A values document with its layers, its parameters and all that is wrong with them.
+
+    `file` is its path, `diagnostics` what is wrong, sorted by place. What needs the effective values raises Faulty
+    where errors leave none.
+    """
+
+    def __init__(self, file: str, include: Sequence[str] = (), overlay: Mapping[str, bytes] | None = None) -> None:
+        self.file = file
+        self._include, self._overlay = tuple(include), dict(overlay or {})
+        self._analysis: Analysis = analyse((file,), self._include, overlay=self._overlay)
+        self.documents_read: int = self._analysis.program.documents
+        self._linked: LinkedValues | None = self._analysis.program.values.get(os.path.realpath(file))
+        if self._linked is None and not has_errors(self._analysis.diagnostics):
+            raise Refused(f"{file} is no values document: it is called config.yaml (in etc/, beside a component) "
+                          "or NAME.config.yaml")  # fmt: skip
+        self.diagnostics: tuple[Diagnostic, ...] = tuple(self._told())
+
+    def _told(self) -> list[Diagnostic]:
+        told, linked = list(self._analysis.diagnostics), self._linked
+        if linked is not None:
+            # The component's own values document is read with it; what is wrong there is none of this one's business.
+            ours = {layer.document.path for layer in linked.layers()}
+            others = {one.document.path for one in self._analysis.program.values.values()} - ours
+            told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
+            if linked.parameters is not None and check.is_only_layer(linked):
+                told += check.of_document(linked, complete=True)
+        return in_order(self._analysis.veiled(told))
+
+    @property
+    def _parameters(self) -> LinkedParameters:
+        """Raises Faulty where it cannot be known whose values these are."""
+        if self._linked is None or self._linked.parameters is None:
+            raise Faulty(self.diagnostics or [codes.NO_COMPONENT.at(Span(self.file)).as_severity("error")],
+                         self.documents_read)  # fmt: skip
+        return self._linked.parameters
+
+    @property
+    def _effective(self) -> Effective:
+        """The effective values, completed from all layers and defaults. Raises Faulty."""
+        if has_errors(self.diagnostics):
+            raise Faulty(self.diagnostics, self.documents_read)
+        if self._linked is None or self._linked.parameters is None:
+            raise Faulty([codes.NO_COMPONENT.at(Span(self.file)).as_severity("error")], self.documents_read)
+        values, found = effective(self._linked)
+        if values is None:  # what is wrong is no error in this workspace, and leaves nothing to show all the same
+            problem = "the values cannot be completed: `rcyaml check` says what is wrong with their parameters"
+            told = [*found, file_codes.WRONG_SHAPE.at(Span(self.file), problem=problem)]
+            raise Faulty(told, self.documents_read)
+        return values
+
+    def rows(self, *, reveal: bool = False) -> list[Value]:
+        """Every effective value with where it is given; secrets are hidden unless `reveal`. Raises Faulty."""
+        return list(show.shown(self._effective, reveal=reveal))
+
+    def get(self, path: str, *, reveal: bool = False) -> Any:
+        """The effective value at a path such as `motors[0].vel`, as plain data; None where it has none. A secret is
+        hidden unless `reveal`. Raises Faulty, and Refused where there is no such parameter."""
+        values = self._effective
+        steps, _ = _steps(path, values.parameters.root)
+        found = show.find(values, steps)
+        if found is None:
+            return None
+        return found[0] if reveal else show.hidden_at(values.parameters.root, steps, found[0])
+
+    def export(self, form: str = "ice", *, reveal: bool = True) -> str:
+        """All effective values as a property file for Ice (`ice`) or as TOML (`toml`). Programs get the values as they
+        are; with `reveal` off secrets are hidden. Raises Faulty."""
+        values = self._effective
+        assert self._linked is not None
+        if form == "toml":
+            from robocomp_yaml.emit.toml_text import toml_text
+
+            if reveal:
+                return toml_text(self._linked, values)
+            shown = replace(values, data=hidden(values.parameters.root, values.data))
+            return "".join(hidden_lines(toml_text(self._linked, shown)))
+        from robocomp_yaml.values.properties import properties
+        from robocomp_yaml.values.property_text import property_text
+
+        sections, _ = properties(self._linked, values)
+        component = self._parameters.component
+        name = component.component.name if component else "the component"
+        for section in () if reveal else sections:
+            section.properties = [made.hidden() for made in section.properties]
+        return property_text(sections, name, os.path.basename(self.file))
+
+    def set(self, path: str, value: str) -> Change:
+        """The document with another value at a path, as a change to be applied; all else in it stays, byte for byte.
+        Text needs no quotes; `null` returns to the default. Raises Refused where there is no such parameter or it
+        cannot be set there, and Faulty where its type or limits refuse the value, or the document would have more
+        errors than before."""
+        parameters = self._parameters
+        if parameters.broken or self._linked is None:
+            raise Faulty(self.diagnostics or [codes.NO_COMPONENT.at(Span(self.file)).as_severity("error")],
+                         self.documents_read)  # fmt: skip
+        of = parameters.parameters.root
+        named, type_ = _steps(path, of)
+        steps = show.typed(of, named)
+        is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
+        is_text = is_text and not _REFERENCE.fullmatch(value)
+        raw = self._analysis.disk.read(self.file)[0]
+        text = source_text.decode(self.file, raw)[0] if raw is not None else None
+        assert raw is not None and text is not None  # it was read before
+        root = self._linked.document.root
+        self._refuse_bad(type_, steps, value, _place_of(root, ["parameters", *steps]), is_text=is_text)
+        try:
+            change = edit(
+                self.file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null",
+                lines_above=lambda way: lines_above(of, way[1:]),
+            )
+        except NotEditable as refused:
+            raise Refused(f"{path} cannot be set in {self.file}:{refused.node.span.line}: {refused}") from None
+        bom = raw[:3] if raw.startswith(b"\xef\xbb\xbf") else b""
+        changed = bom + change.text.encode()
+        self._refuse_worse(changed)
+        said, was = (show.hidden_text(of, named, text) for text in (value, change.was))
+        return Change(self.file, path, said, was, raw, changed)
+
+    def _refuse_worse(self, changed: bytes) -> None:
+        after = Values(self.file, self._include, {**self._overlay, os.path.realpath(self.file): changed})
+        before = {(d.code, d.facts) for d in self.diagnostics}
+        worse = [d for d in after.diagnostics if d.severity == "error" and (d.code, d.facts) not in before]
+        if worse:
+            raise Faulty(worse, after.documents_read)
+
+    def _refuse_bad(self, type_: Type, steps: Sequence[Step], value: str, span: Span, *, is_text: bool) -> None:
+        """A value that its type or limits refuse, shown at the place where it was to go."""
+        if value == "null":
+            return
+        node, faults = parse(self.file, json.dumps(value) if is_text else value)
+        if node is None:
+            reason = faults[0].message if faults else "it is empty"
+            said = f"'{value}'" if not is_secret(type_) else HIDDEN
+            found = [file_codes.WRONG_SHAPE.at(span, problem=f"{said} is no value: {reason}")]
+        else:
+            found = [replace(fault, span=span, fixes=()) for fault in judge(type_, node, tuple(steps), complete=False)]
+        if found:
+            raise Faulty(self._analysis.veiled(found), 1)
+
+
+def write_new(file: str, include: Sequence[str] = ()) -> Path:
+    """Writes a first values document: `file` is that document, or what `which.component` knows a component by. Values
+    and connections of the component's `etc/config` are taken over. Raises Refused and Faulty."""
+    is_values = kind_of(file) == "config" or file.endswith(".config.yaml") or os.path.basename(file) == "config.yaml"
+    target = Path(file) if is_values else None
+    if target is not None and os.path.lexists(target):
+        raise Refused(f"{target} is there already, and stays as it is")
+    component = which.component(file) if target is None else which.component_near(file)
+    target = target or Path(component).parent / which.VALUES
+    if os.path.lexists(target):
+        raise Refused(f"{target} is there already, and stays as it is")
+    analysis = analyse((component,), include)
+    real = os.path.realpath(component)
+    program = analysis.program
+    linked = program.components[real].parameters if real in program.components else program.parameters.get(real)
+    if linked is None or linked.broken or has_errors(analysis.diagnostics):
+        raise Faulty(analysis.diagnostics, program.documents)
+    from robocomp_yaml.api.neighbours import ports
+    from robocomp_yaml.emit.first_values import first_values
+
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        whole_file.create(target, first_values(linked, component, str(target), ports(analysis)))
+    except OSError as error:
+        raise Refused(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
+    return target
+
+
+def _steps(path: str, root: RecordType) -> tuple[list[str], Type]:
+    steps = paths.parse(path)
+    type_ = show.type_at(root, steps) if steps else None
+    if steps is None or type_ is None:
+        meant = suggest(path, [name for name, _ in leaves(root)])
+        raise Refused(f"there is no parameter '{path}'" + (f"; did you mean '{meant}'?" if meant else ""))
+    return steps, type_
+
+
+def _place_of(root: Tree, steps: Sequence[Step]) -> Span:
+    """The place of a value, or of the nearest thing around it."""
+    node: Node = root
+    span = root.span
+    for step in steps:
+        if isinstance(node, Tree) and isinstance(step, str) and step in node.entries:
+            key, node = node.entries[step]
+            span = node.span if isinstance(node, Scalar) and node.lexeme else key.span
+        elif isinstance(node, List) and isinstance(step, int) and step < len(node.items):
+            node = node.items[step]
+            span = node.span
+        else:
+            break
+    return span

@@ -1,0 +1,134 @@
+"""Documents that belong together, read once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
+from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.pipeline import Analysis, analyse
+
+if TYPE_CHECKING:
+    from robocomp_yaml.api.compiling import Compilation
+    from robocomp_yaml.api.fixing import Fixing
+    from robocomp_yaml.api.values import Values
+    from robocomp_yaml.network.network import Network
+
+
+class Workspace:
+    """Documents as they were when `api.load` read them: what changes on the disk later is not seen.
+
+    `documents` are the paths of those that were asked for; `documents_read` is how many were read, with those that
+    they import. `analysis` is for rcyaml itself, and no part of the promise.
+    """
+
+    def __init__(
+        self, paths: Sequence[str], include: Sequence[str], overlay: Mapping[str, bytes],
+        on_read: Callable[[str], None] | None = None,
+    ) -> None:  # fmt: skip
+        self._paths, self._include, self._overlay = tuple(paths), tuple(include), overlay
+        self.analysis: Analysis = analyse(self._paths, self._include, on_read or _ignore, overlay)
+
+    @property
+    def documents(self) -> tuple[str, ...]:
+        return tuple(self.analysis.found.documents)
+
+    @property
+    def documents_read(self) -> int:
+        return self.analysis.program.documents
+
+    def check(self, *, environment: bool = False) -> list[Diagnostic]:
+        """Everything that is wrong with the documents and with what belongs to them (the user's code, the flat
+        configurations, the programs of deployments), sorted by place. `environment` also looks for the libraries that
+        components name, for programs on PATH and for hosts."""
+        found = [*self._on_disk(environment), *(self._missing() if environment else ())]
+        told = self.analysis.with_more(found)
+        return in_order([*told, *self.analysis.allowed_in_vain(environment=environment)])
+
+    def compile(
+        self, *, output: str | None = None, targets: Sequence[str] = (), adopt: bool = False, merge: bool = False
+    ) -> Compilation:
+        """What compiling comes to; nothing is written before its `apply`. `output` is a folder to write below;
+        `targets` limits what is written (`slice`, `python`, `cpp`, `config`, `docs`); `adopt` takes over files that
+        rcyaml did not write, `merge` brings the user's files up to date."""
+        from robocomp_yaml.api.compiling import Compilation
+
+        return Compilation(
+            self.analysis, self._paths, self._include, output, targets, adopt=adopt, merge=merge
+        )
+
+    def fix(self, *, unsafe: bool = False, environment: bool = False) -> Fixing:
+        """What applying the fixes of diagnostics comes to: those that leave only one possible meaning, and with
+        `unsafe` guesses too. Nothing is written before its `apply`."""
+        from robocomp_yaml.api.fixing import Fixing
+
+        def load(changed: Mapping[str, bytes]) -> Workspace:
+            return Workspace(self._paths, self._include, {**self._overlay, **changed})
+
+        return Fixing(self, load, self._paths, unsafe=unsafe, environment=environment)
+
+    @property
+    def networks(self) -> dict[str, Network]:
+        """What the deployments come to, by the paths of their documents; those are left out whose errors leave no
+        network."""
+        documents = self.analysis.linker.documents.read
+        return {documents[real].path: network for real, network in self.analysis.networks.items()}
+
+    def network(self, path: str = "") -> Network:
+        """The network of the deployment at a path, or of the only one that no other one includes. Raises Refused where
+        there is none, or several; Faulty where its errors leave no network."""
+        program = self.analysis.program
+        wanted = {os.path.realpath(path)} if path else {
+            real for real, linked in program.deployments.items() if not linked.is_included
+        }
+        found = [network for real, network in self.analysis.networks.items() if real in wanted]
+        if len(found) == 1:
+            return found[0]
+        if found:
+            names = ", ".join(sorted(self.analysis.linker.documents.read[real].path for real in wanted))
+            raise Refused(f"there are several deployments, of which one is to be named: {names}")
+        if any(document.kind == "ddsl" for document in self.analysis.linker.documents.read.values()):
+            raise Faulty(self.analysis.diagnostics, self.documents_read)
+        raise Refused(f"there is no deployment at '{path}'" if path else "there is no deployment")
+
+    def values(self, path: str = "") -> Values:
+        """The values of a component's parameters: `path` is the document of the values or of the component, its
+        folder, the component's name, or nothing where there is only one. Raises Refused where there is none."""
+        from robocomp_yaml.api import which
+        from robocomp_yaml.api.values import Values
+
+        real = {os.path.realpath(known) for known in self._overlay}
+        document = path if os.path.realpath(path) in real else which.values(path)
+        return Values(document, self._include, self._overlay)
+
+    def _on_disk(self, environment: bool) -> Iterator[Diagnostic]:
+        """What files say that are no documents: each component's `etc/config` and code, and the executables of
+        deployments."""
+        analysis = self.analysis
+        if analysis.program.components:
+            from robocomp_yaml.emit import ports
+            from robocomp_yaml.emit.specific import written
+
+            yield from ports.clashes(analysis.program.components.values(), analysis.disk)
+            if written.has_code(analysis.program):
+                from robocomp_yaml.api import made_already
+
+                told = None if self._overlay else made_already.told_of_code(self._paths, self._include)
+                if told is None:
+                    told = written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
+                yield from told
+        if analysis.networks:
+            from robocomp_yaml.check.networks import of_environment
+
+            yield from of_environment(analysis.networks, analysis.program, environment=environment)
+
+    def _missing(self) -> Iterator[Diagnostic]:
+        from robocomp_yaml.emit.environment import missing
+
+        return missing(self.analysis.program.components.values(), self.analysis.linker.workspace_of)
+
+
+def _ignore(path: str) -> None:
+    """Nobody wants to be told of what is read."""

@@ -1,0 +1,97 @@
+"""What a workspace holds for editors: the schemas, each document's modeline, and VS Code's settings."""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+
+from robocomp_yaml import resources
+from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.source.json_comments import Unreadable, with_members
+from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions import whole_file
+
+FOLDER = ".rcyaml/schemas"
+SETTINGS = ".vscode/settings.json"
+GLOBS = {
+    "idsl": ["*.idsl.yaml", "idsl.yaml"],
+    "cdsl": ["*.cdsl.yaml", "cdsl.yaml"],
+    "pdsl": ["*.pdsl.yaml", "pdsl.yaml"],
+    "ddsl": ["*.ddsl.yaml", "ddsl.yaml"],
+    "config": ["*.config.yaml", "etc/config.yaml"],
+    "workspace": ["rcyaml.yaml"],
+}
+"""The file names of each kind, as VS Code's `yaml.schemas` takes them."""
+
+
+def schema_path(kind: str) -> str:
+    """Where the schema of a kind stands in a workspace."""
+    return f"{FOLDER}/{kind}.schema.json"
+
+
+def modeline(kind: str, document: Path, workspace: Path) -> str:
+    """The first line of a document, without its line end: it tells editors which schema to use."""
+    path = os.path.relpath(workspace / schema_path(kind), document.parent)
+    return f"# yaml-language-server: $schema={Path(path).as_posix()}"
+
+
+def install(folder: Path) -> list[Path]:
+    """Brings the editor's files of a workspace up to date; gives those that changed.
+
+    What the user has in VS Code's settings stays as it is, comments included; `settings_problem` says why nothing
+    could be added. Raises OSError where the folder cannot be written, or a link leads out of it.
+    """
+    for kind in GLOBS:
+        if not stays_inside(str(folder), schema_path(kind)):
+            raise OSError(errno.ELOOP, "a link leads out of the workspace", str(folder / schema_path(kind)))
+    changed = [
+        folder / schema_path(kind)
+        for kind in GLOBS
+        if _write(folder / schema_path(kind), resources.text(f"schemas/{kind}.schema.json"))
+    ]
+    try:
+        wired = _wired(folder)
+    except Unreadable:
+        return changed
+    return [*changed, folder / SETTINGS] if _write(folder / SETTINGS, wired) else changed
+
+
+def settings_problem(folder: Path) -> str:
+    """Why `install` leaves VS Code's settings as they are, or ''."""
+    try:
+        _wired(folder)
+    except Unreadable as error:
+        return f"{SETTINGS} is left as it is, since {error}: documents with a modeline are checked all the same"
+    return ""
+
+
+def _wired(folder: Path) -> str:
+    """The text of VS Code's settings with our schemas in `yaml.schemas`."""
+    settings = folder / SETTINGS
+    if settings.is_symlink():
+        raise Unreadable("it is a link")
+    if not stays_inside(str(folder), SETTINGS):
+        raise Unreadable("a link leads out of the workspace")
+    try:
+        with open(settings, encoding="utf-8", opener=regular) as file:
+            text = file.read()
+    except FileNotFoundError:
+        text = ""
+    except ValueError:
+        raise Unreadable("it is not UTF-8 text") from None
+    ours = {schema_path(kind): globs for kind, globs in GLOBS.items()}
+    return with_members(text if text.strip() else "{}\n", "yaml.schemas", ours)
+
+
+def _write(path: Path, text: str) -> bool:
+    """Writes a file whole or not at all, and only if that changes it."""
+    data = text.encode("utf-8")
+    try:
+        with open(path, "rb", opener=regular) as file:
+            if file.read() == data:
+                return False
+    except FileNotFoundError:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    whole_file.replace(path, data)
+    return True

@@ -1,0 +1,268 @@
+"""Many file changes as one: all of them happen, or none, even where the disk is full or the process is stopped."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import fcntl
+import itertools
+import os
+import time
+from collections.abc import Iterator, Sequence
+
+import msgspec
+
+from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.transactions import whole_file
+from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, PART, Journal, Mark, clean_up, load, put_back
+from robocomp_yaml.transactions.places import STATE, Root, contents, in_words
+from robocomp_yaml.transactions.plan import ANYBODY
+
+PATIENCE = 10.0
+"""Seconds to wait for another rcyaml that writes into the same root."""
+
+_NO_LINKS = (errno.EPERM, errno.EMLINK, errno.ENOSYS, errno.EOPNOTSUPP)
+
+
+class WriteFailed(Exception):
+    """Nothing was changed. `path` is relative to `root` ('' for the root itself)."""
+
+    def __init__(self, root: str, path: str, reason: str) -> None:
+        super().__init__(f"{root}/{path}: {reason}")
+        self.root, self.path, self.reason = root, path, reason
+
+
+class Step(msgspec.Struct, frozen=True):
+    """One file that changes: from `before` (None: nothing is there) to `after` (None: nothing shall be there).
+
+    `mode` are the permissions, where a file that stands there has some already; `rights` are what others than the owner
+    may have at most. `orig` is a name under which what stands there is kept.
+    """
+
+    path: str
+    before: bytes | None
+    after: bytes | None
+    executable: bool = False
+    mode: int | None = None
+    orig: str = ""
+    rights: int = ANYBODY
+
+
+class Batch(msgspec.Struct, frozen=True):
+    """The changes of one root (a folder without symlinks in its path)."""
+
+    root: str
+    steps: tuple[Step, ...]
+
+
+def carry_out(batches: Sequence[Batch]) -> None:
+    """Makes all the changes. Raises WriteFailed, with everything as it was, where one cannot be made."""
+    running = [_Commit(batch) for batch in sorted(batches, key=lambda batch: batch.root)]
+    _make_room_for_locks(len(running))
+    with contextlib.ExitStack() as locks:
+        busy: _Commit | None = None
+        try:
+            for busy in running:
+                busy.open(locks)
+            for phase in (_Commit.verify, _Commit.stage, _Commit.apply, _Commit.finish):
+                for busy in running:
+                    phase(busy)
+        except BaseException as error:
+            for commit in reversed(running):
+                commit.undo()
+            if busy and isinstance(error, OSError):
+                raise WriteFailed(busy.root, busy.at, in_words(error)) from error
+            raise
+        for commit in running:
+            # The new state counts already: a remnant that cannot be removed now is removed by the next run.
+            with contextlib.suppress(OSError):
+                clean_up(commit.root, commit.journal)
+
+
+def recover(root: str) -> bool:
+    """Puts a root in order that a dead commit left; whether something had to be put back."""
+    if not any(os.path.lexists(os.path.join(root, name)) for name in (JOURNAL, JOURNAL_DONE)):
+        return False
+    if not stays_inside(root, STATE):
+        return False
+    with locked(root):
+        journal, done = load(root)
+        if journal is None:
+            return False
+        if done:
+            clean_up(root, journal)
+        else:
+            put_back(root, journal)
+        return not done
+
+
+@contextlib.contextmanager
+def locked(root: str) -> Iterator[None]:
+    """Holds the root's lock, which is on its `.rcyaml` folder and goes with the process. Raises WriteFailed where
+    another process holds it for too long."""
+    folder = os.path.join(root, STATE)
+    until = time.monotonic() + PATIENCE
+    while True:
+        lock = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            if _acquire(lock) and os.path.exists(folder) and os.path.samestat(os.fstat(lock), os.stat(folder)):
+                yield
+                return
+        finally:
+            os.close(lock)
+        if time.monotonic() > until:
+            raise WriteFailed(root, "", "another rcyaml is writing there")
+        time.sleep(0.02)
+        # The one that held it may have removed the folder, as it found it.
+        os.makedirs(folder, exist_ok=True)
+
+
+def _acquire(lock: int) -> bool:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        # A file system without locks (some network ones): `verify` still finds what changed meanwhile.
+        return True
+    return True
+
+
+def _make_room_for_locks(count: int) -> None:
+    if count > 200:
+        import resource
+
+        soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, count + 200)), hard))
+
+
+_numbers = itertools.count()  # of all commits: two roots may have a folder in common
+
+
+class _Commit(msgspec.Struct):
+    """The commit of one batch, phase by phase. `at` is the path that it is busy with."""
+
+    batch: Batch
+    journal: Journal = Journal(())
+    at: str = ""
+    made: list[str] = []
+    under_way: bool = False
+
+    @property
+    def root(self) -> str:
+        return self.batch.root
+
+    def open(self, locks: contextlib.ExitStack) -> None:
+        if not stays_inside(self.root, STATE):
+            raise WriteFailed(self.root, STATE, "it is a link that leads out of its folder")
+        for folder in _missing_folders("/", os.path.join(self.root, STATE, "x").lstrip("/")):
+            os.makedirs("/" + folder, exist_ok=True)
+            self.made.append("/" + folder)
+        locks.enter_context(locked(self.root))
+
+    def verify(self) -> None:
+        """The disk is as it was when the changes were planned, and no folder has become a link that leads away."""
+        if load(self.root)[0] is not None:
+            raise WriteFailed(self.root, "", "another run was interrupted there meanwhile: run it again")
+        root = Root(self.root)
+        for step in self.batch.steps:
+            self.at = step.path
+            found = root.look(step.path)
+            if found.problem:
+                raise WriteFailed(self.root, step.path, found.problem)
+            if (found.data if found.exists else None) != step.before or (
+                step.orig and os.path.lexists(os.path.join(self.root, step.orig))
+            ):
+                raise WriteFailed(self.root, step.path, "it was changed while rcyaml was running: run it again")
+
+    def stage(self) -> None:
+        self.at = JOURNAL
+        folders: dict[str, None] = {}
+        for step in self.batch.steps:
+            if step.after is not None:
+                folders.update(dict.fromkeys(_missing_folders(self.root, step.path)))
+        marks = tuple(_mark(step, next(_numbers)) for step in self.batch.steps)
+        self.journal = Journal(marks, tuple(folders))
+        self.under_way = True
+        self.journal.save(self.root)
+        for folder in folders:
+            self.at = folder
+            os.mkdir(os.path.join(self.root, folder))
+        for step, mark in zip(self.batch.steps, marks, strict=True):
+            self.at = step.path
+            if step.after is not None:
+                default = limited(0o777 if step.executable else 0o666, step.rights)
+                mode = None if step.mode is None else limited(step.mode, step.rights)
+                whole_file.stage(os.path.join(self.root, mark.new), step.after, mode, default)
+            if mark.old:
+                _second_name(os.path.join(self.root, step.path), os.path.join(self.root, mark.old))
+
+    def apply(self) -> None:
+        for step, mark in zip(self.batch.steps, self.journal.marks, strict=True):
+            self.at = mark.path
+            target = os.path.join(self.root, mark.path)
+            if mark.orig:
+                orig = os.path.join(self.root, mark.orig)
+                _second_name(target, orig)
+                if step.rights != ANYBODY and not os.path.islink(orig):
+                    os.chmod(orig, limited(os.stat(orig).st_mode & 0o7777, step.rights))
+            if mark.new:
+                os.replace(os.path.join(self.root, mark.new), target)
+            elif mark.old:
+                os.unlink(target)
+
+    def finish(self) -> None:
+        self.at = JOURNAL
+        os.replace(os.path.join(self.root, JOURNAL), os.path.join(self.root, JOURNAL_DONE))
+
+    def undo(self) -> None:
+        """Where even this fails, the journal stays, and the next run tries again."""
+        with contextlib.suppress(OSError):
+            if self.under_way:
+                put_back(self.root, self.journal)
+            for folder in reversed(self.made):
+                os.rmdir(folder)
+
+
+def _missing_folders(root: str, path: str) -> list[str]:
+    """The folders of a path that are not there yet, outer ones first."""
+    parts = path.split("/")[:-1]
+    folders = ["/".join(parts[: n + 1]) for n in range(len(parts))]
+    return [folder for folder in folders if not os.path.isdir(os.path.join(root, folder))]
+
+
+def _mark(step: Step, number: int) -> Mark:
+    folder = step.path.rpartition("/")[0]
+    beside = f"{folder}/" if folder else ""
+    name = f"{beside}.rcyaml-{os.getpid()}-{number}"
+    return Mark(
+        step.path,
+        new=f"{name}.new" if step.after is not None else "",
+        old=f"{name}.old" if step.before is not None else "",
+        orig=step.orig,
+        hash=digest(step.after) if step.after is not None else "",
+        created=step.before is None,
+    )
+
+
+def limited(mode: int, rights: int) -> int:
+    """Permissions of which others keep no more than `rights`; who may not read may not run either."""
+    return mode & (0o7700 | rights | (rights & 0o044) >> 2)
+
+
+def _second_name(path: str, name: str) -> None:
+    """Keeps what stands at a path under another name too: a second link, or a copy where there are no links."""
+    try:
+        os.link(path, name, follow_symlinks=False)
+    except OSError as error:
+        if error.errno not in _NO_LINKS:
+            raise
+        if os.path.islink(path):
+            os.symlink(os.readlink(path), name)
+            return
+        status = os.stat(path)
+        whole_file.stage(name + PART, contents(path), status.st_mode & 0o7777)
+        os.utime(name + PART, ns=(status.st_atime_ns, status.st_mtime_ns))
+        # Whole or not at all: a second name is what puts the first one back.
+        os.rename(name + PART, name)

@@ -1,0 +1,226 @@
+"""The stamp of a whole run: what it read, found missing and left on the disk, so that the same run need not be made.
+
+A stamp is trusted only as far as contents go: every file of the user is hashed again, no time of change is looked
+at. Whatever cannot be made sure of makes a stamp stale, and a stale stamp costs nothing but the run. Little is
+imported, for this is what a run with nothing to do consists of.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import stat
+from collections.abc import Iterable, Iterator, Mapping
+
+import msgspec
+from msgspec.structs import asdict
+
+import robocomp_yaml
+from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.discover import documents_below
+from robocomp_yaml.source.disk import documents_in, names_in, state_of
+from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.source.regular import regular, whole
+from robocomp_yaml.transactions import whole_file
+
+FOLDER = ".rcyaml/stamps"
+_KEPT = 32
+_DATA = ("schemas", "templates", "migrate")
+
+
+class Stamp(msgspec.Struct, frozen=True):
+    """All paths are as the run used them, relative to its working folder or absolute.
+
+    `inputs`: of each file read, its real path and its digest with who may read it. `states` and `listed`: what else it
+    asked, as `source.disk.Disk` remembers it. `names`: all names in folders. `walked`: of each folder, what `walked`
+    finds below it. `outputs`: of each file written, its digest and who may read and run it. `present`: files whose
+    contents are the user's. `replay`: what the run had to say, in the caller's form.
+    """
+
+    tool: str
+    inputs: dict[str, tuple[str, str]]
+    states: dict[str, str]
+    listed: dict[str, list[str]]
+    names: dict[str, list[str]]
+    walked: dict[str, list[str]]
+    outputs: dict[str, tuple[str, str]]
+    present: list[str]
+    replay: dict[str, object]
+
+
+def key(arguments: Iterable[str]) -> str:
+    """What tells one kind of run from another: arguments, working folder and search path."""
+    return digest(json.dumps([list(arguments), os.getcwd(), os.environ.get("RCYAML_PATH", "")]).encode())
+
+
+def take(
+    *,
+    inputs: Mapping[str, bytes],
+    states: Mapping[str, str],
+    listed: Mapping[str, list[str]],
+    names: Mapping[str, list[str]],
+    walked: Mapping[str, list[str]],
+    outputs: Mapping[str, bytes],
+    present: Iterable[str],
+    replay: Mapping[str, object],
+) -> Stamp | None:
+    """The stamp of a run that is done; None where one of its files has gone already. `inputs` are the bytes that were
+    read, `outputs` those that were meant to be written: the disk may have changed since."""
+    real = _Real()
+    try:
+        return Stamp(
+            tool(),
+            {path: (real.path(path), f"{digest(data)} {_readers(os.stat(path)):o}") for path, data in inputs.items()},
+            dict(states),
+            dict(listed),
+            dict(names),
+            dict(walked),
+            {path: (digest(data), _may(os.lstat(path))) for path, data in outputs.items()},
+            sorted(present),
+            dict(replay),
+        )
+    except OSError:
+        return None
+
+
+def is_current(stamp: Stamp) -> bool:
+    """Whether the run would read, find and leave the same again."""
+    try:
+        return (
+            all(os.path.lexists(path) for path in stamp.present)
+            and reads_the_same(stamp)
+            and all(_is_as_written(path, *written) for path, written in stamp.outputs.items())
+        )
+    except (OSError, ValueError, TypeError):
+        return False
+
+
+def reads_the_same(stamp: Stamp) -> bool:
+    """Whether the run would read and find the same again, whatever became of what it left."""
+    real = _Real()
+    try:
+        return (
+            all(state_of(path) == state for path, state in stamp.states.items())
+            and all(documents_in(names_in(folder)) == found for folder, found in stamp.listed.items())
+            and all(names_in(folder) == found for folder, found in stamp.names.items())
+            and all(walked(folder) == found for folder, found in stamp.walked.items())
+            and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
+            and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
+            and stamp.tool == tool()
+        )
+    except (OSError, ValueError, TypeError):
+        return False
+
+
+def load(folder: str, name: str) -> Stamp | None:
+    """The stamp that a run with this key left below a folder, or None."""
+    try:
+        with open(_file(folder, name), "rb", opener=regular) as file:
+            return msgspec.convert(json.load(file), Stamp)
+    except (OSError, ValueError, RecursionError):
+        return None
+
+
+def save(folder: str, name: str, stamp: Stamp) -> None:
+    """Keeps a stamp. Where that cannot be done, the next run simply is made again."""
+    path = _file(folder, name)
+    if not stays_inside(folder or ".", os.path.join(FOLDER, f"{name}.json")):
+        return
+    with contextlib.suppress(OSError):
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        _ignored_by_git(os.path.dirname(path))
+        whole_file.put(path, json.dumps(asdict(stamp), separators=(",", ":")).encode())
+        _forget_old(os.path.dirname(path))
+
+
+def tool() -> str:
+    """What tells one rcyaml from another: its version, what its installer recorded (the hashes of all files, which tell
+    two builds of one version apart wherever they are), and size and times of each of its files, which tell what was
+    changed since, or in a checkout."""
+    package = os.path.dirname(os.path.abspath(robocomp_yaml.__file__))
+    place = os.path.dirname(package)
+    tops = [package]
+    if not os.path.isdir(os.path.join(package, "_data")):
+        tops += (os.path.join(place, name) for name in _DATA)
+    parts = [robocomp_yaml.__version__, *_records(place)]
+    for top in tops:
+        parts += sorted(_states(top, len(place)))
+    return digest("\n".join(parts).encode(errors="surrogateescape"))
+
+
+def _records(place: str) -> Iterator[str]:
+    """Beside an installed package stands its RECORD; beside a checkout, and where a distribution has none, nothing."""
+    for name in sorted(os.listdir(place)):
+        if name.startswith("rcyaml-") and name.endswith(".dist-info"):
+            with contextlib.suppress(OSError):
+                yield f"{name} {_state(os.path.join(place, name, 'RECORD'))}"
+
+
+def _states(folder: str, base: int) -> Iterator[str]:
+    """Each file below a folder, with its size and times; of paths, what is behind the first `base` characters. Where
+    installers give the files of two builds one date, the time at which the disk changed (ctime) tells them apart."""
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            if not entry.is_dir():
+                state = entry.stat()
+                yield f"{entry.path[base:]} {state.st_size} {state.st_mtime_ns} {state.st_ctime_ns}"
+            elif entry.name != "__pycache__":
+                yield from _states(entry.path, base)
+
+
+class _Real:
+    """Real paths; each folder is resolved once."""
+
+    def __init__(self) -> None:
+        self._folders: dict[str, str] = {}
+
+    def path(self, path: str) -> str:
+        if os.path.islink(path):
+            return os.path.realpath(path)
+        folder, name = os.path.split(path)
+        if folder not in self._folders:
+            self._folders[folder] = os.path.realpath(folder)
+        return os.path.join(self._folders[folder], name)
+
+
+def walked(folder: str) -> list[str]:
+    """The documents below a folder, and the folders below it that something was compiled to."""
+    roots: list[str] = []
+    return [*documents_below(folder, roots), *roots]
+
+
+def _is_as_written(path: str, hash_: str, may: str) -> bool:
+    if os.path.islink(path):
+        return False
+    data, status = whole(path)
+    return _may(status) == may and digest(data) == hash_
+
+
+def _may(status: os.stat_result) -> str:
+    return f"{_readers(status) | status.st_mode & stat.S_IXUSR:o}"
+
+
+def _readers(status: os.stat_result) -> int:
+    """Whether others than the owner may read it."""
+    return status.st_mode & (stat.S_IRGRP | stat.S_IROTH)
+
+
+def _state(path: str) -> str:
+    data, status = whole(path)
+    return f"{digest(data)} {_readers(status):o}"
+
+
+def _file(folder: str, name: str) -> str:
+    return os.path.join(folder, FOLDER, f"{name}.json")
+
+
+def _ignored_by_git(folder: str) -> None:
+    with contextlib.suppress(FileExistsError), open(os.path.join(folder, ".gitignore"), "x", encoding="utf-8") as file:
+        file.write("*\n")
+
+
+def _forget_old(folder: str) -> None:
+    stamps = [entry for entry in os.scandir(folder) if entry.name.endswith(".json")]
+    for entry in sorted(stamps, key=lambda entry: entry.stat().st_mtime, reverse=True)[_KEPT:]:
+        os.unlink(entry.path)

@@ -1,0 +1,56 @@
+"""A run of which nothing changed is not made again, whatever is wrong with its documents; any other is."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from pathlib import Path
+
+import pytest
+
+from conftest import write_tree
+from robocomp_yaml import api
+from robocomp_yaml.api import made_already
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.page import Files, Repeated
+
+# What cannot be read may become readable without any trace; whether programs are there is for `check` alone; of files
+# that a compile refuses to write, more is looked at than is remembered.
+NEVER = {"RC0001", "RC2010", "RC4403", "RC4404"}
+
+
+def _paths(row: Code) -> list[str]:
+    words = shlex.split(row.command)
+    return words[1:] if words[0] == "check" and not any(word[0] in "-*" for word in words) else []
+
+
+ROWS = [row for row in table().values() if _paths(row) and row.id not in NEVER]
+
+
+def _plain(files: Files) -> dict[str, str | bytes | None]:
+    return {name: str(it) if isinstance(it, Repeated) else it for name, it in files.items()}
+
+
+def _run(paths: list[str]) -> api.Outcome:
+    return api.load(*paths).compile().apply()
+
+
+def _told(outcome: api.Outcome) -> object:
+    return outcome.diagnostics, sorted((file.path, file.action) for file in outcome.files), outcome.left_out
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
+def test_documents_with_errors(row: Code, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(write_tree(tmp_path, _plain(row.wrong)))
+    paths = _paths(row)
+    _run(paths)
+    again = _run(paths)
+    kept = made_already.outcome(paths, ())
+    assert kept is not None, "every run is made again"
+    assert _told(kept) == _told(again)
+    for name in {*row.wrong} - {*row.right}:
+        if os.path.lexists(name):
+            os.unlink(name) if not os.path.isdir(name) or os.path.islink(name) else os.rmdir(name)
+    write_tree(tmp_path, {name: it for name, it in _plain(row.right).items() if row.wrong.get(name) != it})
+    assert made_already.outcome(paths, ()) is None, "an error stays though its cause has gone"

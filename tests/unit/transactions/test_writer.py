@@ -1,0 +1,223 @@
+"""The writer: what happens to each file, by what stands there, what the manifest knows and what is planned."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+import pytest
+from disk import actions, always, carry_out, codes, files, once, plan, tree
+
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.transactions import writer
+from robocomp_yaml.transactions.plan import FilePlan, Merge, Merges
+
+CONFIG = "etc/config"
+
+
+def stated(text: str) -> FilePlan:
+    """A property file of ours, which a document of the user says."""
+    return FilePlan(CONFIG, text, stated_in=f"{CONFIG}.yaml")
+
+
+def test_the_first_compile_writes_everything(tmp_path: Path) -> None:
+    changes, said = carry_out(plan(
+        tmp_path, always("generated/main.py", "1\n"), once("src/specific.py", "2\n"),
+        always("bin/Speech", "#!\n", executable=True),
+    ))
+    assert not said
+    assert changes.dirty
+    assert files(tmp_path) == {"generated/main.py": "1\n", "src/specific.py": "2\n", "bin/Speech": "#!\n"}
+    assert (tmp_path / ".rcyaml/base/src/specific.py").read_text() == "2\n"
+    assert not (tmp_path / ".rcyaml/base/generated").exists()
+    assert os.access(tmp_path / "bin/Speech", os.X_OK)
+    assert not (tmp_path / "src/specific.py").stat().st_mode & 0o111
+
+
+def test_the_second_compile_touches_nothing(tmp_path: Path) -> None:
+    planned = plan(tmp_path, always("generated/main.py", "1\n"), once("src/specific.py", "2\n"))
+    carry_out(planned)
+    before = {path: path.stat() for path in tmp_path.rglob("*")}
+    changes, said = carry_out(planned)
+    assert not said and not changes.dirty
+    assert actions(changes, tmp_path) == {"generated/main.py": "unchanged", "src/specific.py": "kept"}
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")} == {
+        path: status.st_mtime_ns for path, status in before.items()
+    }
+
+
+def test_only_what_changed_is_written(tmp_path: Path) -> None:
+    carry_out(plan(tmp_path, always("generated/a", "1\n"), always("generated/b", "1\n")))
+    old = (tmp_path / "generated/a").stat()
+    changes, _ = carry_out(plan(tmp_path, always("generated/a", "1\n"), always("generated/b", "2\n")))
+    assert actions(changes, tmp_path) == {"generated/a": "unchanged", "generated/b": "update"}
+    assert (tmp_path / "generated/a").stat() == old
+    assert (tmp_path / "generated/b").read_text() == "2\n"
+
+
+def test_an_edited_generated_file_is_kept_as_orig(tmp_path: Path) -> None:
+    planned = plan(tmp_path, always("generated/a", "1\n"))
+    carry_out(planned)
+    for number, name in enumerate(("a.orig", "a.orig.1", "a.orig.2")):
+        (tmp_path / "generated/a").write_text(f"mine {number}\n")
+        changes, said = carry_out(planned)
+        assert codes(said) == ["RC6004"]
+        assert [change.orig for change in changes] == [str(tmp_path / "generated" / name)]
+    assert files(tmp_path) == {
+        "generated/a": "1\n", "generated/a.orig": "mine 0\n", "generated/a.orig.1": "mine 1\n",
+        "generated/a.orig.2": "mine 2\n",
+    }
+
+
+def test_a_missing_file_is_written_again(tmp_path: Path) -> None:
+    planned = plan(tmp_path, always("generated/a", "1\n"), once("src/b", "2\n"))
+    carry_out(planned)
+    (tmp_path / "generated/a").unlink()
+    (tmp_path / "src/b").unlink()
+    carry_out(planned)
+    assert files(tmp_path) == {"generated/a": "1\n", "src/b": "2\n"}
+
+
+def test_a_once_file_is_never_touched(tmp_path: Path) -> None:
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src/mine").write_text("mine\n")
+    (tmp_path / "src/dangling").symlink_to("/nowhere/at/all")
+    (tmp_path / "src/away").symlink_to("/etc/hostname")
+    changes, said = carry_out(plan(tmp_path, *(once(f"src/{name}", "2\n") for name in ("mine", "dangling", "away"))))
+    assert not said
+    assert set(actions(changes, tmp_path).values()) == {"kept"}
+    assert tree(tmp_path / "src") == {"mine": "mine\n", "dangling": "-> /nowhere/at/all", "away": "-> /etc/hostname"}
+
+
+def test_a_file_of_someone_else_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text("mine\n")
+    planned = plan(tmp_path, always("CMakeLists.txt", "ours\n"), always("generated/a", "1\n"))
+    changes, said = carry_out(planned)
+    assert codes(said) == ["RC6001"] and "--adopt" in said[0].hint
+    assert files(tmp_path) == {"CMakeLists.txt": "mine\n"}, "nor is anything else of that root written"
+    assert not (tmp_path / ".rcyaml").exists()
+    assert changes.dirty
+    _, said = carry_out(planned, adopt=True)
+    assert not said
+    assert files(tmp_path) == {"CMakeLists.txt": "ours\n", "CMakeLists.txt.orig": "mine\n", "generated/a": "1\n"}
+
+
+def test_a_file_with_the_same_text_is_taken_over(tmp_path: Path) -> None:
+    """A fresh clone has the generated files, but maybe not the manifest."""
+    planned = plan(tmp_path, always("generated/a", "1\n"), once("src/b", "2\n"))
+    carry_out(planned)
+    state = tree(tmp_path / ".rcyaml")
+    for path in sorted((tmp_path / ".rcyaml").rglob("*"), reverse=True):
+        path.rmdir() if path.is_dir() else path.unlink()
+    changes, said = carry_out(planned)
+    assert not said and not changes.dirty
+    assert tree(tmp_path / ".rcyaml") == state
+
+
+@pytest.mark.parametrize(("mine", "taken"), [("b = 2\na=1 # mine\n", True), ("a=1\nb=3\n", False), (b"\xff", False)])
+def test_a_config_with_the_same_properties_is_adopted(tmp_path: Path, mine: str | bytes, *, taken: bool) -> None:
+    (tmp_path / "etc").mkdir()
+    mine = mine.encode() if isinstance(mine, str) else mine
+    (tmp_path / CONFIG).write_bytes(mine)
+    _, said = carry_out(plan(tmp_path, stated("a=1\nb=2\n")))
+    assert codes(said) == ([] if taken else ["RC6001"])
+    assert (tmp_path / CONFIG).read_bytes() == (b"a=1\nb=2\n" if taken else mine)
+    if taken:
+        assert (tmp_path / "etc/config.orig").read_bytes() == mine
+
+
+def test_a_once_file_that_becomes_ours(tmp_path: Path) -> None:
+    """`etc/config` does, when a values document appears: rewritten if nobody edited it, else it is the user's."""
+    carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
+    _, said = carry_out(plan(tmp_path, stated("a=2\n")))
+    assert not said and (tmp_path / CONFIG).read_text() == "a=2\n"
+    carry_out(plan(tmp_path, once(CONFIG, "a=3\n")))
+    (tmp_path / CONFIG).write_text("a=4\n")
+    _, said = carry_out(plan(tmp_path, stated("a=5\n")))
+    assert codes(said) == ["RC6010"] and (tmp_path / CONFIG).read_text() == "a=4\n"
+    assert f"bring a into {tmp_path / 'etc/config.yaml'};" in said[0].hint
+
+
+def merge(root: Path, text: str, skeleton: str) -> list[Diagnostic]:
+    """As `rcyaml compile --merge` does with one file."""
+    merges = Merges({(str(root), CONFIG): Merge((root / CONFIG).read_bytes(), text.encode(), skeleton.encode())})
+    prepared = writer.prepare([plan(root, once(CONFIG, skeleton))], merges=merges)
+    return list(writer.commit(prepared).diagnostics)
+
+
+def test_a_merged_file_that_nobody_edited_is_ours(tmp_path: Path) -> None:
+    carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
+    assert not merge(tmp_path, "a=1\n\nb=1\n", "a=9\nb=1\n")
+    assert not merge(tmp_path, "a=1\n\nb=1\n\nc=1\n", "a=9\nb=1\nc=1\n")
+    _, said = carry_out(plan(tmp_path, stated("z=0\n")))
+    assert not said and (tmp_path / CONFIG).read_text() == "z=0\n"
+    assert not list(tmp_path.rglob("*.orig"))
+
+
+@pytest.mark.parametrize("first", ["a=1\nmine=1\n", "a=1\n# mine\nmine=1\n"])
+def test_a_merge_does_not_make_the_users_lines_ours(tmp_path: Path, first: str) -> None:
+    carry_out(plan(tmp_path, once(CONFIG, "a=1\n")))
+    (tmp_path / CONFIG).write_text(first)
+    assert not merge(tmp_path, f"{first}\nb=1\n", "a=1\nb=1\n")
+    assert not merge(tmp_path, f"{first}\nb=1\n\nc=1\n", "a=1\nb=1\nc=1\n")
+    _, said = carry_out(plan(tmp_path, stated("a=1\nb=1\n")))
+    assert codes(said) == ["RC6010"] and "mine=1" in (tmp_path / CONFIG).read_text()
+    assert "bring mine into" in said[0].hint
+    _, said = carry_out(plan(tmp_path, stated("mine=1\nz=0\n")))
+    assert not said and "mine=1" in (tmp_path / "etc/config.orig").read_text()
+
+
+def test_a_lost_executable_bit_comes_back(tmp_path: Path) -> None:
+    planned = plan(tmp_path, always("bin/run", "#!\n", executable=True))
+    carry_out(planned)
+    (tmp_path / "bin/run").chmod(0o640)
+    carry_out(planned)
+    assert stat.S_IMODE((tmp_path / "bin/run").stat().st_mode) == 0o750
+
+
+def test_permissions_survive_an_update(tmp_path: Path) -> None:
+    carry_out(plan(tmp_path, always("a", "1\n")))
+    (tmp_path / "a").chmod(0o600)
+    carry_out(plan(tmp_path, always("a", "2\n")))
+    assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o600
+
+
+def test_dry_run_changes_nothing_and_shows_a_diff(tmp_path: Path) -> None:
+    carry_out(plan(tmp_path, always("a", "one\ntwo\n"), always("gone", "x")))
+    before = tree(tmp_path, state=True)
+    changes = writer.prepare([plan(tmp_path, always("a", "one\n2\n"), always("new", "n\n"))])
+    assert actions(changes, tmp_path) == {"a": "update", "gone": "remove", "new": "create"}
+    diffs = {os.path.basename(change.path): "".join(change.diff()) for change in changes}
+    assert diffs["a"].endswith("@@ -1,2 +1,2 @@\n one\n-two\n+2\n")
+    assert diffs["new"].startswith("--- /dev/null\n+++ b/") and diffs["new"].endswith("+n\n")
+    assert diffs["gone"].endswith("-x\n\\ No newline at end of file\n")
+    assert tree(tmp_path, state=True) == before
+
+
+def test_a_diff_of_properties_shows_no_secret(tmp_path: Path) -> None:
+    """However the line spells its key, and where it is commented out."""
+    old = "mail.password = hunter2 # old\n-- db.password=hunter3\nkeys=a\n"
+    new = "#mail.password=hunter4\nmy\\=password=hunter5#6\nkeys=b # plain\nmine=hunter7\n"
+    (tmp_path / CONFIG).parent.mkdir()
+    (tmp_path / CONFIG).write_text(old)
+    planned = FilePlan(CONFIG, new, secrets=("mine",))
+    (change,) = writer.prepare([plan(tmp_path, planned)], adopt=True)
+    diff = change.diff(properties=True)
+    assert "hunter" not in diff
+    assert {"-mail.password =***", "-keys=a", "+keys=b # plain", "+mine=***"} <= set(diff.splitlines())
+    assert "hunter2 # old" in change.diff()
+
+
+def test_the_bytes_do_not_depend_on_the_place(tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        carry_out(plan(tmp_path / name, always("b", "1\n"), once("a", "é\n")))
+    assert tree(tmp_path / "one", state=True) == tree(tmp_path / "two", state=True)
+
+
+def test_a_relative_root_is_shown_as_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "out").mkdir()
+    changes, _ = carry_out(plan(Path("out"), always("a/b", "1\n")))
+    assert [change.path for change in changes] == ["out/a/b"]
+    assert (tmp_path / "out/a/b").read_text() == "1\n"
