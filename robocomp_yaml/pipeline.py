@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.check import checks, secrets
+from robocomp_yaml.check.allowed import Allowed
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
-from robocomp_yaml.source.discover import Found, discover
+from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import spelled
 
@@ -37,14 +38,25 @@ class Analysis(msgspec.Struct):
     diagnostics: list[Diagnostic]
     disk: Disk
     networks: dict[str, Network] = {}
+    allowed: Allowed = msgspec.field(default_factory=Allowed)
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
-        return in_order([*self.diagnostics, *self.veiled(self.spelled(diagnostics))])
+        return in_order([*self.diagnostics, *self.told(diagnostics)])
 
-    def spelled(self, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-        """Diagnostics at the severities that the workspaces ask for, with fixes that say what to write."""
-        return spelled(_with_lint(diagnostics, self.linker), self.disk.contents)
+    def told(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+        """Diagnostics as users get them: without those that comments allow, and without secrets, at the severities
+        that the workspaces ask for, with fixes that say what to write."""
+        told = list(self.allowed.told(diagnostics, lambda file: self.linker.workspace_of(file).lint))
+        told += self.allowed.of_errors()
+        return self.veiled(spelled(_with_lint(told, self.linker), self.disk.contents))
+
+    def allowed_in_vain(self, *, environment: bool = False) -> list[Diagnostic]:
+        """What comments allow that nobody said, of the documents asked for; known once all is checked that there is."""
+        read = self.linker.documents.read
+        asked = [read[real].path for real in self.program.asked if real in read]
+        files = {*asked, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
+        return self.told(self.allowed.in_vain(sorted(files), environment=environment))
 
     def veiled(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics without the secrets that the documents hold."""
@@ -88,7 +100,8 @@ def analyse(
         said += more
     said += secrets.check(program, documents.read.values())
     analysis = Analysis(program, linker, found, [], disk, networks)
-    analysis.diagnostics = in_order(analysis.veiled(analysis.spelled(said)))
+    analysis.allowed = Allowed.of(disk.contents)
+    analysis.diagnostics = in_order(analysis.told([*said, *analysis.allowed.said]))
     return analysis
 
 

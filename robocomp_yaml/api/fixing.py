@@ -81,12 +81,15 @@ class Fixing:
         return tuple(write(self._paths, changed, look_only=look_only))
 
     def _look(self, changed: Mapping[str, bytes]) -> Look:
-        analysis = (self._load(changed) if changed else self._before).analysis
+        workspace = self._load(changed) if changed else self._before
+        analysis = workspace.analysis
         levels = {
             document.path: UNREADABLE if document.tree is None else MISSHAPEN if document.model is None else UNDERSTOOD
             for document in analysis.linker.documents.read.values()
         }
-        return Look(analysis.diagnostics, analysis.disk.contents, levels)
+        # Whether a comment allows something in vain is known once all is checked.
+        told = workspace.check(environment=self._environment) if analysis.allowed.by_file else analysis.diagnostics
+        return Look(told, analysis.disk.contents, levels)
 
 
 def _asked(analysis: Analysis) -> set[str]:

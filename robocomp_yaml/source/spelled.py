@@ -37,13 +37,14 @@ def spelled(diagnostics: Iterable[Diagnostic], contents: Mapping[str, bytes]) ->
         fixes = []
         for fix in told.fixes:
             for file in {edit.span.file for edit in fix.edits} - known.keys():
-                known[file] = _text_of(file, contents.get(file))
+                known[file] = text_of(file, contents.get(file))
             if made := _spelled(fix, known):
                 fixes.append(made)
         yield replace(told, fixes=tuple(dict.fromkeys(fixes)))
 
 
-def _text_of(file: str, raw: bytes | None) -> Text | None:
+def text_of(file: str, raw: bytes | None) -> Text | None:
+    """The text of a document's bytes; None where there is none."""
     try:
         return Text(file, raw.decode("utf-8-sig")) if raw is not None else None
     except UnicodeDecodeError:
@@ -71,6 +72,11 @@ class Text:
     @cached_property
     def _starts(self) -> list[int]:
         return [0, *(end.end() for end in _LINE_END.finditer(self.text))]
+
+    @property
+    def lines(self) -> list[str]:
+        """The lines without their ends."""
+        return _LINE_END.split(self.text)
 
     def index(self, line: int, column: int) -> int:
         """Of a place in the text; a place behind its end is the end."""

@@ -1,0 +1,161 @@
+"""Comments that allow a diagnostic where they stand, or in the line below: `# rcyaml: allow RC1234 -- reason`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import msgspec
+
+from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import Edit, Fix, Hint
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.source.spelled import Text
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+
+OURS = re.compile(rb"#[ \t]*rcyaml[ \t]*(?::|allow\b)")
+"""What no document has that has no such comment."""
+
+_COMMENT = re.compile(r"(?:(?<=[ \t])|(?<![^\r\n]))#[ \t]*rcyaml(?:[ \t]*:|(?=[ \t]*allow\b))[^\r\n]*")
+_PARTS = re.compile(r"#[ \t]*rcyaml(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?")
+_WORD = re.compile(r"[^\s,]+")
+_CODE = re.compile(r"RC\d{4}", re.IGNORECASE)
+_FORM = "write `# rcyaml: allow RC1234 -- reason`"
+_EMPTY_LINE = re.compile(r"[ \t]*(?:#.*|---[ \t]*(?:#.*)?|%.*)?")
+
+
+class Allowance(msgspec.Struct, frozen=True):
+    """One code that a comment allows, in lines from the first to the last; `whole` is the comment's place, and
+    `others` says whether it allows more codes."""
+
+    code: str
+    span: Span
+    first: int
+    last: int
+    whole: Span
+    others: bool = False
+
+    def covers(self, place: Span) -> bool:
+        return self.first <= place.line <= self.last
+
+    def removal(self, text: Text) -> Fix:
+        """Without it; the last code takes the comment with it."""
+        if not self.others:
+            start, end = (text.index(self.whole.line, at) for at in (self.whole.column, self.whole.end_column))
+            before = text.text[:start].rstrip(" \t")
+            is_alone = not before or before[-1] in "\r\n"
+            line_end = re.compile(r"\r\n|\r|\n|\Z").match(text.text, end) if is_alone else None
+            return Fix("remove it", (text.edit(len(before), line_end.end() if line_end else end, ""),))
+        start, end = (text.index(self.span.line, at) for at in (self.span.column, self.span.end_column))
+        gap = re.compile(r"[ \t]*,[ \t]*|[ \t]+(?!--)").match(text.text, end)
+        if gap is None:  # it is the last one
+            before = re.compile(r"[ \t,]*\Z").search(text.text[:start])
+            return Fix("remove it", (text.edit(before.start() if before else start, end, ""),))
+        return Fix("remove it", (text.edit(start, gap.end(), ""),))
+
+
+def allowances(text: Text) -> tuple[list[Allowance], list[Diagnostic]]:
+    """What the comments of a document allow, and what is wrong with them; nothing where it is no YAML."""
+    found: list[Allowance] = []
+    said: list[Diagnostic] = []
+    if text.tree is None:
+        return found, said
+    texts = [node for node in _nodes(text.tree) if _is_long(node)]
+    for comment in _COMMENT.finditer(text.text):
+        if any(node.start <= comment.start() < node.end for node in texts if isinstance(node, Scalar)):
+            continue
+        made, wrong = _read(text, comment)
+        first, last = _lines(text, comment, texts)
+        found += [Allowance(word, span, first, last, text.span(*comment.span()), len(made) > 1) for word, span in made]
+        said += wrong
+    return found, said
+
+
+def _read(text: Text, comment: re.Match[str]) -> tuple[list[tuple[str, Span]], list[Diagnostic]]:
+    """The codes that a comment names, each with its place, and what is wrong with it."""
+    whole = text.span(*comment.span())
+    parts = _PARTS.fullmatch(comment[0].rstrip())
+    assert parts is not None  # each of its parts may be empty
+    said: list[Diagnostic] = []
+    if parts["colon"] is None:
+        at = comment.start() + parts.start("verb")
+        colon = text.edit(comment.start() + comment[0].index("rcyaml") + len("rcyaml"), at, ": ")
+        said.append(codes.ALLOW_MALFORMED.at(
+            whole, problem="a ':' is missing behind `rcyaml`", hint=_FORM, fixes=[Fix("put it there", (colon,), True)]
+        ))
+    if parts["verb"] != "allow":
+        verb = text.span(comment.start() + parts.start("verb"), comment.start() + parts.end("verb"))
+        hint = Hint(_FORM, parts["verb"], "allow") if _CODE.search(parts["codes"]) and parts["verb"] else _FORM
+        fixes = [Fix("write 'allow'", (Edit(verb, "allow"),))] if isinstance(hint, Hint) else []
+        problem = f"`rcyaml: {parts['verb']}` means nothing" if parts["verb"] else "this comment says nothing to rcyaml"
+        return [], [*said, codes.ALLOW_MALFORMED.at(whole, problem=problem, hint=_FORM, fixes=fixes)]
+    made = []
+    for word in _WORD.finditer(parts["codes"]):
+        place = [comment.start() + parts.start("codes") + at for at in word.span()]
+        if _CODE.fullmatch(word[0]) is None:
+            before = Fix("put -- before it", (text.edit(place[0], place[0], "-- "),), True)
+            said.append(codes.ALLOW_MALFORMED.at(
+                text.span(*place), problem=f"'{word[0]}' is no code", hint="a reason stands behind `--`",
+                fixes=[before] if made and parts["reason"] is None else [],
+            ))
+            return (made if parts["colon"] else []), said
+        if word[0].upper() not in table():
+            said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint=_meant(word[0])))
+        elif parts["colon"]:
+            made.append((word[0].upper(), text.span(*place)))
+    if not made and not said:
+        said.append(codes.ALLOW_MALFORMED.at(whole, problem="no code is named that it allows", hint=_FORM))
+    elif made and not (parts["reason"] or "").strip():
+        listed = ", ".join(code for code, _ in made)
+        said.append(codes.ALLOW_NO_REASON.at(whole, codes=listed, hint="write it behind `--`"))
+    return made, said
+
+
+def _meant(code: str) -> str:
+    meant = suggest(code.upper(), table())
+    return f"did you mean '{meant}'? `rcyaml explain` lists them" if meant else "`rcyaml explain` lists them"
+
+
+def _lines(text: Text, comment: re.Match[str], texts: list[Node]) -> tuple[int, int]:
+    """The lines that a comment is about: its own, or that below, with all of the texts and brackets that begin there.
+    Above all else in a document, it is about the document, too, which is shown by its first line."""
+    lines = text.lines
+    here = text.span(*comment.span()).line
+    line, first = here, here
+    if not lines[here - 1].partition("#")[0].strip():
+        while line < len(lines) and _EMPTY_LINE.fullmatch(lines[line - 1]):
+            line += 1
+        is_head = all(_EMPTY_LINE.fullmatch(each) for each in lines[: here - 1])
+        first = 1 if is_head else here
+    last = max((_last_line(node) for node in texts if node.span.line == line), default=line)
+    ending = [node.span.line for node in texts if isinstance(node, Scalar) and _last_line(node) == here]
+    first = min(ending, default=first)
+    return first, max(line, last)
+
+
+def _last_line(node: Node) -> int:
+    """A text in a block ends where the next line begins."""
+    span = node.span
+    return span.end_line - 1 if span.end_column == 1 and span.end_line > span.line else span.end_line
+
+
+def _is_long(node: Node) -> bool:
+    """Whether it has several lines that are one: a text, or what stands in brackets."""
+    return (isinstance(node, Scalar) or bool(getattr(node, "is_flow", False))) and node.span.line < node.span.end_line
+
+
+def _nodes(root: Node) -> Iterator[Node]:
+    todo, seen = [root], set()
+    while todo:
+        node = todo.pop()
+        if id(node) in seen:
+            continue
+        seen.add(id(node))
+        yield node
+        if isinstance(node, Mapping):
+            todo += [part for pair in node.items() for part in pair]
+        elif isinstance(node, Sequence):
+            todo += node.items
