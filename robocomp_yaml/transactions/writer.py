@@ -106,7 +106,7 @@ class _Root:
         for path in sorted({*self.wanted.files, *self.old.files}):
             wanted, entry = self.wanted.files.get(path), self.old.files.get(path)
             if wanted is None:
-                self._unwanted(path, entry)
+                self._unwanted(path, self.old.files[path])
             elif wanted.plan.policy == ONCE:
                 self._once(wanted.plan, entry)
             else:
