@@ -11,8 +11,8 @@ import importlib
 import io
 import os
 import sys
-from contextlib import suppress
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import click

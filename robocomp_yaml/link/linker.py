@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable
 from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
 from types import ModuleType
 from typing import TYPE_CHECKING, cast
 
@@ -216,7 +217,7 @@ class Linker(msgspec.Struct):
             around.append(around[0])
             places = [
                 Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
-                for one, next_ in zip(around, around[1:], strict=False)
+                for one, next_ in pairwise(around)
             ]
             self.diagnostics.append(idsl.IMPORT_CYCLE.at(
                 places[0].span, cycle=" → ".join(module.stem for module in around), related=places[1:],

@@ -126,9 +126,8 @@ def _enum(key: Scalar, node: Mapping) -> Enum:
         for name, value in entries(node, "enum"):
             number = value.get("value") if isinstance(value, Mapping) else value
             given = number.data if number is not None else None
-            enumerators.append(
-                Enumerator(name.lexeme, int(given) if isinstance(given, int | float) else None, doc(value), span=name.span)
-            )
+            whole = int(given) if isinstance(given, int | float) else None
+            enumerators.append(Enumerator(name.lexeme, whole, doc(value), span=name.span))
     return Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span, list_span=_key_span(node, "enum"))
 
 

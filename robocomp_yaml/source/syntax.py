@@ -197,7 +197,7 @@ def _deep_place(path: str, text: str) -> Span:
 def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
     problem = " ".join(str(part) for part in (error.context, error.problem) if part)
     # Where a key or a quoted text begins says more than where the parser gave up on it.
-    begins = "expected ':'" in problem or "quoted scalar" in problem and "escape" not in problem
+    begins = "expected ':'" in problem or ("quoted scalar" in problem and "escape" not in problem)
     mark = (begins and error.context_mark) or error.problem_mark or error.context_mark
     line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
     span = Span(path, line, column, line, column + 1)

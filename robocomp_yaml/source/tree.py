@@ -38,7 +38,7 @@ _CORE_START = frozenset("0123456789+-.~nNtTfF")  # no other first character can 
 class Node:
     """A value with its place. `data` is the same value as plain Python data, all the way down."""
 
-    __slots__ = ("file", "_start", "_end", "data")
+    __slots__ = ("_end", "_start", "data", "file")
 
     def __init__(self, file: str, node: YamlNode, data: object) -> None:
         self.file, self._start, self._end, self.data = file, node.start_mark, node.end_mark, data
@@ -89,7 +89,7 @@ class Mapping(Node):
 
 
 class Sequence(Node):
-    __slots__ = ("items", "is_flow")
+    __slots__ = ("is_flow", "items")
 
     def __init__(self, file: str, node: SequenceNode, items: list[Node]) -> None:
         super().__init__(file, node, [item.data for item in items])

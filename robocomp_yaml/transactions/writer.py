@@ -177,7 +177,8 @@ class _Root:
         found = self.root.look(plan.path)
         text = plan.text.encode()
         if found.problem:
-            return self._refuse(plan.path, found)
+            self._refuse(plan.path, found)
+            return
         if not found.exists:
             self._write(plan, found, changes.CREATE)
         elif found.data == text:
