@@ -121,13 +121,16 @@ def _explain(
             problem = message or _in_words(kind.name, facts, node, place)
             span = key.span if forbidden and key else _span(node, key)
             yield codes.WRONG_SHAPE.at(
-                span, problem=problem, hint=_nearest(facts.get("options"), node), fixes=_fixes(kind.name, facts, node)
+                span, problem=problem, hint=_nearest(facts.get("options"), node),
+                fixes=_fixes(kind.name, facts, node, _subschema(whole, path[:-1])),
             )
 
 
-def _fixes(keyword: str, facts: dict[str, Any], node: Node) -> Iterable[Fix]:
+def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iterable[Fix]:
     """Quotes too many or too few, a single value for a list, and the second of two equal entries."""
     if keyword == "type" and isinstance(node, Scalar):
+        if isinstance(around, dict) and "pattern" in around and not re.search(around["pattern"], node.lexeme):
+            return ()  # it would be text, and the wrong one
         return retyped([type_ for type_ in facts["types"] if type_ != "null"], node.lexeme, node.data, node.span)
     if keyword == "uniqueItems" and isinstance(node, Sequence):
         return [removal(item.span) for at, item in enumerate(node.items) if item.data in node.data[:at]][:1]

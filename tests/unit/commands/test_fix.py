@@ -193,6 +193,41 @@ def test_a_guess_that_shows_more_than_can_be_mended_is_not_made(rcyaml: Run, tmp
     assert rcyaml("check", "--unsafe-fixes").exit_code == 0
 
 
+def test_one_error_hides_another(rcyaml: Run, tmp_path: Path) -> None:
+    """Of a text that is no YAML, only the first fault is seen."""
+    text = "module: M\ndoc: @home\nx-more: {a: 1}\nimports: [Laser, Laser]\nx-own: @there\nx-last:\n  - a\n  - `b`\n"
+    after = text.replace("@home", '"@home"').replace("@there", '"@there"').replace("`b`", '"`b`"')
+    files = {"Laser.idsl.yaml": LASER, IDSL: text}
+    assert fixed(rcyaml, tmp_path, files, IDSL) == after.replace("Laser, Laser", "Laser")
+
+
+def test_a_number_in_quotes_is_no_name(rcyaml: Run, tmp_path: Path) -> None:
+    text = "module: 42\ntypes: {A: {enum: [1]}}\n"
+    assert fixed(rcyaml, tmp_path, {IDSL: text}, IDSL, "--unsafe-fixes") == text
+
+
+def test_a_document_is_not_what_it_lacks_itself(rcyaml: Run, tmp_path: Path) -> None:
+    files = {
+        **BESIDE, "speech.pdsl.yaml": PDSL, "a.config.yaml": "component: speech.cdsl.yaml\nextends: [b.config.yaml]\n",
+        "robot.ddsl.yaml": "deployment: R\ngroups: {g: {include: robots.ddsl.yaml}}\n",
+    }
+    write_tree(tmp_path, files)
+    assert "did you mean" not in rcyaml("check").stdout
+
+
+def test_the_workspace_s_own_document(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = {"rcyaml.yaml": "Lint: {RC1104: off}\ninterface: [a]  # here\n", "a/Laser.idsl.yaml": LASER}
+    write_tree(tmp_path, files)
+    monkeypatch.chdir(tmp_path / "a")
+    rcyaml("check", "--unsafe-fixes", ".")
+    assert (tmp_path / "rcyaml.yaml").read_text() == files["rcyaml.yaml"]  # it was not asked for
+    monkeypatch.chdir(tmp_path)
+    rcyaml("check", "--fix")
+    assert (tmp_path / "rcyaml.yaml").read_text() == "lint: {RC1104: off}\ninterface: [a]  # here\n"
+    rcyaml("check", "--unsafe-fixes")
+    assert (tmp_path / "rcyaml.yaml").read_text() == "lint: {RC1104: off}\ninterfaces: [a]  # here\n"
+
+
 def test_a_guess_that_makes_errors_is_not_made(rcyaml: Run, tmp_path: Path) -> None:
     """With the import, the names of its module are known, and that two of them are not there."""
     files = {
