@@ -6,7 +6,7 @@ import msgspec
 
 from robocomp_yaml.diag.span import Span
 
-WORD, VALUE, REMOVE, QUOTE, UNQUOTE, LIST = "word", "value", "remove", "quote", "unquote", "list"
+WORD, VALUE, REMOVE, QUOTE, UNQUOTE, LIST, UNTAG = "word", "value", "remove", "quote", "unquote", "list", "untag"
 
 
 class Edit(msgspec.Struct, frozen=True):
@@ -16,6 +16,7 @@ class Edit(msgspec.Struct, frozen=True):
     (`source.spelled`). WORD: `word`, which stands at the place or in it, is to be `text`. VALUE: the value
     there is to be `text`, as YAML. REMOVE: the entry that begins
     there goes. QUOTE, UNQUOTE: the text that stands there gets quotes, or loses them. LIST: it becomes a list of one.
+    UNTAG: it loses its tag, and a text gets quotes instead.
     """
 
     span: Span

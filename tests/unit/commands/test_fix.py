@@ -56,6 +56,16 @@ SAFE = {
     "a key's case, quoted": (IDSL, "'MODULE': M\n", "'module': M\n"),
     "a language's case": (CDSL, "component: A\nlanguage: Python\n", "component: A\nlanguage: python\n"),
     "an entry said twice": (IDSL, "module: M\ndoc: x\ndoc: x # y\n", "module: M\ndoc: x\n# y\n"),
+    "a block said twice": (
+        IDSL, "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n  A:\n    struct:\n      x: int\n# end\n",
+        "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n# end\n",
+    ),
+    "in brackets": (IDSL, "module: M\nx-a: {b: 1, c: [2], b: 1}\n", "module: M\nx-a: {b: 1, c: [2]}\n"),
+    "without a value": (IDSL, "module: M\ntypes:\ntypes:\n", "module: M\ntypes:\n"),
+    "tags": (
+        IDSL, "module: !!str M\ndoc: !!str 5  # five\nx-a: !!map {b: &c !!int 5}\n",
+        'module: "M"\ndoc: "5"  # five\nx-a: {b: &c 5}\n',
+    ),
     "what every component does": (
         CDSL, HEAD + "imports: [CommonBehavior]\nimplements: [CommonBehavior]\n",
         HEAD + "imports: [CommonBehavior]\nimplements: []\n",
