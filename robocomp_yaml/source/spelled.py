@@ -14,11 +14,11 @@ from functools import cached_property
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.fix import LIST, QUOTE, UNQUOTE, UNTAG, VALUE, WORD, Edit, Fix
+from robocomp_yaml.diag.fix import IMPORT, LIST, QUOTE, UNQUOTE, UNTAG, VALUE, WORD, Edit, Fix
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as MappingNode
-from robocomp_yaml.source.tree import Node, Scalar, parse
+from robocomp_yaml.source.tree import Node, Scalar, end_of, parse
 from robocomp_yaml.source.tree import Sequence as SequenceNode
 
 _LINE_END = re.compile("\r\n|\r|\n")
@@ -109,6 +109,8 @@ class Text:
             return [self.edit(*self._inner(node), edit.text)] if node is not None else []
         if edit.how == UNTAG:
             return self._untagged(start, end)
+        if edit.how == IMPORT:
+            return self._importing(edit.text)
         return self._unquoted(start) if edit.how == UNQUOTE else self._without(start, end)
 
     def _word(self, start: int, end: int, word: str, meant: str) -> list[Edit]:
@@ -180,6 +182,37 @@ class Text:
             comma = re.compile(r"[ \t]*,[ \t]*").match(self.text, end)
             return [self.edit(start, comma.end() if comma else end, "")]
         return without_lines(self, start, end)
+
+    def _importing(self, name: str) -> list[Edit]:
+        """With one import more, behind the last one; without any, behind what the document says of itself."""
+        root = self.tree
+        if not isinstance(root, MappingNode) or root.is_flow or not root.entries:
+            return []
+        new = name if _is_text(name) else _quoted(name)
+        if (found := root.entries.get("imports")) is None:
+            head = root.entries.get("language") or next(iter(root.entries.values()))
+            at = self._end_of_line(max(end_of(head[1]), head[0].end + 1))
+            return [self.edit(at, at, f"{self._line_end}imports: [{new}]")]
+        value = found[1]
+        if isinstance(value, SequenceNode) and value.is_flow:
+            at = value.items[-1].end if value.items else value.start + 1
+            return [self.edit(at, at, f", {new}" if value.items else new)]
+        if isinstance(value, SequenceNode):
+            last = value.items[-1]
+            line = self.index(last.span.line, 1)
+            at = self._end_of_line(end_of(last))
+            is_plain = _ITEM.fullmatch(self.text[line : last.start]) and isinstance(last, Scalar)
+            return [self.edit(at, at, f"{self._line_end}{self.text[line:last.start]}{new}")] if is_plain else []
+        return []
+
+    @property
+    def _line_end(self) -> str:
+        found = _LINE_END.search(self.text)
+        return found[0] if found else "\n"
+
+    def _end_of_line(self, index: int) -> int:
+        rest = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?=[\r\n]|\Z)").match(self.text, index)
+        return rest.end() if rest else index
 
     def _without_entry(self, start: int, end: int) -> list[Edit]:
         """Without an entry of a mapping."""

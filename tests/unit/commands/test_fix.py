@@ -19,7 +19,7 @@ SPEECH = (
     "module: RoboCompSpeech\ntypes: {Mood: {enum: [calm, angry]}}\ninterfaces:\n  Speech:\n    methods:\n"
     "      say: {in: {text: string}}\n"
 )
-LASER = "module: RoboCompLaser\n"
+LASER = "module: RoboCompLaser\ntypes: {Scan: {sequence: float}}\n"
 HEAD = "component: SpeechComp\nlanguage: python\n"
 PDSL = (
     "component: speech.cdsl.yaml\nparameters:\n  speed: {type: float, default: 1}\n  name: {type: string, default: a}\n"
@@ -125,6 +125,21 @@ UNSAFE = {
     "with its module": (
         CDSL, HEAD + "imports: [Speech]\nrequires: [Speech.Speach]\n",
         HEAD + "imports: [Speech]\nrequires: [Speech.Speech]\n",
+    ),
+    "an import that is missing": (
+        CDSL, HEAD + "implements: [Speech]\n", HEAD + "imports: [Speech]\nimplements: [Speech]\n",
+    ),
+    "behind others": (
+        CDSL, HEAD.replace("python", "python  # ours") + "imports: [ Laser ]\nimplements: [Speech]\n",
+        HEAD.replace("python", "python  # ours") + "imports: [ Laser, Speech ]\nimplements: [Speech]\n",
+    ),
+    "on a line": (
+        CDSL, HEAD + "imports:\n- Laser  # first\n# then\nimplements: [Speech]\n",
+        HEAD + "imports:\n- Laser  # first\n- Speech\n# then\nimplements: [Speech]\n",
+    ),
+    "with a name": (
+        IDSL, "# M.\r\nmodule: M # m\r\ntypes: {A: {sequence: Scan}, B: {sequence: Laser.Scan}}",
+        "# M.\r\nmodule: M # m\r\nimports: [Laser]\r\ntypes: {A: {sequence: Laser.Scan}, B: {sequence: Laser.Scan}}",
     ),
     "an import": (CDSL, HEAD + "imports: [Speach]\n", HEAD + "imports: [Speech]\n"),
     "a key": (IDSL, "modul: M\n", "module: M\n"),
