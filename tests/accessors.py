@@ -7,9 +7,8 @@ from types import ModuleType
 from typing import Any
 from unittest import mock
 
-from conftest import ROOT
-
-from robocomp_yaml.emit.targets import python_parameters
+from robocomp_yaml.languages import language
+from robocomp_yaml.languages.python import parameters as python_parameters
 from robocomp_yaml.model.parameters import Parameters
 
 _LAST: list[Any] = []  # the parameters and the module that were asked for last
@@ -21,7 +20,7 @@ def python(parameters: Parameters) -> ModuleType:
         return _LAST[1]
     if "generated" not in sys.modules:
         package = ModuleType("generated")
-        package.__path__ = [str(ROOT / "templates" / "python")]
+        package.__path__ = [str(language("python").templates)]
         sys.modules["generated"] = package
     made = ModuleType("generated.parameters")
     text = python_parameters.text(parameters, "Component", "x.pdsl.yaml")

@@ -43,7 +43,7 @@ ICE_FILES = 250  # that a compiler is called for
 # Whether some Python would run a component: asked of the rule that every component has.
 ASK_FOR_ICE = f"""\
 import sys
-sys.path.insert(0, {str(ROOT / "templates" / "python" / "runtime")!r})
+sys.path.insert(0, {str(ROOT / "robocomp_yaml" / "languages" / "python" / "templates" / "runtime")!r})
 import interpreter
 try:
     interpreter.settle({str(ROOT)!r}, ["-c", sys.argv[1], sys.argv[1]])

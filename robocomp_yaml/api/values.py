@@ -41,8 +41,8 @@ from robocomp_yaml.values.new import lines_above
 from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.show import Shown as Value
 
-# As `rcyaml config get` prints them.
-_REFERENCE = re.compile(r"\{ *(?:env *: *[A-Za-z_][A-Za-z0-9_]*|file *: *[^{}]*[^{} /]) *\}", re.ASCII)
+# As `rcyaml config get` prints them; one that cannot be followed is refused, and no text that happens to look so.
+_REFERENCE = re.compile(r"\{ *(?:env|file) *:.*\}", re.DOTALL)
 
 
 class Change(msgspec.Struct, frozen=True):

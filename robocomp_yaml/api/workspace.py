@@ -89,7 +89,8 @@ class Workspace:
         if found:
             names = ", ".join(sorted(self.analysis.linker.documents.read[real].path for real in wanted))
             raise Refused(f"there are several deployments, of which one is to be named: {names}")
-        if any(document.kind == "ddsl" for document in self.analysis.linker.documents.read.values()):
+        read = self.analysis.linker.documents.read
+        if any(document.kind == "ddsl" and (not path or real in wanted) for real, document in read.items()):
             raise Faulty(self.analysis.diagnostics, self.documents_read)
         raise Refused(f"there is no deployment at '{path}'" if path else "there is no deployment")
 

@@ -1,6 +1,6 @@
 """What a schema cannot say: a folder for each kind of document, every module of which may have a
 `check(program) -> Iterator[Diagnostic]` (`ddsl`: `check(network)`, see `networks`). The checks of a kind are imported
-only where there are documents of it."""
+only where there are documents of it. What a language says of interfaces stands with the language."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import pkgutil
 from collections.abc import Callable, Iterator
 from types import ModuleType
 
+from robocomp_yaml import languages
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
 
@@ -35,4 +36,7 @@ def checks(program: Program) -> list[Check]:
         "machine": any(linked.machine for linked in program.components.values()),
         "pdsl": program.parameters or program.values,
     }
-    return [check for kind, documents in kinds.items() if documents for check in checks_of(kind)]
+    found = [check for kind, documents in kinds.items() if documents for check in checks_of(kind)]
+    if program.modules:
+        found += [one.part("checks").check for one in languages.table().values() if one.has_checks]
+    return found

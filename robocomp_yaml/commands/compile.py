@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import click
 
+from robocomp_yaml import languages
 from robocomp_yaml.commands import _fail_on, _options
 
 
 @click.command(short_help="Write Slice and components; only what changed.")
 @_options.paths
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR.")
-@click.option("--target", "targets", multiple=True, type=click.Choice(["slice", "python", "cpp", "config", "docs"]),
+@click.option("--target", "targets", multiple=True, type=click.Choice(["slice", *languages.table(), "config", "docs"]),
               help="Write only this; may be repeated.")
 @click.option("--dry-run", is_flag=True, help="Say what would be written, and write nothing.")
 @click.option("--diff", is_flag=True, help="Show what would change in each file, and write nothing.")

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from robocomp_yaml import languages
 from robocomp_yaml.commands import _workspace
 from robocomp_yaml.diag import terminal
 
@@ -29,7 +30,8 @@ def command(ctx: click.Context, folder: Path, bare: bool) -> None:
         _workspace.make(ctx, folder)
         if empty and not bare:
             new.write(ctx, new.interface_document(folder, EXAMPLE))
-            new.write(ctx, new.component_document(folder, f"{EXAMPLE}Comp", "python", {"implements": [EXAMPLE]}))
+            example = {"implements": [EXAMPLE]}
+            new.write(ctx, new.component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example))
     except OSError as error:
         raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:

@@ -16,6 +16,7 @@ from typing import Any
 import click
 import msgspec
 
+from robocomp_yaml import languages
 from robocomp_yaml.commands import _options, _workspace
 from robocomp_yaml.commands._command import Group
 from robocomp_yaml.diag import terminal
@@ -80,7 +81,8 @@ def _uses(name: str, meaning: str) -> Callable[[Any], Any]:
 
 @command.command(short_help="A new component document.")
 @click.argument("name")
-@click.option("--language", type=click.Choice(["python", "cpp"]), default="python", help="The language of its code.")
+@click.option("--language", type=click.Choice([*languages.table()]), default=languages.DEFAULT,
+              help="The language of its code.")
 @_uses("implements", "interfaces that it serves")
 @_uses("requires", "interfaces of others that it calls")
 @_uses("publishes", "topics that it publishes")
@@ -222,7 +224,7 @@ def _refuse_faulty(document: NewDocument, name: str) -> None:
 
 def _rows(language: str, imports: Sequence[str], uses: Mapping[str, Sequence[str]]) -> Iterator[str]:
     """The lines of a component document below its name; what it does not have stands there as a comment."""
-    yield _commented(f"language: {language}", "or {name: cpp, standard: 20}" if language == "cpp" else "or cpp")
+    yield _commented(f"language: {language}", f"or {_other(language)}")
     yield ""
     if imports:
         yield _commented(f"imports: [{', '.join(imports)}]", "the documents that define what is named below")
@@ -233,6 +235,14 @@ def _rows(language: str, imports: Sequence[str], uses: Mapping[str, Sequence[str
         yield _commented(f"{key}: [{', '.join(names)}]" if names else f"# {key}: [{example}]", meaning)
     yield ""
     yield _commented("# period: 100 ms", "how often compute() runs")
+
+
+def _other(language: str) -> str:
+    """What may stand there instead."""
+    standards = languages.language(language).standards
+    if len(standards) > 1:
+        return f"{{name: {language}, standard: {standards[1]}}}"
+    return languages.listed(name for name in languages.table() if name != language)
 
 
 def _commented(row: str, comment: str) -> str:

@@ -28,16 +28,26 @@ def _kinds(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
 @click.pass_context
 def command(ctx: click.Context, kind: str | None) -> None:
     """Print the JSON Schema of a KIND of document, or say which one applies to FILE; without either, list the kinds."""
-    from robocomp_yaml import resources
     from robocomp_yaml.link.workspace_files import GLOBS
+    from robocomp_yaml.source.schema_text import schema_text
 
     if kind is None:
-        for name, globs in GLOBS.items():
-            terminal.say(f"{name:<10} {', '.join(globs):<28} {resources.folder('schemas') / f'{name}.schema.json'}")
+        _list()
     elif kind in GLOBS:
-        terminal.data(resources.text(f"schemas/{kind}.schema.json"), json=True)
+        terminal.data(schema_text(kind), json=True)
     else:
         _tell(Path(kind))
+
+
+def _list() -> None:
+    """The kinds, and where this workspace keeps the schema of each."""
+    from robocomp_yaml.link.workspace import root_above
+    from robocomp_yaml.link.workspace_files import GLOBS, schema_path
+
+    root = root_above(".")
+    for name, globs in GLOBS.items():
+        installed = Path(root or ".") / schema_path(name)
+        terminal.say(f"{name:<10} {', '.join(globs):<28} {installed if installed.is_file() else ''}".rstrip())
 
 
 def _tell(document: Path) -> None:
@@ -89,7 +99,7 @@ def _named(document: Path) -> str | None:
 
 
 def _tell_whether_right(kind: str, path: Path, named: str, root: Path) -> None:
-    from robocomp_yaml import resources
+    from robocomp_yaml.source.schema_text import schema_text
 
     init = f"`{terminal.typed('rcyaml', 'init', str(root))}`"
 
@@ -97,5 +107,5 @@ def _tell_whether_right(kind: str, path: Path, named: str, root: Path) -> None:
         return
     if not path.is_file():
         terminal.say(f"that file is missing: {init} writes it again")
-    elif path.read_bytes() != resources.text(f"schemas/{kind}.schema.json").encode("utf-8"):
+    elif path.read_bytes() != schema_text(kind).encode("utf-8"):
         terminal.say(f"that file is not this version's schema: {init} writes it again")

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.emit.targets import slice as slice_target
+from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.source.regular import regular
@@ -31,7 +31,7 @@ def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
             yield deploying.OUTDATED.at(
                 instance.entry.span, name=instance.name, document=changed[0].module.path,
                 hint=f"`{typed('rcyaml', 'compile', component.component.path)}`" + (
-                    ", and build it again" if component.component.language.name == "cpp" else ""
+                    ", and build it again" if component.component.language.target.build else ""
                 ),
                 related=[Related("changed since", module.module.span) for module in changed],
             )  # fmt: skip

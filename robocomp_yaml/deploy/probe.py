@@ -14,7 +14,7 @@ from collections.abc import Sequence
 
 import msgspec
 
-from robocomp_yaml import resources
+from robocomp_yaml import languages, resources
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.network.network import Host, Network, Process
 
@@ -22,8 +22,11 @@ WITHIN = 60.0
 NODE = "the IceGrid node"
 """What is said to use `icegridnode`."""
 SCRIPT = "templates/probe/ask.sh"
-MODULES = ("templates/python/runtime/interpreter.py", "templates/probe/modules.py")
-"""What is told to each Python, as one text: which Python runs a component, and what the one at hand does not find."""
+
+
+def modules() -> str:
+    """What is told to each Python, as one text: which runs a component, and what the one at hand does not find."""
+    return languages.language("python").text("runtime/interpreter.py") + resources.text("templates/probe/modules.py")
 
 
 VARIABLE = "RCYAML_PYTHON"
@@ -82,7 +85,7 @@ def _python_of(process: Process, network: Network) -> str:
 
 async def probe(host: Host, wanted: dict[Wanted, tuple[str, ...]]) -> list[Found]:
     """Raises ProbeFailed."""
-    script = ["sh", "-c", resources.text(SCRIPT), "ask", "".join(map(resources.text, MODULES))]
+    script = ["sh", "-c", resources.text(SCRIPT), "ask", modules()]
     command = script if is_here(host.address) else _over_ssh(host, script)
     try:
         asked = await asyncio.create_subprocess_exec(

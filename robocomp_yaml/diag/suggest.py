@@ -20,6 +20,8 @@ def suggest(word: str, candidates: Iterable[str]) -> str | None:
     if near:
         return near[0]
     folded = {candidate.lower(): candidate for candidate in known}
+    if word == word.lower() and list(folded) == known:
+        return None  # which would look among the same once more
     near = get_close_matches(word.lower(), folded, n=1, cutoff=0.7)
     return folded[near[0]] if near else None
 

@@ -10,7 +10,6 @@ from robocomp_yaml.emit import config, parameter_files
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.ports import Ports, assign
-from robocomp_yaml.emit.targets import target
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.model.pdsl import ValuesDocument
@@ -34,7 +33,7 @@ def component_plan(
             common = resources.text("templates/slice/CommonBehavior.ice")
             files.append(FilePlan("slice/CommonBehavior.ice", common))
     if options.wants(component.language.name):
-        files += target(component.language.name).plan(linked)
+        files += component.language.target.part("plan").plan(linked)
         if component.sources or component.libraries:
             from robocomp_yaml.emit import uses
 

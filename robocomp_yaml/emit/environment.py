@@ -58,17 +58,17 @@ def missing(components: Iterable[LinkedComponent], workspace_of: Callable[[str],
     native = {
         (library.kind, library.name)
         for linked in wanted for library in linked.component.libraries
-        if library.kind in (CMAKE, LINK) and linked.component.language.name == "cpp"
+        if library.kind in (CMAKE, LINK) and library.kind in linked.component.language.target.has
     }  # fmt: skip
     looked = _Looked(_by_cmake(sorted(native)) if native else {})
     for linked in wanted:
         component = linked.component
-        is_built = component.language.name == "cpp"
+        has = component.language.target.has
         for library in component.libraries:
-            if is_built or library.kind == PIP:
+            if library.kind in has:
                 yield from _about(library, looked.ask(library))
         places = (os.path.dirname(component.path), workspace_of(component.path).root)
-        for source in component.sources if is_built else ():
+        for source in (source for source in component.sources if source.kind in has):
             befores = _CLASSES if source.is_class else ("",)
             paths = (os.path.join(place, before, source.path) for place in places for before in befores)
             if not any(map(os.path.isdir if source.is_class else os.path.isfile, paths)):

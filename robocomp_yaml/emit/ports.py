@@ -48,15 +48,15 @@ def adapters(linked: LinkedComponent) -> list[str]:
 def assign(components: Iterable[LinkedComponent], disk: Disk, values: Iterable[LinkedValues] = ()) -> Ports:
     """The ports of a workspace's components: those that their values give, those that stand in their `etc/config`,
     else defaults."""
-    given = {id(one.parameters.component): one for one in values if one.parameters and is_own(one)}
+    given = {one.parameters.component: one for one in values if one.parameters and is_own(one)}
     distinct = {document(linked): linked for linked in components}
     ordered = sorted(distinct.items(), key=lambda item: (item[1].component.name, item[0]))
     result = Ports()
     taken = set(RESERVED)
     for key, linked in ordered:
         texts = {name: entry.value for name, entry in _written(linked, disk)}
-        if id(linked) in given:  # which `compile` writes there
-            texts |= _given(given[id(linked)])
+        if linked in given:  # which `compile` writes there
+            texts |= _given(given[linked])
         for name, text in texts.items():
             endpoint = parse_endpoint(text)
             if endpoint:

@@ -13,15 +13,16 @@ from functools import cache
 from pathlib import Path
 
 import msgspec
-from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, FileSystemLoader, StrictUndefined
+from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, StrictUndefined
 from jinja2.bccache import Bucket
+from jinja2.loaders import ChoiceLoader, FileSystemLoader, PrefixLoader
 from msgspec.structs import asdict
 
-from robocomp_yaml import resources
+from robocomp_yaml import languages, resources
 
 
 def render(name: str, view: msgspec.Struct) -> str:
-    """The template `templates/NAME` filled in with the fields of `view`."""
+    """The template `templates/NAME`, or `LANGUAGE/NAME` of a language, filled in with the fields of `view`."""
     return _environment().get_template(name).render(asdict(view))
 
 
@@ -35,8 +36,9 @@ class _Cache(FileSystemBytecodeCache):
 
 @cache
 def _environment() -> Environment:
+    of_languages = {name: FileSystemLoader(one.templates) for name, one in languages.table().items()}
     return Environment(
-        loader=FileSystemLoader(resources.folder("templates")),
+        loader=ChoiceLoader([PrefixLoader(of_languages), FileSystemLoader(resources.folder("templates"))]),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

@@ -30,7 +30,7 @@ class _Place(msgspec.Struct, eq=False):
     notes: Notes
 
 
-class Placed(msgspec.Struct):
+class Placed(msgspec.Struct, frozen=True):
     """The notes of each construct, by its rule and its place, and those around the whole file."""
 
     by_place: dict[tuple[str, int, int], Notes] = {}

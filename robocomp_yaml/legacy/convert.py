@@ -11,7 +11,7 @@ from lark import Token, Tree
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
 from robocomp_yaml.legacy import comments, directives
-from robocomp_yaml.legacy.draft import Draft, Reader, plain
+from robocomp_yaml.legacy.draft import FileDraft, Reader, plain
 from robocomp_yaml.legacy.formats import by_name, recognize
 from robocomp_yaml.legacy.grammar import Parsed, marked, parse, words
 from robocomp_yaml.legacy.reading import Source, read
@@ -25,7 +25,7 @@ class Converted(msgspec.Struct, frozen=True):
     rules: Rules | None = None
     source: Source | None = None
     parsed: Parsed | None = None
-    draft: Draft | None = None
+    draft: FileDraft | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
@@ -47,7 +47,7 @@ def convert(path: str) -> Converted:
     return Converted(path, rules, source, parsed, draft, tuple(said))
 
 
-def _draft(parsed: Parsed, source: Source, rules: Rules, said: list[Diagnostic]) -> Draft | None:
+def _draft(parsed: Parsed, source: Source, rules: Rules, said: list[Diagnostic]) -> FileDraft | None:
     if parsed.tree is None:
         return None
     said += _review(parsed.tree, source, rules)
@@ -55,7 +55,7 @@ def _draft(parsed: Parsed, source: Source, rules: Rules, said: list[Diagnostic])
     said += placed.diagnostics
     reader = Reader(source, rules, parsed, placed)
     converter = importlib.import_module(f"robocomp_yaml.legacy.converters.{rules.converter}")
-    draft: Draft | None = converter.convert(reader)
+    draft: FileDraft | None = converter.convert(reader)
     said += reader.diagnostics
     marks = directives.review(parsed.trivia, source, rules)
     refused = has_errors([*said, *marks])

@@ -114,7 +114,7 @@ class MachineDraft(msgspec.Struct, frozen=True):
     text: str
 
 
-Draft = ModuleDraft | ComponentDraft | ParametersDraft | ValuesDraft | ConfigDraft | DeploymentDraft | MachineDraft
+FileDraft = ModuleDraft | ComponentDraft | ParametersDraft | ValuesDraft | ConfigDraft | DeploymentDraft | MachineDraft
 
 
 class Reader(msgspec.Struct, eq=False):

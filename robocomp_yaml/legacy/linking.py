@@ -17,7 +17,7 @@ from robocomp_yaml.source.discover import WORKSPACE_FILE
 INTERFACES = "idsl"
 
 
-class Neighbours(msgspec.Struct):
+class Neighbours(msgspec.Struct, frozen=True):
     """The interface files of a run by their stem, and where else a document may be found."""
 
     search: Search

@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from robocomp_yaml.check.idsl import cpp
+from robocomp_yaml import languages
 from robocomp_yaml.diag.codes import cdsl, idsl, machines, pdsl
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
@@ -178,11 +178,12 @@ def _with_heading(text: str, gap: str, modeline: str, kind: str) -> str:
 
 
 def _has_taken(text: str) -> bool:
-    """Whether a document of interfaces has names that C++ takes."""
+    """Whether a document of interfaces has names that some language takes."""
     tree, _ = parse("", text)
     if not isinstance(tree, Tree) or schema.validate("idsl", tree):
         return False
-    return cpp.has_taken(build(tree, ""))
+    module = build(tree, "")
+    return any(one.part("checks").has_taken(module) for one in languages.table().values() if one.has_checks)
 
 
 def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:

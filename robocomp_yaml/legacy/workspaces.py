@@ -18,7 +18,7 @@ from robocomp_yaml.link.workspace import Workspace, root_above
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
 
-class Workspaces(msgspec.Struct):
+class Workspaces(msgspec.Struct, frozen=True):
     """`new` are folders that will be workspaces after this run."""
 
     new: list[str] = []

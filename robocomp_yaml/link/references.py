@@ -32,11 +32,13 @@ KINDS: dict[type, str] = {
 
 
 class Name(msgspec.Struct, frozen=True):
-    """An identifier where it is introduced; `kind` in the user's words."""
+    """An identifier where it is introduced; `kind` in the user's words, and `owner` where it stands in something that
+    has no definition of its own."""
 
     kind: str
     text: str
     span: Span
+    owner: str = ""
 
 
 def kind_of(definition: Definition) -> str:
@@ -84,7 +86,8 @@ def groups(definition: Definition) -> Iterator[list[Name]]:
             yield [Name("method", method.name, method.span) for method in methods]
             for method in methods:
                 parameters = (*method.inputs, *method.outputs)
-                yield [Name("parameter", parameter.name, parameter.span) for parameter in parameters]
+                owner = f"method {definition.name}.{method.name}"
+                yield [Name("parameter", parameter.name, parameter.span, owner) for parameter in parameters]
 
 
 def macro(stem: str) -> str:

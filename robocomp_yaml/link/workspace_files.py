@@ -6,10 +6,10 @@ import errno
 import os
 from pathlib import Path
 
-from robocomp_yaml import resources
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.json_comments import Unreadable, with_members
 from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.transactions import whole_file
 
 FOLDER = ".rcyaml/schemas"
@@ -48,7 +48,7 @@ def install(folder: Path) -> list[Path]:
     changed = [
         folder / schema_path(kind)
         for kind in GLOBS
-        if _write(folder / schema_path(kind), resources.text(f"schemas/{kind}.schema.json"))
+        if _write(folder / schema_path(kind), schema_text(kind))
     ]
     try:
         wired = _wired(folder)

@@ -58,6 +58,7 @@ def build(root: Mapping, path: str) -> Component:
         machine_span=span_of(root, "statemachine"),
         span=span_of(root, "component"),
         parameters_span=span_of(root, "parameters"),
+        keys_span=tuple((key.lexeme, key.span) for key, node in root.items() if node.data not in (None, "", [], {})),
     )
 
 
@@ -86,7 +87,8 @@ def _language(root: Mapping) -> Language:
     node = root.get("language")
     if isinstance(node, Mapping):
         standard = node.data.get("standard")  # type: ignore[attr-defined]
-        return Language(text(node, "name"), None if standard is None else int(standard), span=node.span)
+        return Language(text(node, "name"), None if standard is None else int(standard), span=node.span,
+                        standard_span=span_of(node, "standard"))
     assert isinstance(node, Scalar)
     return Language(node.lexeme, span=node.span)
 

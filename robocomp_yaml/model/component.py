@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from robocomp_yaml import languages
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Import
 from robocomp_yaml.model.located import Located
 
 if TYPE_CHECKING:
+    from robocomp_yaml.languages.record import TargetLanguage
     from robocomp_yaml.model.statemachine import StateMachine
 
-DEFAULT_STANDARD = 17  # of C++, where a component names none
 WAIT, FAIL, IGNORE = "wait", "fail", "ignore"
 
 
@@ -33,11 +34,17 @@ class Use(Located, frozen=True):
 
 
 class Language(Located, frozen=True):
-    """`name` is 'python' or 'cpp'; `standard` is C++'s (17, 20, …) or None."""
+    """`name` is that of a record of languages; `standard` is C++'s (17, 20, …) or None."""
 
     name: str
     standard: int | None = None
     span: Span = Span("")
+    standard_span: Span = Span("")
+
+    @property
+    def target(self) -> TargetLanguage:
+        """All that there is to know of the language."""
+        return languages.language(self.name)
 
 
 class Gui(Located, frozen=True):
@@ -75,10 +82,16 @@ class Source(Located, frozen=True):
     is_class: bool = False
     span: Span = Span("")
 
+    @property
+    def kind(self) -> str:
+        """The key of `uses:` that it stands below."""
+        return "classes" if self.is_class else "sources"
+
 
 class Component(Located, frozen=True):
     """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written,
-    or ''; `machine` is the state machine that stands in the document."""
+    or ''; `machine` is the state machine that stands in the document. `keys_span` are the keys of the document that
+    say anything, and where they stand."""
 
     name: str
     path: str
@@ -101,3 +114,4 @@ class Component(Located, frozen=True):
     machine_span: Span = Span("")
     span: Span = Span("")
     parameters_span: Span = Span("")
+    keys_span: tuple[tuple[str, Span], ...] = ()

@@ -23,8 +23,6 @@ from robocomp_yaml.network.network import (
 from robocomp_yaml.source.properties import entry_line
 from robocomp_yaml.values.hidden import declared
 
-_CODE = {"src": (".py", ".ui"), "generated": (".py",), "slice": (".ice",)}
-"""What a component in Python reads when it starts: the folders, and how the names of the files there end."""
 _DEFAULTS = Restart()
 
 
@@ -80,7 +78,7 @@ def program_of(draft: Draft) -> str:
     if component is None:
         text = entry.target.text
         return os.path.abspath(os.path.join(instance.folder, text)) if "/" in text else text
-    path = entry.executable.text if entry.executable else f"bin/{component.component.name}"
+    path = entry.executable.text if entry.executable else _program(component)
     return os.path.abspath(os.path.join(instance.folder, path))
 
 
@@ -88,15 +86,20 @@ def _build(draft: Draft) -> str:
     component, executable = draft.instance.component, draft.instance.entry.executable
     if component is None:
         return ""
-    if executable is not None and os.path.normpath(executable.text) != f"bin/{component.component.name}":
+    if executable is not None and os.path.normpath(executable.text) != _program(component):
         return f"build it, or correct `executable: {executable.text}`"
     path = component.component.path
     compile_ = f"`{typed('rcyaml', 'compile', path)}`"
-    if component.component.language.name != "cpp":
+    build = component.component.language.target.build
+    if not build:
         return f"{compile_} writes it"
     folder = os.path.dirname(path) or "."
-    tree = f"{folder}/build"
-    return f"{compile_}, then `{typed('cmake', '-S', folder, '-B', tree)} && {typed('cmake', '--build', tree)}`"
+    commands = (typed(*(word.format(folder=folder) for word in command)) for command in build)
+    return f"{compile_}, then `{' && '.join(commands)}`"
+
+
+def _program(component: LinkedComponent) -> str:
+    return component.component.language.target.program.format(name=component.component.name)
 
 
 def _command(draft: Draft, program: str) -> Iterator[str]:
@@ -138,13 +141,14 @@ def _restart(given: model.Restart | None) -> Restart:
 
 
 def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """The files that a component in Python is made of."""
-    if component is None or component.component.language.name != "python":
+    """The files that a component reads when it starts."""
+    loaded = component.component.language.target.loaded if component is not None else {}
+    if not loaded:
         return ()
     if folder not in known:
         known[folder] = tuple(sorted(
             os.path.abspath(os.path.join(where, name))
-            for below, endings in _CODE.items()
+            for below, endings in loaded.items()
             for where, _, names in os.walk(os.path.join(folder, below))
             for name in names if name.endswith(endings)
         ))

@@ -15,12 +15,12 @@ from typing import Any
 
 import jsonschema_rs
 
-from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.source.retyped import retyped
+from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 _IN_WORDS = {
@@ -45,7 +45,7 @@ _APPLICATORS = frozenset(("allOf", "anyOf", "oneOf", "then", "else", "if"))
 
 def new_schema(kind: str) -> dict[str, Any]:
     """The JSON Schema of a kind of document, 'idsl' or 'cdsl' for instance, to be changed as one likes."""
-    loaded: dict[str, Any] = json.loads(resources.text(f"schemas/{kind}.schema.json"))
+    loaded: dict[str, Any] = json.loads(schema_text(kind))
     return loaded
 
 

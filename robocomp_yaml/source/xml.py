@@ -9,6 +9,7 @@ from __future__ import annotations
 import bisect
 import re
 from collections.abc import Iterator
+from typing import NoReturn
 from xml.parsers import expat
 
 import msgspec
@@ -19,6 +20,7 @@ from robocomp_yaml.diag.span import Span
 
 MAX_DEPTH = 100
 MAX_ELEMENTS = 10_000
+MAX_ATTRIBUTES = 100  # of one element
 
 _DOCTYPE = "<!DOCTYPE"
 _SEPARATOR = " "  # no namespace and no name holds one
@@ -110,9 +112,12 @@ class _Reader:
 
     def _start(self, full_name: str, attributes: dict[str, str]) -> None:
         self._count += 1
-        if len(self._open) >= MAX_DEPTH or self._count > MAX_ELEMENTS:
-            limit = f"more than {MAX_DEPTH} levels deep" if self._count <= MAX_ELEMENTS else f"{MAX_ELEMENTS} elements"
-            raise _Refused(codes.XML_TOO_LARGE.at(self._here(), limit=limit))
+        if self._count > MAX_ELEMENTS:
+            self._too_large(f"too large: more than {MAX_ELEMENTS} elements")
+        if len(self._open) >= MAX_DEPTH:
+            self._too_large(f"more than {MAX_DEPTH} levels deep")
+        if len(attributes) > MAX_ATTRIBUTES:
+            self._too_large(f"too large: more than {MAX_ATTRIBUTES} attributes in one element")
         namespace, _, name = full_name.rpartition(_SEPARATOR)
         element = Element(name, namespace, attributes, self._here(len(name) + 1), source=self.raw)
         element.start = self.parser.CurrentByteIndex
@@ -124,6 +129,9 @@ class _Reader:
         else:
             self.root = element
         self._open.append(element)
+
+    def _too_large(self, limit: str) -> NoReturn:
+        raise _Refused(codes.XML_TOO_LARGE.at(self._here(), limit=limit))
 
     def _end(self, _: str) -> None:
         here = self.parser.CurrentByteIndex  # for an empty element, behind it

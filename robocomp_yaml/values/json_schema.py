@@ -81,10 +81,8 @@ def complete_schema(type_: Type) -> Schema:
 
 def document_schemas(component: LinkedComponent, modes: Iterable[str]) -> Iterator[Schema]:
     """The self-contained schemas of a component's whole values document, one for each mode."""
-    words: dict[int, str] = {}
-    facts: dict[int, _Facts] = {}
     for mode in modes:
-        yield _document_schema(component, _Maker(mode, words=words, facts=facts))
+        yield _document_schema(component, _Maker(mode))
 
 
 def _document_schema(component: LinkedComponent, maker: _Maker) -> Schema:
@@ -127,9 +125,6 @@ class _Maker(msgspec.Struct):
 
     mode: str
     definitions: dict[str, Schema] = msgspec.field(default_factory=lambda: {"reference": _REFERENCE})
-    # Types in words, and what is told of members: both are said in several places and modes, and made once.
-    words: dict[int, str] = {}
-    facts: dict[int, _Facts] = {}
 
     @property
     def for_editors(self) -> bool:
@@ -171,7 +166,7 @@ class _Maker(msgspec.Struct):
         """A list or mapping: what holds for it, and one message for everything else."""
         made: Schema = {"if": {"type": kind}, "then": then, "else": {"type": _types(kind, nullable)}}
         if self.for_editors:
-            words = self.in_words(type_)
+            words = in_words(type_)
             made["else"]["errorMessage"] = f"this is {words}"
             if not (isinstance(type_, RecordType) and type_.is_group):
                 snippet = {"label": _label(type_), "description": words, "body": flow(example_of(type_))}
@@ -180,7 +175,7 @@ class _Maker(msgspec.Struct):
 
     def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
         limits = self.limits(type_)
-        said = {"errorMessage": f"this is {self.in_words(type_)}"} if self.for_editors else {}
+        said = {"errorMessage": f"this is {in_words(type_)}"} if self.for_editors else {}
         kind = _json_type(type_)
         otherwise: Schema
         if "enum" in limits:
@@ -243,17 +238,9 @@ class _Maker(msgspec.Struct):
             made |= self.about(member)
         return made
 
-    def in_words(self, type_: Type) -> str:
-        said = self.words.get(id(type_))
-        if said is None:
-            said = self.words[id(type_)] = in_words(type_)
-        return said
-
     def about(self, member: Member) -> Schema:
         """Title, description, default; an editor also shows Markdown and examples."""
-        facts = self.facts.get(id(member))
-        if facts is None:
-            facts = self.facts[id(member)] = _facts(member, self.in_words(member.type))
+        facts = _facts(member, in_words(member.type))
         made: Schema = {"title": facts.title, "description": facts.description}
         can_be_shown = (not self.for_editors or _is_simple(example(member))) and not holds_secret(member.type)
         if member.default is not None and can_be_shown:

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from conftest import CORPUS, needs_corpus
 from robocomp_yaml.cli import group
-from robocomp_yaml.emit.targets import slice as slice_target
+from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.pipeline import analyse
 from corpus.slice_oracle import checksums
 

@@ -17,7 +17,7 @@ from click.testing import Result
 
 from conftest import write_tree
 from processes import Ports, until
-from robocomp_yaml import resources
+from robocomp_yaml.languages import language
 from robocomp_yaml.deploy.local import procfs
 from small_networks import Place
 from terminals import foreign
@@ -406,7 +406,7 @@ def test_a_component_is_looked_at_by_the_python_that_would_run_it(
     robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The workspace's, which has Ice, and a module that no other has."""
-    rule = resources.text("templates/python/runtime/interpreter.py")
+    rule = language("python").text("runtime/interpreter.py")
     write_tree(robot, {
         "robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  arm: {program: ./arm/bin/ArmComp}\n",
         "rcyaml.yaml": "",

@@ -10,7 +10,7 @@ import pytest
 from editor.proposals import assert_can_stand_there
 from editor.workbench import Workbench
 
-from robocomp_yaml import resources
+from robocomp_yaml.source.schema_text import schema_text
 
 D = "deployment: A\n"
 E = D + "components:\n  a:\n    component: b\n    "
@@ -217,7 +217,7 @@ def texts() -> dict[str, set[str]]:
             for value in part:
                 collect(value)
 
-    collect(json.loads(resources.text("schemas/ddsl.schema.json")))
+    collect(json.loads(schema_text("ddsl")))
     return found
 
 

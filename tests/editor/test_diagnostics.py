@@ -271,11 +271,11 @@ def test_rcyaml_check_says_the_same(kind: str, text: str, expected: list[str]) -
 
 def test_every_message_of_the_schemas_is_here() -> None:
     """No `errorMessage` is without a row that shows it."""
-    from robocomp_yaml import resources
+    from robocomp_yaml.source.schema_text import schema_text
 
     said = {message.partition(" ")[2] for _, _, expected in ROWS for message in expected}
     for kind in TABLES:
-        assert set(_messages(json.loads(resources.text(f"schemas/{kind}.schema.json")))) - said == set()
+        assert set(_messages(json.loads(schema_text(kind)))) - said == set()
 
 
 def _messages(schema: object) -> list[str]:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from editor.workbench import Workbench
 
-from robocomp_yaml import resources
+from robocomp_yaml.source.schema_text import schema_text
 
 IDSL = [
     ("mod|ule: A", "Module"),
@@ -169,7 +169,7 @@ def texts() -> dict[tuple[str, str], set[str]]:
     """The Markdown of each construct, by kind and title."""
     found: dict[tuple[str, str], set[str]] = {}
     for kind in ("idsl", "cdsl", "workspace"):
-        for construct in constructs(json.loads(resources.text(f"schemas/{kind}.schema.json"))):
+        for construct in constructs(json.loads(schema_text(kind))):
             found.setdefault((kind, construct["title"]), set()).add(construct["markdownDescription"])
     return found
 

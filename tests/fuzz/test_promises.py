@@ -168,6 +168,7 @@ LIMITS = {
     "a document": text.MAX_DOCUMENT >> 20, "a legacy file": reading.MAX_SOURCE >> 20, "one text in a document": text.MAX_SCALAR >> 20,
     "nesting of YAML": syntax.MAX_DEPTH, "nesting of XML": xml.MAX_DEPTH, "nesting of a legacy file": grammar.MAX_DEPTH,
     "values that aliases repeat": tree.MAX_ALIASED, "elements of an XML file": xml.MAX_ELEMENTS,
+    "attributes of one element of XML": xml.MAX_ATTRIBUTES,
     "plain values of a component's parameters": parameters.MAX_VALUES, "types inside of types": parameters.MAX_DEPTH,
     "a constraint": expression.MAX_LENGTH, "nesting of a constraint": expression.MAX_DEPTH, "a count in a `pattern:`": pattern.MAX_COUNT,
     "what the counts of a `pattern:` come to, together": pattern_match.MAX_PLACES,

@@ -1,7 +1,7 @@
 """Which names the headers that generated C++ includes define as macros, and which outside of any namespace, asked of
 the compiler.
 
-`make macros` writes them to robocomp_yaml/model/, and keeps what stands there: another version of a compiler or of a
+`make macros` writes them to robocomp_yaml/languages/cpp/, and keeps what stands there: another version of a compiler or of a
 library knows others.
 """
 
@@ -15,8 +15,8 @@ import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-TABLE = ROOT / "robocomp_yaml" / "model" / "cpp_macros.py"
-GLOBALS = TABLE.with_name("cpp_globals.py")
+TABLE = ROOT / "robocomp_yaml" / "languages" / "cpp" / "macros.py"
+GLOBALS = TABLE.with_name("globals.py")
 FAMILIES = ("GL_", "QT_", "Q_")
 SETS = {"ALWAYS": "in every component", "SINCE_20": "with C++20 and later", "QT": "where there is a dialog"}
 _HEAD = """\
@@ -69,14 +69,14 @@ def found_globals() -> set[str]:
     """The names of this machine that cannot be those of namespaces: each word of the headers is tried, but for what is
     known as a macro or a keyword."""
     sys.path.insert(0, str(ROOT))
-    from robocomp_yaml.model.cpp_macros import EVER
-    from robocomp_yaml.model.names import CPP_KEYWORDS
+    from robocomp_yaml.languages.cpp import KEYWORDS
+    from robocomp_yaml.languages.cpp.macros import EVER
 
     with tempfile.TemporaryDirectory() as folder:
         source = "".join(f"#include <{header}>\n" for header in headers(Path(folder)))
     names: set[str] = set()
     for standard in (17, 20):
-        words = set(re.findall(r"\b[A-Za-z]\w*", _preprocessed(source, standard, "-P"))) - CPP_KEYWORDS - EVER
+        words = set(re.findall(r"\b[A-Za-z]\w*", _preprocessed(source, standard, "-P"))) - KEYWORDS - EVER
         words = {word for word in words if _can_be_named(word)}
         asked = "".join(f'#line 1 "@{word}"\nnamespace {word} {{ struct Of; }}\n' for word in sorted(words))
         flags = [f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-fsyntax-only", "-fmax-errors=0"]
@@ -89,7 +89,7 @@ def headers(folder: Path) -> list[str]:
     """All that the fixed sources include, and what slice2cpp makes."""
     (folder / "M.ice").write_text(_SLICE)
     subprocess.run(["slice2cpp", "--output-dir", str(folder), "M.ice"], cwd=folder, check=True)
-    sources = sorted(path for path in (ROOT / "templates" / "cpp").rglob("*") if path.is_file())
+    sources = sorted(path for path in (TABLE.parent / "templates").rglob("*") if path.is_file())
     texts = [path.read_text(encoding="utf-8") for path in sources]
     texts += [(folder / name).read_text() for name in ("M.h", "M.cpp")]
     names = {name for text in texts for name in _INCLUDE.findall(text)} - {"M.h"}
@@ -110,7 +110,8 @@ def _macros(headers: list[str], standard: int, *flags: str) -> set[str]:
 
 
 def _preprocessed(source: str, standard: int, *flags: str) -> str:
-    command = ["g++", f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-E", *flags, "-x", "c++", "-"]
+    """With what a component's build defines by itself: for Ice, and in CMake's Release."""
+    command = ["g++", f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-DNDEBUG", "-O2", "-E", *flags, "-x", "c++", "-"]
     return subprocess.run(command, input=source, capture_output=True, text=True, check=True).stdout
 
 
@@ -135,7 +136,7 @@ def main() -> None:
     sys.path.insert(0, str(ROOT))
     known: dict[str, set[str]] = {name: set() for name in SETS}
     if TABLE.is_file():
-        from robocomp_yaml.model import cpp_macros
+        from robocomp_yaml.languages.cpp import macros as cpp_macros
 
         known = {name: set(getattr(cpp_macros, name)) for name in SETS}
     for name, macros in found().items():
@@ -145,7 +146,7 @@ def main() -> None:
     TABLE.write_text(table(known), encoding="utf-8")  # before the rest asks for it
     names = found_globals()
     if GLOBALS.is_file():
-        from robocomp_yaml.model import cpp_globals
+        from robocomp_yaml.languages.cpp import globals as cpp_globals
 
         names |= cpp_globals.GLOBALS
     GLOBALS.write_text(f"{_GLOBALS_HEAD}\n\n{_listed('GLOBALS', names)}\n", encoding="utf-8")

@@ -12,7 +12,7 @@ from components import build
 from cpp_programs import FAST, Program, cmake, locked, needs_cpp
 from processes import Ports, Start
 
-from robocomp_yaml.emit.targets.cpp_names import ICE_ESCAPES, ice_name
+from robocomp_yaml.languages.cpp.names import ICE_ESCAPES, ice_name
 
 SLICE = set("bool class const double enum false float int long module short struct true void".split())
 # What C++ has and had, and what Ice's code or ours might trip over.

@@ -13,7 +13,8 @@ from cpp_macros import FAMILIES, found, found_globals, headers
 from cpp_programs import needs_cpp
 
 from conftest import write_tree
-from robocomp_yaml.model import cpp_globals, cpp_macros
+from robocomp_yaml.languages.cpp import globals as cpp_globals
+from robocomp_yaml.languages.cpp import macros as cpp_macros
 
 pytestmark = needs_cpp
 Check = Callable[..., list[dict[str, Any]]]

@@ -13,7 +13,7 @@ from slice_compilers import complaints, needs_compilers
 
 from robocomp_yaml import pipeline, resources
 from robocomp_yaml.emit.slice_literal import quoted
-from robocomp_yaml.emit.targets import slice as target
+from robocomp_yaml.emit import slice as target
 
 pytestmark = needs_compilers
 

@@ -12,7 +12,7 @@ from slice_compilers import complaints, needs_compilers
 from robocomp_yaml.check import checks
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.emit.targets import slice as target
+from robocomp_yaml.emit import slice as target
 from robocomp_yaml.link.program import LinkedModule, Program
 
 pytestmark = needs_compilers

@@ -99,7 +99,7 @@ def test_another_build_of_the_same_version_compiles_again(built: Path, bin_: Pat
     run(*compile_, cwd=work)
     assert "0 files written" in run(*compile_, cwd=work)
     (wheel,) = built.glob("*.whl")
-    other = rebuilt(wheel, tmp_path, "templates/python/runtime/log.py", b"Do not edit", b"DO NOT EDIT")
+    other = rebuilt(wheel, tmp_path, "languages/python/templates/runtime/log.py", b"Do not edit", b"DO NOT EDIT")
     install(bin_, other, "--force-reinstall", "--no-deps")
     assert "1 file written" in run(*compile_, cwd=work)
     assert "DO NOT EDIT" in (work / "generated/runtime/log.py").read_text(encoding="utf-8")

@@ -10,8 +10,8 @@ from typing import Any
 
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.emit.targets import target
 from robocomp_yaml.transactions.plan import ONCE, RootPlan
+from robocomp_yaml.languages import table
 
 TYPES = ("int", "string", "bool", "float", "Pose", "Names", "Side")
 WORDS = ("say", "stop", "move", "look", "reset", "grip", "turn", "wait", "home", "learn", "sing", "jump")
@@ -65,7 +65,7 @@ def plan(model: Model, language: str, folder: Path, root: Path) -> RootPlan:
     analysis = pipeline.analyse([str(folder)])
     assert not [d for d in analysis.diagnostics if d.severity == ERROR], analysis.diagnostics
     (linked,) = analysis.program.components.values()
-    files = tuple(file for file in target(language).plan(linked) if file.policy == ONCE)
+    files = tuple(file for file in table()[language].part("plan").plan(linked) if file.policy == ONCE)
     return RootPlan(str(root), "robot.cdsl.yaml", files)
 
 

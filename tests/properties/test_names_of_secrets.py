@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from conftest import ROOT
 
+from robocomp_yaml.languages import language
 from robocomp_yaml import secrets
 
 SECRET = (
@@ -35,7 +35,7 @@ WORDS = st.lists(st.sampled_from([
 
 def python_rule() -> ModuleType:
     module = ModuleType("secrecy")
-    source = (ROOT / "templates" / "python" / "runtime" / "secrecy.py").read_text(encoding="utf-8")
+    source = (language("python").templates / "runtime" / "secrecy.py").read_text(encoding="utf-8")
     exec(compile(source, "secrecy.py", "exec"), module.__dict__)
     return module
 
@@ -64,7 +64,7 @@ def test_python_run_time_hides_the_same_in_urls(text: str) -> None:
 def asker(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A program that says of each line, between two signs, what C++ makes of it."""
     folder = tmp_path_factory.mktemp("secrecy")
-    runtime = ROOT / "templates" / "cpp" / "runtime"
+    runtime = language("cpp").templates / "runtime"
     (folder / "main.cpp").write_text(
         f'#include "{runtime}/secrecy.cpp"\n#include <iostream>\nint main()\n{{\n'
         "    for (std::string line; std::getline(std::cin, line);)\n"

@@ -11,9 +11,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from conftest import ROOT
-from robocomp_yaml.emit.machines import lower, text
-from robocomp_yaml.emit.targets.python_statemachine import tables
+from robocomp_yaml.languages import language
+from robocomp_yaml.languages.cpp import machine_text
+from robocomp_yaml.emit.machines import lower
+from robocomp_yaml.languages.python.statemachine import tables
 from robocomp_yaml.model.statemachine import StateMachine
 
 
@@ -31,8 +32,8 @@ class Trace:
 
 
 HERE = Path(__file__).resolve().parent
-PYTHON = ROOT / "templates" / "python" / "machine"
-CPP = ROOT / "templates" / "cpp" / "machine"
+PYTHON = language("python").templates / "machine"
+CPP = language("cpp").templates / "machine"
 _OF_WORKERS = {"reports.cpp", "worker.cpp"}  # they need Ice
 
 
@@ -70,7 +71,7 @@ def run_cpp(machines: Mapping[str, StateMachine], folder: Path) -> dict[str, Tra
         '#pragma once\n#include "machine/tables.h"\n#include <map>\n'
         "namespace machine { const std::map<std::string, Machine>& cases(); }\n"
     )
-    functions = "\n".join(text.cpp_functions(lower.lower(machine), name) for name, machine in machines.items())
+    functions = "\n".join(machine_text.functions(lower.lower(machine), name) for name, machine in machines.items())
     entries = ", ".join(f'{{"{name}", {name}()}}' for name in machines)
     (folder / "cases.cpp").write_text(
         f'#include "cases.h"\nnamespace machine {{\nnamespace {{\n{functions}\n}}\n'

@@ -12,7 +12,8 @@ import pytest
 
 from conftest import ROOT
 
-MODULES = sorted((ROOT / "robocomp_yaml").rglob("*.py"))
+# What is copied into components has rules of its own: it runs without rcyaml, and with an older Python.
+MODULES = sorted(path for path in (ROOT / "robocomp_yaml").rglob("*.py") if "templates" not in path.parts)
 HEAVY = {"jinja2", "jsonschema_rs", "jsonschema", "networkx", "lark", "ruamel", "cerberus", "hypothesis"}
 
 
@@ -70,7 +71,7 @@ def test_only_what_has_an_end_is_opened() -> None:
     """A pipe in somebody's folder, or a link to /dev/zero, would be waited for."""
     for layer in ("source", "transactions", "link", "values", "network", "check", "emit", "legacy"):
         for path in sorted((ROOT / "robocomp_yaml" / layer).rglob("*.py")):
-            if "targets" in path.parts or str(path.relative_to(ROOT / "robocomp_yaml")) in READING_OTHERWISE:
+            if str(path.relative_to(ROOT / "robocomp_yaml")) in READING_OTHERWISE:
                 continue
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.Call):

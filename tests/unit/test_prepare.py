@@ -221,7 +221,10 @@ def test_the_goals_are_those_that_help_names() -> None:
     assert {word for goal in goals for word in goal.split()} <= named
 
 
+RUNTIME = "robocomp_yaml/languages/python/templates/runtime"
+
+
 def test_it_reads_with_the_pythons_that_make_may_find() -> None:
     """What it needs itself is asked of an older one too, which says so in words."""
-    for path in ("tools/prepare.py", "templates/python/runtime/interpreter.py", "templates/python/runtime/main.py"):
+    for path in ("tools/prepare.py", f"{RUNTIME}/interpreter.py", f"{RUNTIME}/main.py"):
         ast.parse((ROOT / path).read_text(encoding="utf-8"), feature_version=(3, 7))

@@ -15,10 +15,7 @@ _NUMBERS = r" *(>=|<=|==|=|>|<)? *\d+(\.\d+)* *"
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
-        component = linked.component
-        yield from _libraries(component)
-        if component.language.name == "python":
-            yield from _without_build(component)
+        yield from _libraries(linked.component)
 
 
 def _libraries(component: Component) -> Iterator[Diagnostic]:
@@ -33,11 +30,3 @@ def _libraries(component: Component) -> Iterator[Diagnostic]:
         plain = all(re.fullmatch(_NUMBERS, part) for part in library.version.split(",")) and library.kind != LINK
         if library.version and library.kind != PIP and not plain:
             yield codes.VERSION.at(library.version_span, version=library.version.strip(), kind=f"`{library.kind}`")
-
-
-def _without_build(component: Component) -> Iterator[Diagnostic]:
-    for source in component.sources:
-        yield codes.OTHER_LANGUAGE.at(source.span, key="classes" if source.is_class else "sources")
-    for library in component.libraries:
-        if library.kind != PIP:
-            yield codes.OTHER_LANGUAGE.at(library.span, key=library.kind)

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network.draft import is_loopback
 from robocomp_yaml.network.network import ICESTORM, Network, Process
 
@@ -21,9 +22,9 @@ def missing(network: Network, *, environment: bool = False) -> Iterator[Diagnost
     """A warning for each process that could not be started. `environment`: what PATH should find is looked for, too."""
     here = {name for name, host in network.hosts.items() if is_this_machine(host.address)}
     for process in network.enabled():
-        if process.host not in here:
-            continue
         program = process.command[0]
+        if process.host not in here or CONFIG in program:  # which is an error already
+            continue
         if process.component and not os.path.lexists(program):
             yield codes.NOT_BUILT.at(process.span, name=process.name, path=_shown(program), hint=process.build)
         elif problem := _problem(process, program, environment):

@@ -55,7 +55,8 @@ def _module(module: Module) -> Iterator[Diagnostic]:
             if group and group[0].kind == "method":
                 yield from _not_named_as(kind_of(definition), definition.name, group)
             if len(group) > 1:
-                yield from _distinct(f"{kind_of(definition)} {definition.name}", group, f"{group[0].kind}s")
+                owner = group[0].owner or f"{kind_of(definition)} {definition.name}"
+                yield from _distinct(owner, group, f"{group[0].kind}s")
 
 
 def _legal(name: Name) -> Iterator[Diagnostic]:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.languages.record import STATEMACHINE, TargetLanguage
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model.machine_index import MachineIndex
@@ -30,22 +31,21 @@ from robocomp_yaml.model.statemachine import (
     Value,
 )
 
-_LANGUAGES = {"python": "Python", "cpp": "C++"}
-
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
-        if linked.machine is not None:
-            yield from of(linked.machine, linked.component.language.name)
+        if linked.machine is not None and STATEMACHINE in linked.component.language.target.has:
+            yield from of(linked.machine, linked.component.language.target)
 
 
-def of(machine: StateMachine, language: str) -> Iterator[Diagnostic]:
+def of(machine: StateMachine, language: TargetLanguage) -> Iterator[Diagnostic]:
     """What a machine says in a data model that a component in this language does not have."""
     index = MachineIndex(machine)
     name = machine.datamodel or NULL
-    if name not in (NULL, PYTHON) or (name == PYTHON and language != "python"):
-        hint = "leave it out: then conditions are guards of the worker" if language == "cpp" else 'write "python"'
-        yield codes.DATAMODEL.at(machine.datamodel_span, name=name, language=_LANGUAGES[language], hint=hint)
+    if name not in language.datamodels:
+        others = [other for other in language.datamodels if other != NULL]
+        hint = f'write "{others[0]}"' if others else "leave it out: then conditions are guards of the worker"
+        yield codes.DATAMODEL.at(machine.datamodel_span, name=name, language=language.title, hint=hint)
     elif name == PYTHON:
         yield from _Python(index).run()
     else:

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import keyword
 import re
 from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.languages import with_capability
+from robocomp_yaml.languages.record import STATEMACHINE
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.model import machine_names as names
-from robocomp_yaml.model.cpp_macros import EVER
 from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.names import CPP_KEYWORDS
 from robocomp_yaml.model.statemachine import Raise, Send, StateMachine, Text
 
 _EVENT = re.compile(r"(?!__)[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
 _WORKERS = frozenset(
     "communicator compute events getPeriod initialize killYourSelf log mutex self setPeriod statemachine worker".split()
 )
-_RESERVED = CPP_KEYWORDS | _WORKERS | frozenset(keyword.kwlist)
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -51,9 +49,10 @@ def _events(machine: StateMachine) -> Iterator[Diagnostic]:
 def _in_code(linked: LinkedComponent, machine: StateMachine) -> Iterator[Diagnostic]:
     taken = {named.name: named for named in _of_ports(linked)}
     guards, actions = names.guards(machine), names.actions(machine)
-    reserved = _RESERVED | names.ROBOCOMPS if linked.component.compatibility else _RESERVED
-    if linked.component.language.name == "cpp":
-        reserved |= EVER
+    reserved = _WORKERS.union(*(language.keywords for language in with_capability(STATEMACHINE)))
+    reserved |= linked.component.language.target.taken
+    if linked.component.compatibility:
+        reserved |= names.ROBOCOMPS
     for named in (*guards, *actions):
         is_own = named.kind == names.ACTION and named.name in names.CALLABLE
         if named.name in reserved and not is_own:

@@ -54,8 +54,8 @@ def _names(index: MachineIndex, is_invoked: bool) -> Iterator[Diagnostic]:
 
 def _unknown(index: MachineIndex, name: Text, inside: State | None = None) -> Diagnostic:
     hint = index.similar(name.text, inside)
-    if inside is not None and not hint and index.machine.inline:
-        hint = Hint("write it under `states:`, or one that stands there")
+    if not hint and index.machine.inline:
+        hint = Hint("write it under `states:`" + (", or one that stands there" if inside is not None else ""))
     return codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=hint)
 
 

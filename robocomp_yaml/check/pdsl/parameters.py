@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from robocomp_yaml import languages
 from robocomp_yaml.check.pdsl.expressions import is_sound
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.names import LANGUAGES, in_code, is_identifier
+from robocomp_yaml.model.names import is_identifier
 from robocomp_yaml.model.parameters import Member, Parameters, RecordType
 from robocomp_yaml.source.tree import Mapping, Node, Sequence
 from robocomp_yaml.values import evaluate
@@ -74,12 +75,12 @@ def _names(record: RecordType) -> Iterator[Diagnostic]:
         if not is_identifier(member.code_name):
             yield codes.NO_IDENTIFIER.at(member.span, name=member.name, hint=f"for instance as: {_free(member.name)}")
             continue
-        for language in LANGUAGES:
-            code = in_code(member.code_name, language)
-            other = names.setdefault((language, code), member)
+        for language in languages.table().values():
+            code = language.in_code(member.code_name)
+            other = names.setdefault((language.name, code), member)
             if other is not member:
                 yield codes.CODE_CLASH.at(
-                    member.span, name=member.name, other=other.name, code=code, language=language,
+                    member.span, name=member.name, other=other.name, code=code, language=language.title,
                     hint="give one of them another name in code with as:",
                     related=[Related(f"'{other.name}' stands here", other.span)],
                 )

@@ -1,7 +1,7 @@
 """A state machine as tables, in which states and transitions point at each other by number.
 
-The run time of each language has the same tables, field by field (`templates/python/machine/tables.py`,
-`templates/cpp/machine/tables.h`); `text.py` writes them.
+The run time of each language has the same tables, field by field (`machine/tables.py`, `machine/tables.h` of its
+templates), which its `statemachine` writes.
 """
 
 from __future__ import annotations

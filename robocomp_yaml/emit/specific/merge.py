@@ -7,7 +7,6 @@ no worse syntax than before, and no method is lacking, there twice or outdated.
 
 from __future__ import annotations
 
-import warnings
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 
@@ -18,7 +17,7 @@ from robocomp_yaml.emit.specific import entries, threeway
 from robocomp_yaml.emit.specific.code import Code, Import
 from robocomp_yaml.emit.specific.compare import compare
 from robocomp_yaml.emit.specific.insert import insert
-from robocomp_yaml.emit.specific.reading import read
+from robocomp_yaml.emit.specific.reading import compiles, read
 from robocomp_yaml.emit.specific.threeway import Conflict
 
 
@@ -154,7 +153,7 @@ class _Judge:
         assert code is not None
         if lost := self.mine - Counter(_lines(text)):
             return f"it would lose your line '{next(iter(lost)).strip()}'"
-        if code.faults > self.yours.faults or (_compiles(self.yours) and not _compiles(code)):
+        if code.faults > self.yours.faults or (compiles(self.yours) and not compiles(code)):
             return "the result would be no proper code"
         if lacking := self.lacking(code):
             return f"there is no place for {', '.join(sorted(lacking))}"
@@ -176,19 +175,6 @@ def _counts(codes: Sequence[Code]) -> Counter[str]:
     """How often each method is declared, and how often defined."""
     declared = Counter(method.name for code in codes for method in code.members)
     return declared + Counter(f"{method.name}()" for code in codes for method in code.definitions)
-
-
-def _compiles(code: Code) -> bool:
-    """Whether Python takes it; anything else is judged by its syntax tree alone."""
-    if not code.path.endswith(".py"):
-        return True
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            compile("".join(code.lines), code.path, "exec", dont_inherit=True)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return False
-    return True
 
 
 def _lines(text: str) -> list[str]:

@@ -1,30 +1,37 @@
-"""Which reader a file of source code has: one module a language."""
+"""Which reader a file of source code has: that of the language whose files are called so."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
+from robocomp_yaml import languages
 from robocomp_yaml.emit.specific.code import Code
+from robocomp_yaml.languages.record import TargetLanguage
 
 
 def read(path: str, text: str) -> Code | None:
     """The code of a file; None where it is in no language that is known here."""
-    reader = _reader(path)
-    return reader(path, text) if reader else None
+    language = _language(path)
+    if language is None:
+        return None
+    code: Code = language.part("code").read(path, text)
+    return code
 
 
 def is_code(path: str) -> bool:
-    return _reader(path) is not None
+    return _language(path) is not None
 
 
-def _reader(path: str) -> Callable[[str, str], Code] | None:
+def comment_mark(path: str) -> str:
+    """How a line of comment begins."""
+    language = _language(path)
+    return language.comment if language else "#"
+
+
+def compiles(code: Code) -> bool:
+    """Whether its language takes it, as far as its reader can tell beyond the syntax tree."""
+    language = _language(code.path)
+    return language is None or bool(language.part("code").compiles(code))
+
+
+def _language(path: str) -> TargetLanguage | None:
     suffix = path.rpartition(".")[2]
-    if suffix == "py":
-        from robocomp_yaml.emit.specific.python_code import read as read_python
-
-        return read_python
-    if suffix in ("h", "hpp", "cpp"):
-        from robocomp_yaml.emit.specific.cpp_code import read as read_cpp
-
-        return read_cpp
-    return None
+    return next((one for one in languages.table().values() if suffix in one.suffixes), None)

@@ -13,7 +13,7 @@ from robocomp_yaml.emit.specific.code import CLASS, Code, Method
 from robocomp_yaml.emit.specific.compare import Comparison, Lacking, compare
 from robocomp_yaml.emit.specific.insert import lead
 from robocomp_yaml.emit.specific.own import Own
-from robocomp_yaml.emit.specific.reading import is_code, read
+from robocomp_yaml.emit.specific.reading import comment_mark, is_code, read
 from robocomp_yaml.transactions.places import Root
 
 
@@ -41,7 +41,8 @@ def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagn
         found = compare(new, base, yours)
     home = next((code for code in yours if code.place), None)
     if home is None or home.place is None:
-        where = next((code for code in yours if code.path.endswith((".py", ".h"))), yours[0])
+        homes = {code.path for code in new if code.place}
+        where = next((code for code in yours if code.path in homes), yours[0])
         yield codes.NO_CLASS.at(Span(root.shown(where.path)), name=CLASS, path=root.shown(where.path))
         return
     if found.lacking:
@@ -92,11 +93,10 @@ def _paste(root: Root, lacking: Sequence[Lacking], yours: Sequence[Code]) -> str
     skeletons = list({id(one.skeleton): one.skeleton for one in lacking}.values())
     mine = {line.strip() for code in yours for line in code.lines}
     for skeleton in skeletons:
-        mark = "#" if skeleton.path.endswith(".py") else "//"
         known = {one.key for code in yours if code.path == skeleton.path for one in code.imports}
         parts += [one.line for one in skeleton.imports if one.key not in known]
         if len(skeletons) > 1:
-            parts.append(f"{mark} in {skeleton.path}:\n")
+            parts.append(f"{comment_mark(skeleton.path)} in {skeleton.path}:\n")
         for one in lacking:
             if one.skeleton is skeleton:
                 title = lead(skeleton, one.method)

@@ -37,6 +37,7 @@ class _Converter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
         self.known: dict[str, ScxmlState] = {}
+        self.joined: set[tuple[str, str]] = set()  # by a transition
 
     def draft(self, tree: Tree[Token]) -> MachineDraft:
         reader = self.reader
@@ -59,24 +60,24 @@ class _Converter:
         block = _Block(tree, self.reader.name(tree), token(tree, "PARALLEL") is not None)
         for clause in trees(tree, "initial_state", "end_state"):
             self._end(block, clause)
-        listed: list[tuple[str, Tree[Token]]] = []
+        listed: dict[str, Tree[Token]] = {}
         for clause in trees(tree, "states"):
             self._comments_to(self.reader.notes(clause), self.reader.notes(tree))
             for item in trees(clause, "name"):
                 name = self.reader.name(item)
                 if name in (block.initial, block.final):
                     self.reader.repaired("lenient_listed", item, name)
-                elif name in (known for known, _ in listed):
+                elif name in listed:
                     self.reader.repaired("lenient_state_twice", item, name)
                 else:
-                    listed.append((name, item))
+                    listed[name] = item
         ends: dict[str, Tree[Token]] = {}
         for clause in trees(tree, "initial_state", "end_state"):
             item = trees(clause, "name")[0]
             self._comments_to(self.reader.notes(clause), self.reader.notes(item))
             ends[self.reader.name(item)] = item
-        names = dict.fromkeys([block.initial, *(name for name, _ in listed), block.final])
-        places = {**dict(listed), **ends}
+        names = dict.fromkeys([block.initial, *listed, block.final])
+        places = {**listed, **ends}
         for name in filter(None, names):
             self._declare(block, name, places[name])
         if not block.states:
@@ -121,14 +122,14 @@ class _Converter:
 
     def _circles(self, top: _Block, inner: list[_Block]) -> None:
         """Every state is somewhere in the machine, not only in itself."""
-        todo, reached = list(top.states), set[int]()
+        todo, reached = list(top.states), set[ScxmlState]()
         while todo:
             state = todo.pop()
-            reached.add(id(state))
-            todo += [child for child in state.states if id(child) not in reached]
+            reached.add(state)
+            todo += [child for child in state.states if child not in reached]
         for block in inner:
             parent = self.known.get(block.name)
-            if parent is not None and id(parent) not in reached:
+            if parent is not None and parent not in reached:
                 self._refused("refused_circle", block.tree, block.name)
 
     def _transitions(self, block: _Block) -> None:
@@ -149,10 +150,11 @@ class _Converter:
             if state.final:
                 what = self.reader.rules.losses["lost_transition"].format(text=state.name)
                 self.reader.diagnostics.append(codes.LOST.at(self.reader.span(tree), what=what))
-            elif any(known == name for known, _ in state.transitions):
+            elif (state.name, name) in self.joined:
                 self.reader.repaired("lenient_transition_twice", target, name)
                 state.transitions[-1][1].add(notes)
             else:
+                self.joined.add((state.name, name))
                 state.transitions.append((name, notes))
                 self._comments_to(self.reader.notes(target), notes)
             notes = Notes()

@@ -37,7 +37,7 @@ class Item(msgspec.Struct):
 Tree = Leaf | list[Item] | dict[str, Item]
 
 
-class Setting(msgspec.Struct):
+class Setting(msgspec.Struct, frozen=True):
     """One entry. `key` is the property's name; `path` its parts. `raw` is the property's value as Ice reads it, ''
     where there is no such thing; `value` is without quotes."""
 
@@ -54,7 +54,7 @@ class Setting(msgspec.Struct):
         return self.value.text if isinstance(self.value, Leaf) else ""
 
 
-class Settings(msgspec.Struct):
+class Settings(msgspec.Struct, frozen=True):
     """A whole config: `settings` in the order of the file, each key once."""
 
     dialect: str

@@ -19,7 +19,7 @@ _RANGE = re.compile(r"(?P<stem>[^\d].*?[^\w]|[A-Za-z_]+)(?P<from>\d+)-(?P<to>\d+
 _FREE = re.compile(r"[{}\s]")
 
 
-class _Row(msgspec.Struct):
+class _Row(msgspec.Struct, frozen=True):
     config: Config
     setting: Setting
     index: str

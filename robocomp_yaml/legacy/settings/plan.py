@@ -25,7 +25,7 @@ class Guesses(msgspec.Struct, frozen=True):
     text: frozenset[str] = frozenset()
 
 
-class Config(msgspec.Struct):
+class Config(msgspec.Struct, frozen=True):
     """One config of a component. `sorted` loses what becomes part of a plan."""
 
     name: str
@@ -38,7 +38,7 @@ class Config(msgspec.Struct):
         return self.sorted.parameters
 
 
-class Given(msgspec.Struct):
+class Given(msgspec.Struct, frozen=True):
     """A parameter's value in one config, and the settings that hold it there."""
 
     item: Item
@@ -49,7 +49,7 @@ class Given(msgspec.Struct):
         return min((setting.span.line for setting in self.settings), default=0)
 
 
-class Spelled(msgspec.Struct):
+class Spelled(msgspec.Struct, frozen=True):
     """How a flat file spells a parameter: an entry of the PDSL's legacy table."""
 
     key: str = ""

@@ -42,7 +42,7 @@ class Named(msgspec.Struct, frozen=True):
     key: str = ""
 
 
-class Sorted(msgspec.Struct):
+class Sorted(msgspec.Struct, frozen=True):
     """The settings of one file by section."""
 
     dialect: str

@@ -130,8 +130,8 @@ def test_no_script_language_in_cpp(diagnostics: Check) -> None:
 @pytest.mark.parametrize(("text", "messages"), [
     ("  initial: a\n", []),
     ("  initial: a\n  transitions: {a: [{event: go, do: beep}, {event: x, if: y}]}\n", []),
-    ("  initial: a\n  transitions: {a: b}\n", ["5:20 RC2221 there is no state 'b'"]),
-    ("  initial: a\n  transitions: {b: a}\n", ["5:17 RC2221 there is no state 'b'"]),
+    ("  initial: a\n  transitions: {a: b}\n", ["5:20 RC2221 there is no state 'b' write it under `states:`"]),
+    ("  initial: a\n  transitions: {b: a}\n", ["5:17 RC2221 there is no state 'b' write it under `states:`"]),
     ("  initial: a\n  transitions: {a: {do: b}}\n",
      ["5:20 RC2233 this goes round for ever: a → a give one of the transitions an event or a condition"]),
     ("  initial: a\n  states: {b: {states: {c: {}}}}\n  transitions: {a: b}\n",

@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
+from robocomp_yaml.languages import language
+from robocomp_yaml.languages.cpp.names import parameter
 from conftest import write_tree
-from robocomp_yaml.emit.targets.cpp_names import parameter
-from robocomp_yaml.model.names import in_code
 
 Check = Callable[..., list[dict[str, Any]]]
 
@@ -167,8 +167,8 @@ def test_parts_of_a_machine_in_cpp(diagnostics: Check) -> None:
 
 def test_what_is_ours_to_name_gets_an_underscore() -> None:
     """Accessors of parameters, events of machines: no error, since the code is generated from the same document."""
-    assert [in_code(name, "C++") for name in ("ERANGE", "be32toh", "slots", "INT_MAX", "erange")] == [
+    assert [language("cpp").in_code(name) for name in ("ERANGE", "be32toh", "slots", "INT_MAX", "erange")] == [
         "ERANGE_", "be32toh_", "slots_", "INT_MAX_", "erange",
     ]  # fmt: skip
-    assert in_code("ERANGE", "Python") == "ERANGE"
+    assert language("python").in_code("ERANGE") == "ERANGE"
     assert parameter("ERANGE") == "ERANGE_"

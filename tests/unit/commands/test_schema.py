@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from robocomp_yaml import resources
+from robocomp_yaml.source.schema_text import schema_text
 from conftest import write_tree
 
 Run = Callable[..., Result]
@@ -19,10 +19,12 @@ Run = Callable[..., Result]
 def test_a_kind_is_printed(rcyaml: Run, kind: str) -> None:
     said = rcyaml("schema", kind)
     assert said.exit_code == 0
-    assert json.loads(said.stdout) == json.loads(resources.text(f"schemas/{kind}.schema.json"))
+    assert json.loads(said.stdout) == json.loads(schema_text(kind))
 
 
 def test_the_kinds_are_listed(rcyaml: Run) -> None:
+    assert rcyaml("schema").stdout.startswith("idsl       *.idsl.yaml, idsl.yaml\n")
+    rcyaml("init")
     rows = rcyaml("schema").stdout.splitlines()
     assert [row.split()[0] for row in rows] == ["idsl", "cdsl", "pdsl", "ddsl", "config", "workspace"]
     assert all(Path(row.split()[-1]).is_file() for row in rows)

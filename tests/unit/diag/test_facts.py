@@ -22,7 +22,7 @@ from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.secrets import HIDDEN
 
-MODULES = sorted((ROOT / "robocomp_yaml").rglob("*.py"))
+MODULES = sorted(path for path in (ROOT / "robocomp_yaml").rglob("*.py") if "templates" not in path.parts)
 RENDERING = ("robocomp_yaml/diag/render", "robocomp_yaml/diag/hidden.py")
 OWN = {"hint", "related", "more", "fixes"}
 

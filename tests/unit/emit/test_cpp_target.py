@@ -13,11 +13,11 @@ from conftest import ROOT, write_tree
 from mouth import MOUTH
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.emit.targets import cpp
-from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE
+from robocomp_yaml.languages.cpp import plan as cpp
+from robocomp_yaml.link.program import LinkedComponent
 
-RUNTIME = ROOT / "templates" / "cpp" / "runtime"
+RUNTIME = ROOT / "robocomp_yaml" / "languages" / "cpp" / "templates" / "runtime"
 
 @pytest.fixture
 def link(tmp_path: Path) -> Callable[[Mapping[str, str]], LinkedComponent]:

@@ -13,7 +13,7 @@ import accessors
 from constraints import CASES, CONSTRAINTS, subject
 from parameters import parameters
 
-from robocomp_yaml.emit.targets import python_parameters
+from robocomp_yaml.languages.python import parameters as python_parameters
 from robocomp_yaml.values import evaluate
 
 ARM = """\

@@ -12,11 +12,11 @@ import pytest
 from conftest import ROOT, write_tree
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.emit.targets import python
-from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE
+from robocomp_yaml.languages.python import plan as python
+from robocomp_yaml.link.program import LinkedComponent
 
-RUNTIME = ROOT / "templates" / "python" / "runtime"
+RUNTIME = ROOT / "robocomp_yaml" / "languages" / "python" / "templates" / "runtime"
 SPEECH = {
     "Types.idsl.yaml": """\
 module: RoboCompTypes

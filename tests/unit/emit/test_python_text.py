@@ -8,7 +8,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from robocomp_yaml.emit.targets.python_text import docstring
+from robocomp_yaml.languages.python.text import docstring
 
 
 @given(st.lists(st.sampled_from(('"', "\\", "a", " ", "\x80", "\t", "'", "\n", "é")), max_size=10).map("".join))

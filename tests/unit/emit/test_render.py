@@ -12,10 +12,11 @@ import msgspec
 import pytest
 from jinja2 import Environment, UndefinedError, nodes
 
-from robocomp_yaml import resources
+from robocomp_yaml import languages, resources
 from robocomp_yaml.emit import render
 
-TEMPLATES = sorted(resources.folder("templates").rglob("*.j2"))
+FOLDERS = (resources.folder("templates"), *(language.templates for language in languages.table().values()))
+TEMPLATES = sorted(path for folder in FOLDERS for path in folder.rglob("*.j2"))
 
 # `{{ name.field }}`, for, if of a flag, include; and the list that a `for` goes over.
 ALLOWED = (

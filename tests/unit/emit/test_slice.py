@@ -8,7 +8,7 @@ from pathlib import Path
 
 from conftest import Tree, write_tree
 from robocomp_yaml import pipeline
-from robocomp_yaml.emit.targets import slice as target
+from robocomp_yaml.emit import slice as target
 from robocomp_yaml.model.interface import Module, Struct
 
 TYPES = """\

@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 
 from conftest import write_tree
-from robocomp_yaml.emit.machines.text import cpp_string, python
-from robocomp_yaml.emit.targets import target
-from robocomp_yaml.pipeline import analyse
+from robocomp_yaml.languages.cpp.machine_text import string as cpp_string
+from robocomp_yaml.languages.python.machine_text import text as python
 from robocomp_yaml.transactions.plan import FilePlan
+from robocomp_yaml.languages import language as target
+from robocomp_yaml.pipeline import analyse
 
 DOOR = """component: Door
 language: LANGUAGE
@@ -41,7 +42,7 @@ def planned(folder: Path, document: str, language: str, **others: str) -> dict[s
     analysis = analyse([str(folder)])
     assert analysis.diagnostics == []
     [component] = analysis.program.components.values()
-    return {file.path: file for file in target(language).plan(component)}
+    return {file.path: file for file in target(language).part("plan").plan(component)}
 
 
 @pytest.mark.parametrize("language", ["python", "cpp"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import shutil
 import subprocess
@@ -10,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_yaml import resources
+from robocomp_yaml.languages import language
 
-RULE = resources.text("templates/python/runtime/interpreter.py")
+RULE = language("python").text("runtime/interpreter.py")
 PROGRAM = """\
 #!/usr/bin/env python3
 import os, sys
@@ -291,3 +292,45 @@ def test_none_is_started_in_vain(place: Place, tmp_path: Path) -> None:
     place.program.write_text(text.replace("#!/usr/bin/env python3", f"#!{environment}"))
     place.runs_in()
     assert starts.read_text().splitlines() == [str(environment)]
+
+
+LAUNCHER = PROGRAM.partition("import interpreter")[0] + """\
+from generated.runtime.main import main
+main()
+"""
+
+
+def old_python(place: Place) -> None:
+    """The first on the path says that it is Python 3.6; the launcher and its run time are as they are compiled."""
+    site = next((place.path.parent / "lib").glob("*/site-packages"))
+    (site / "old.pth").write_text("import sys; sys.version_info = (3, 6, 9, 'final', 0)\n")
+    place.program.write_text(LAUNCHER)
+    runtime = place.root / "generated" / "runtime"
+    runtime.mkdir(parents=True)
+    (place.root / "interpreter.py").rename(runtime / "interpreter.py")
+    (runtime / "__init__.py").write_text(resources.text("templates/python/runtime/__init__.py"))
+    (runtime / "main.py").write_text("import sys\ndef main():\n    print(sys.executable, *sys.argv[1:])\n")
+
+
+def test_a_python_that_cannot_read_the_run_time_starts_another(place: Place) -> None:
+    python = place.python(place.debian.parent.parent, ICE).with_name("python3")
+    old_python(place)
+    assert place.start("etc/config", "--x= a").stdout == f"{python} etc/config --x= a\n"
+
+
+def test_or_says_which_one_is_wanted(place: Place) -> None:
+    old_python(place)
+    done = place.start()
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    assert "Arm: no Python here has Ice 3.7" in done.stderr
+    assert "(python3 on the path) is Python 3.6, older than 3.9\n" in done.stderr
+
+
+@pytest.mark.parametrize("name", ["__init__.py", "interpreter.py"])
+def test_it_is_spelled_for_old_pythons(name: str) -> None:
+    text = resources.text(f"templates/python/runtime/{name}")
+    tree = ast.parse(text, feature_version=(3, 5))
+    assert not [node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr | ast.AnnAssign | ast.NamedExpr)]
+    hints = [node.annotation for node in ast.walk(tree) if isinstance(node, ast.arg)]
+    hints += [node.returns for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    assert all(isinstance(hint, ast.Name | ast.Constant) for hint in hints), "evaluated when it is read"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -138,3 +139,14 @@ def test_a_machine_that_is_not_migrated_has_to_be_there(
     result = rcyaml("migrate", "c.cdsl", "--format", "json")
     assert [d["code"] for d in json.loads(result.stdout)["diagnostics"]] == ["RC5019"] * warned
     assert "statemachine: c.scxml\n" in (tmp_path / "c.cdsl.yaml").read_text()
+
+
+@pytest.mark.parametrize("goes", [lambda n: "s0 => " + ", ".join(f"s{i}" for i in range(n)),
+                                  lambda n: "; ".join(f"s{i} => s{i + 1}" for i in range(n - 1))])  # fmt: skip
+def test_many_states_are_converted_in_a_moment(rcyaml: Run, tmp_path: Path, goes: Callable[[int], str]) -> None:
+    count = 20_000
+    states = ", ".join(f"s{i}" for i in range(count))
+    write_tree(tmp_path, {"m.smdsl": f"m {{ states {states}; initial_state s0; transitions {{ {goes(count)}; }}; }};\n"})
+    begin = time.process_time()
+    assert rcyaml("migrate", ".").exit_code == 0
+    assert time.process_time() - begin < 8

@@ -84,11 +84,11 @@ def _sorted(machine: tables.Machine) -> tables.Machine:
 
 
 def test_the_run_times_have_the_same_tables() -> None:
-    templates = ROOT / "templates"
+    languages = ROOT / "robocomp_yaml" / "languages"
 
     names: dict[str, object] = {}
-    exec((templates / "python" / "machine" / "tables.py").read_text(encoding="utf-8"), names)
-    header = (templates / "cpp" / "machine" / "tables.h").read_text(encoding="utf-8")
+    exec((languages / "python" / "templates" / "machine" / "tables.py").read_text(encoding="utf-8"), names)
+    header = (languages / "cpp" / "templates" / "machine" / "tables.h").read_text(encoding="utf-8")
     for table in vars(tables).values():
         if isinstance(table, type) and table.__module__ == tables.__name__:
             own = [field.name for field in fields(table)]

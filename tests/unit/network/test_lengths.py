@@ -56,7 +56,8 @@ def test_a_path_of_few_letters_with_many_bytes_is_long(diagnostics: Check) -> No
 @pytest.mark.parametrize("program", ["{config}", "bin/{config}", "{config}/../x"])
 def test_no_program_is_a_configuration(diagnostics: Check, program: str) -> None:
     text = f"deployment: R\ncomponents:\n  a: {{program: '{program}', config-as: argument}}\n"
-    assert ("RC4017", 3, 16) in codes_of(diagnostics, text)
+    found = codes_of(diagnostics, text)
+    assert ("RC4017", 3, 16) in found and (len(found) == 1 or ".." in program)
     right = "deployment: R\ncomponents:\n  a: {program: sh, args: ['{config}'], connect: {X: 'x:tcp -p 1'}}\n"
     assert codes_of(diagnostics, right) == []
 

@@ -12,7 +12,7 @@ import jsonschema
 import jsonschema_rs
 import pytest
 
-from robocomp_yaml import resources
+from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source import tree
 from robocomp_yaml.source.schema import validate
 
@@ -22,7 +22,7 @@ RIGHT = {
     "idsl": "Speech.idsl.yaml", "cdsl": "speech.cdsl.yaml", "pdsl": "speech.pdsl.yaml", "config": "speech.config.yaml",
     "ddsl": "robot.ddsl.yaml", "workspace": "rcyaml.yaml",
 }
-SCHEMAS: dict[str, dict[str, Any]] = {kind: json.loads(resources.text(f"schemas/{kind}.schema.json")) for kind in KINDS}
+SCHEMAS: dict[str, dict[str, Any]] = {kind: json.loads(schema_text(kind)) for kind in KINDS}
 ANNOTATIONS = ("title", "description", "markdownDescription")
 
 

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from robocomp_yaml.source.xml import MAX_DEPTH, MAX_ELEMENTS, parse
+from robocomp_yaml.source.xml import MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, parse
 
 
 def codes(text: str) -> list[tuple[str, int, int]]:
@@ -42,6 +42,9 @@ def test_depth_and_size_are_bounded() -> None:
     assert codes("<a>" * MAX_DEPTH + "</a>" * MAX_DEPTH) == []
     assert codes("<a>" * 100_000)[0][0] == "RC2204"
     assert codes("<a>" + "<b/>" * MAX_ELEMENTS + "</a>")[0][0] == "RC2204"
+    several = " ".join(f'b{n}=""' for n in range(MAX_ATTRIBUTES))
+    assert codes(f"<a {several}/>") == []
+    assert codes(f'<a {several} c=""/>') == [("RC2204", 1, 1)]
 
 
 def test_one_long_line_is_read_in_a_moment() -> None:

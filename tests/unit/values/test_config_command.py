@@ -156,6 +156,8 @@ def test_set_does_not_make_a_list_that_a_layer_holds(run: Run) -> None:
 
 
 @pytest.mark.parametrize(("path", "value", "message"), [
+    ("device", "{env: MY-BUS}", "RC3309"), ("device", "{env: }", "RC3309"), ("device", "{file: dev/}", "RC3309"),
+    ("device", "{env: BUS, file: bus}", "RC3309"), ("device", "{file: [bus]}", "RC3309"), ("device", "{env: BUS, x}", "RC3309"),
     ("speed", "1", "error[RC3303]: speed is 1 m/s, and must be at least 0 and below 1 m/s"),
     ("motors[1].vel", "fast", "error[RC3302]: motors[1].vel must be a number (rad/s), and is the text 'fast'"),
     ("mode", "slo", "did you mean 'slow'?"),

@@ -1,0 +1,9 @@
+"""RC206x: what a component's language does not have."""
+
+from __future__ import annotations
+
+from robocomp_yaml.diag.code import Family
+
+_PAGE = Family("cdsl")
+
+NOT_AVAILABLE = _PAGE.code("RC2060")

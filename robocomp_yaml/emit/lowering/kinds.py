@@ -1,0 +1,92 @@
+"""Types of parameters as expressions that build the run time's, one limit after the other:
+`decimal("float").atLeast(0).below(1).in("rad")`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import msgspec
+
+from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, RecordType, Size, Type
+from robocomp_yaml.model.pdsl import Spelling
+
+
+class Builders(msgspec.Struct, frozen=True):
+    """How a language calls them: `prefix` stands before each function, `text` makes a literal, `value` one of any plain
+    data, `listed` a list of expressions. `pattern` makes what matches."""
+
+    prefix: str
+    text: Callable[[str], str]
+    value: Callable[[object], str]
+    listed: Callable[[Sequence[str]], str]
+    pattern: Callable[[str], str]
+
+    def kind(self, type_: Type, functions: Mapping[str, str], group: str | None = None) -> str:
+        """`functions` make the types of records; `group` is the path of a group."""
+        match type_:
+            case BasicType():
+                return self._plain(type_)
+            case EnumType(name=name, allowed=allowed):
+                names = self.listed([self.text(word) for word in allowed])
+                return f"{self.prefix}choice({self.text(name)}, {names}){'.secret()' * type_.secret}"
+            case ListType(element=element, size=size, unique=unique):
+                made = f"{self.prefix}list({self.kind(element, functions)}){_size(size)}"
+                return f"{made}.unique()" if unique else made
+            case MapType(element=element, size=size):
+                return f"{self.prefix}map({self.kind(element, functions)}){_size(size)}"
+            case _:
+                return f"{functions[type_.name or group or '']}()"
+
+    def _plain(self, type_: BasicType) -> str:
+        if type_.name == "bool":
+            made = f"{self.prefix}truth()"
+        elif type_.name == "string":
+            made = f"{self.prefix}text()"
+        else:
+            made = f"{self.prefix}{'whole' if type_.is_integer else 'decimal'}({self.text(type_.name)})"
+        return made + "".join(f".{limit}" for limit in self._limits(type_)) + ".secret()" * type_.secret
+
+    def _limits(self, type_: BasicType) -> Iterator[str]:
+        if type_.values:
+            yield f"oneOf({self.listed([self.value(literal.value) for literal in type_.values])})"
+        low, high = (type_.range.low, type_.range.high) if type_.range else (None, None)
+        if low is not None:
+            yield f"{'above' if low.is_open else 'atLeast'}({self.value(low.value)})"
+        if high is not None:
+            yield f"{'below' if high.is_open else 'atMost'}({self.value(high.value)})"
+        if type_.pattern is not None:
+            yield f"matching({self.pattern(type_.pattern.portable)}, {self.text(type_.pattern.text)})"
+        if type_.unit:
+            yield f"in({self.text(type_.unit)})"
+
+    def spelling(self, spelling: Spelling) -> str:
+        """All members of a spelling of properties, in their order."""
+        fields = self.listed([self.listed([self.text(name), self.text(key)]) for name, key in spelling.fields])
+        words = [
+            self.text(spelling.key), fields, str(spelling.first), self.texts(spelling.columns),
+            self.text(spelling.separator), self.texts(spelling.separators), "true" if spelling.trailing else "false",
+            self.text(spelling.count),
+        ]  # fmt: skip
+        return ", ".join(words)
+
+    def texts(self, words: Sequence[str]) -> str:
+        return self.listed([self.text(word) for word in words])
+
+
+def _size(size: Size) -> str:
+    if size.most is not None:
+        return f".size({size.least}, {size.most})"
+    return f".size({size.least})" if size.least else ""
+
+
+def pattern_count(type_: Type) -> int:
+    """How many patterns a type has."""
+    match type_:
+        case BasicType(pattern=pattern):
+            return int(pattern is not None)
+        case ListType(element=element) | MapType(element=element):
+            return pattern_count(element)
+        case RecordType(members=members):
+            return sum(pattern_count(member.type) for member in members)
+        case _:
+            return 0

@@ -1,0 +1,125 @@
+"""A component's ports: proxies that the worker has, and the methods that others call there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import msgspec
+
+from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.model.component import WAIT
+from robocomp_yaml.model.interface import Method
+
+
+class Spelling(msgspec.Struct, frozen=True):
+    """How a language names them: `taken` are names that every worker has, `published` the candidates for the proxy of a
+    topic, with {name} for the port's in lower case; `called` is an operation as its caller spells it, and `property`
+    how a text sets off the name of one."""
+
+    taken: frozenset[str]
+    published: tuple[str, ...]
+    called: Callable[[str], str]
+    property: str = "{name}"
+
+
+class Accessor(msgspec.Struct, frozen=True):
+    """A proxy that the worker has as `name`. `about` is one sentence, `summary` less; `doc` what the document says.
+    `events` are what it publishes; `absent` is '' where the run time's default holds, `milliseconds` None where Ice's
+    does."""
+
+    port: Port
+    name: str
+    about: str
+    summary: str
+    doc: str
+    events: str = ""
+    absent: str = ""
+    milliseconds: int | None = None
+
+
+class Called(msgspec.Struct, frozen=True):
+    """A method of the worker, `name`, which an operation of a port calls."""
+
+    port: Port
+    method: Method
+    name: str
+
+
+class Service(msgspec.Struct, frozen=True):
+    """An implemented or subscribed port. `new` are those of its methods that no earlier port has brought."""
+
+    port: Port
+    title: str
+    identity: str
+    methods: tuple[Called, ...]
+    new: tuple[Called, ...]
+
+
+class Ports(msgspec.Struct, frozen=True):
+    requires: tuple[Accessor, ...]
+    publishes: tuple[Accessor, ...]
+    implements: tuple[Service, ...]
+    subscribes: tuple[Service, ...]
+
+
+def lower(component: LinkedComponent, spelling: Spelling) -> Ports:
+    """All ports of a component, with names that do not clash."""
+    names = Names(spelling.taken)
+    requires = tuple(_required(port, names, spelling) for port in component.requires)
+    publishes = tuple(_published(port, names, spelling) for port in component.publishes)
+    known: dict[tuple[int, str, str], Called] = {}
+    implements = tuple(
+        _service(port, "other components call these.", port.interface.methods, names, known)
+        for port in component.implements
+    )
+    subscribes = tuple(
+        _service(port, "events that others publish.", can_be_published(port), names, known)
+        for port in component.subscribes
+    )
+    return Ports(requires, publishes, implements, subscribes)
+
+
+def can_be_published(port: Port) -> list[Method]:
+    """What of an interface a topic carries."""
+    return [method for method in port.interface.methods if method.can_be_published]
+
+
+def _required(port: Port, names: Names, spelling: Spelling) -> Accessor:
+    property_ = spelling.property.format(name=f"{port.name}Proxy")
+    timeout = port.use.timeout
+    return Accessor(
+        port=port,
+        name=names.take(f"{port.name.lower()}_proxy"),
+        about=f"{port.name}, at the address that the property {property_} gives.",
+        summary=f"calls {port.name}",
+        doc=port.use.doc or port.interface.doc,
+        absent="" if port.use.absent == WAIT else port.use.absent,
+        milliseconds=None if timeout is None else max(1, round(timeout * 1000)),
+    )
+
+
+def _published(port: Port, names: Names, spelling: Spelling) -> Accessor:
+    methods = can_be_published(port)
+    events = ", ".join(f"{spelling.called(m.name)}({', '.join(one.name for one in m.inputs)})" for m in methods)
+    return Accessor(
+        port=port,
+        name=names.take(*(candidate.format(name=port.name.lower()) for candidate in spelling.published)),
+        about=f"Publishes {port.name}: {events}.",
+        summary=f"publishes {port.name}",
+        doc=port.use.doc or port.interface.doc,
+        events=events,
+    )
+
+
+def _service(
+    port: Port, about: str, methods: Sequence[Method], names: Names, known: dict[tuple[int, str, str], Called]
+) -> Service:
+    every, new = [], []
+    for method in methods:
+        key = (id(port.scope), port.interface.name, method.name)
+        if key not in known:
+            known[key] = Called(port, method, names.take(f"{port.interface.name}_{method.name}"))
+            new.append(known[key])
+        every.append(known[key])
+    return Service(port, f"{port.name}: {about}", port.interface.name.lower(), tuple(every), tuple(new))

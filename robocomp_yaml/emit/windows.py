@@ -1,0 +1,28 @@
+"""What components with a window, or with code for RoboComp's own tool, have besides: files that are the same in all of
+them, and the window's form."""
+
+from __future__ import annotations
+
+from robocomp_yaml.emit import form
+from robocomp_yaml.emit.copied import copied
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.transactions.plan import ONCE, FilePlan
+
+_NONE: frozenset[str] = frozenset()
+
+
+def files(
+    linked: LinkedComponent, *, of_machines: frozenset[str], of_windows: frozenset[str] = _NONE
+) -> list[FilePlan]:
+    """The folders `qt` and `robocomp` of the language's templates: the latter with the files `of_machines` only where
+    there is a state machine, the former without those `of_windows` where the code is RoboComp's."""
+    component = linked.component
+    name = component.language.name
+    plans: list[FilePlan] = []
+    if component.gui or component.compatibility:
+        plans += copied(name, "qt", of_windows if component.compatibility else _NONE)
+    if component.compatibility:
+        plans += copied(name, "robocomp", _NONE if linked.machine else of_machines)
+    if component.gui:
+        plans.append(FilePlan(form.PATH, form.text(component.gui.base, component.name), ONCE))
+    return plans

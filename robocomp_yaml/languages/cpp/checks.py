@@ -1,0 +1,176 @@
+"""Names that C++ cannot have where Ice's mapping puts them. Slice and Python take them, so they are errors only where a
+component in C++ needs the module, and not in documents that were migrated: there the names are others' too."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+
+import msgspec
+
+from robocomp_yaml.check.idsl.names import fault_of
+from robocomp_yaml.diag.codes import idsl as codes
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, Related
+from robocomp_yaml.languages.cpp import LANGUAGE
+from robocomp_yaml.languages.cpp.globals import GLOBALS
+from robocomp_yaml.languages.cpp.macros import EVER, FAMILIES, is_macro
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
+from robocomp_yaml.link.references import Name, exceptions_of, groups, kind_of, types_of
+from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Module, Struct, TypeRef
+from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.migrated import is_migrated
+
+_GENERATED = frozenset(("GenericWorker", "Parameters", "SpecificWorker", "Worker", "main"))
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    users: dict[int, list[LinkedComponent]] = defaultdict(list)
+    for component in program.components.values():
+        if component.component.language.target is LANGUAGE:
+            for scope in component.modules():
+                users[id(scope)].append(component)
+    for linked in program.modules.values():
+        yield from _Module(linked, users[id(linked)], program.disk).check()
+
+
+def has_taken(module: Module) -> bool:
+    """Whether some component in C++ could not be built with the names of a module."""
+    linked = LinkedModule(module)
+    names = (name.text for definition in module.definitions for group in groups(definition) for name in group)
+    return any(_Module(linked, [], Disk()).check()) or any(name.startswith(FAMILIES) for name in names)
+
+
+class _Module(msgspec.Struct):
+    linked: LinkedModule
+    users: list[LinkedComponent]
+    disk: Disk
+
+    def check(self) -> Iterator[Diagnostic]:
+        module = self.linked.module
+        yield from self.macro(Name("module", module.name, module.span))
+        yield from self.beside()
+        for definition in module.definitions:
+            yield from self.macro(Name(kind_of(definition), definition.name, definition.span))
+            inside = list(groups(definition))
+            for group in inside:
+                for name in group:
+                    yield from self.macro(name)
+            match definition:
+                case Struct():
+                    # Ice's C++11 mapping, which components use, gives it no constructor; the older one does.
+                    for name in (name for group in inside for name in group if name.text == definition.name):
+                        yield _clash(name)
+                case ExceptionType(members=members):
+                    yield from self.told_apart([name for group in inside for name in group], {definition.name})
+                    yield from self.hidden(members, "member")
+                    yield from self.named_as_enum(members)
+                case Interface(methods=methods):
+                    used = {ref.text for ref in (*types_of(definition), *exceptions_of(definition))}
+                    yield from self.told_apart(inside[0] if methods else [], used)
+                    for method in methods:
+                        yield from self.hidden((*method.inputs, *method.outputs), "parameter")
+                        yield from self.in_result(method)
+                    yield from self.results(definition)
+
+    def macro(self, name: Name) -> Iterator[Diagnostic]:
+        hit = [user for user in self.users if _is_macro_for(name.text, user)]
+        if hit or name.text in EVER:
+            yield self.said(codes.CPP_MACRO.at(name.span, kind=name.kind, name=name.text, hint=_other(name.text)), hit)
+
+    def beside(self) -> Iterator[Diagnostic]:
+        """A namespace stands where the C library has its functions, and a component its classes."""
+        name, span = self.linked.module.name, self.linked.module.span
+        if name in EVER:
+            return
+        if name in GLOBALS or name in _GENERATED:
+            owner = "something of each component" if name in _GENERATED else "something in the system's headers"
+            hint = f"call it 'RoboComp{name[0].upper()}{name[1:]}'"
+            yield self.said(codes.CPP_GLOBAL.at(span, name=name, owner=owner, hint=hint), self.users)
+
+    def told_apart(self, names: Iterable[Name], taken: set[str]) -> Iterator[Diagnostic]:
+        """Ice's C++ has no second name for a member called as its exception, nor for a method as a type it uses."""
+        for name in names:
+            if name.text in taken:
+                yield self.clash(name)
+
+    def hidden(self, members: tuple[Member, ...], kind: str) -> Iterator[Diagnostic]:
+        """In a list of parameters, a name hides the type of the same name from those behind it."""
+        for number, member in enumerate(members):
+            if any(self.is_own(other.type, member.name) for other in members[number + 1 :]):
+                yield self.clash(Name(kind, member.name, member.span))
+
+    def named_as_enum(self, members: tuple[Member, ...]) -> Iterator[Diagnostic]:
+        """The constructor of an exception takes enums by value; then a member cannot mean something else."""
+        for number, member in enumerate(members):
+            behind = members[number + 1 :]
+            if any(self.is_own(other.type, member.name) for other in behind):
+                continue  # told as hidden
+            if any(self.is_own(other.type, member.name) and self.is_enum(other.type) for other in members):
+                yield self.clash(Name("member", member.name, member.span))
+
+    def in_result(self, method: Method) -> Iterator[Diagnostic]:
+        """What a method gives back, if it is more than one thing, becomes a struct: its members are named so."""
+        if not _has_result(method):
+            return
+        types = [*((method.returns,) if method.returns else ()), *(output.type for output in method.outputs)]
+        for number, output in enumerate(method.outputs):
+            hides = any(self.is_own(other.type, output.name) for other in method.outputs[number + 1 :])
+            if not hides and any(self.is_own(ref, output.name) for ref in types):
+                yield self.clash(Name("parameter", output.name, output.span))
+
+    def results(self, interface: Interface) -> Iterator[Diagnostic]:
+        """That struct's name."""
+        made = {f"{m.name[:1].upper()}{m.name[1:]}Result": m for m in interface.methods if _has_result(m)}
+        for method in interface.methods:
+            if method.name in made:
+                yield self.clash(Name("method", method.name, method.span))
+        for ref in types_of(interface):
+            if ref.name in made and self.is_own(ref, ref.name):
+                method = made[ref.name]
+                yield self.clash(Name("method", method.name, method.span), ref.name)
+
+    def is_own(self, ref: TypeRef, name: str) -> bool:
+        """Whether a type is this one of the module; those of others are written with their module's name."""
+        if ref.name != name or ref.is_basic:
+            return False
+        found = self.linked.find(ref)
+        return found is not None and found[0].module.name == self.linked.module.name
+
+    def is_enum(self, ref: TypeRef) -> bool:
+        found = self.linked.find(ref)
+        return found is not None and isinstance(found[1], Enum)
+
+    def clash(self, name: Name, other: str = "") -> Diagnostic:
+        return self.said(_clash(name, other), self.users)
+
+    def said(self, told: Diagnostic, users: list[LinkedComponent]) -> Diagnostic:
+        if not users or is_migrated(told.span.file, self.disk):
+            return told
+        component = users[0].component
+        related = Related(f"component {component.name} is in C++, and needs it", component.language.span)
+        return msgspec.structs.replace(told, severity=ERROR, related=(*told.related, related))
+
+
+def _clash(name: Name, other: str = "") -> Diagnostic:
+    first = name.text[0].lower() + name.text[1:]
+    better = first if first != name.text else f"the{name.text[0].upper()}{name.text[1:]}"
+    hint = f"call it '{better}'" if not other else f"call the method otherwise: its results become a '{other}'"
+    return codes.CPP_NAME.at(name.span, kind=name.kind, name=name.text, hint=hint)
+
+
+def _is_macro_for(name: str, user: LinkedComponent) -> bool:
+    component = user.component
+    has_qt = component.gui is not None or component.compatibility != ""
+    return is_macro(name, component.language.standard or LANGUAGE.standards[0], has_qt)
+
+
+def _has_result(method: Method) -> bool:
+    return len(method.outputs) + (method.returns is not None) > 1
+
+
+def _other(name: str) -> str:
+    """A name in its stead that C++ and Slice take."""
+    better = name.lower()
+    if better == name or better in EVER or better.startswith(FAMILIES) or fault_of(better) is not None:
+        better = f"{name.lower()}Value"
+    return f"call it '{better}'" if fault_of(better) is None else "choose another name"

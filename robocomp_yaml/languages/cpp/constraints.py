@@ -1,0 +1,44 @@
+"""Constraints as C++."""
+
+from __future__ import annotations
+
+import re
+
+from robocomp_yaml.emit.lowering.constraints import Calls
+from robocomp_yaml.languages.cpp import LANGUAGE
+from robocomp_yaml.languages.cpp.literals import value
+from robocomp_yaml.languages.cpp.text import quoted
+from robocomp_yaml.model.expression import Expression
+from robocomp_yaml.model.parameters import RecordType
+
+VALUE = "const runtime::Value&"
+_TAKEN = frozenset(("p", "of", "runtime", "std"))
+
+
+def lambda_of(expression: Expression, root: RecordType) -> str:
+    """A function of the parameters' values, called `p` in there."""
+    return _function("p", _CALLS.of(expression, root), capture="")
+
+
+def _function(variable: str, body: str, capture: str = "&") -> str:
+    used = re.search(rf"\b{variable}\b", body)
+    return f"[{capture}]({VALUE}{f' {variable}' if used else ''}) {{ return {body}; }}"
+
+
+def _variable(name: str) -> str:
+    return f"{name}_" if name in _TAKEN else LANGUAGE.in_code(name)
+
+
+_CALLS = Calls(
+    prefix="of::",
+    value=value,
+    text=quoted,
+    sign=lambda sign: f"'{sign}'",
+    listing=lambda items: f"runtime::Value(runtime::Value::List{{{', '.join(items)}}})",
+    pairs=lambda pairs: f"{{{', '.join(f'{{{sign}, {part}}}' for sign, part in pairs)}}}",
+    later=lambda code: f"[&] {{ return {code}; }}",
+    parts=lambda parts: f"{{{', '.join(parts)}}}",
+    function=_function,
+    member=lambda owner, key: f"{owner}[{key}]",
+    variable=_variable,
+)

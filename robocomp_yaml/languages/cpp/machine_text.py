@@ -1,0 +1,74 @@
+"""Tables of state machines as text of C++: aggregates in braces."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields, is_dataclass
+
+from robocomp_yaml.emit.machines.tables import Machine, Value
+
+WIDTH = 110
+_IN = "    "
+
+_KINDS = {"Value": "ValueKind", "Condition": "ConditionKind", "Action": "ActionKind", "State": "StateKind"}
+
+
+def text(table: object, indent: str = "") -> str:
+    """The table as an aggregate, up to the last field that is not as by default; long ones with one field a line."""
+    if isinstance(table, tuple):
+        return _braces("", [text(item, indent + "    ") for item in table], indent)
+    if isinstance(table, bool):
+        return "true" if table else "false"
+    if isinstance(table, str):
+        return string(table)
+    if not is_dataclass(table):
+        return str(table)
+    inner = indent + "    "
+    shown = list(fields(table))
+    while shown and type(table).__name__ != "Action" and getattr(table, shown[-1].name) == shown[-1].default:
+        shown.pop()
+    parts = [_field(table, field.name, inner) for field in shown]
+    return _braces(type(table).__name__, parts, indent) if parts else "{}"
+
+
+def functions(machine: Machine, name: str) -> str:
+    """A function that makes the tables of a machine, after those for the machines that it invokes.
+
+    One statement a state: a compiler takes ten times as long for the same in one expression.
+    """
+    inner = [functions(invoked, f"{name}_{number}") for number, invoked in enumerate(machine.machines, 1)]
+    head = Machine(machine.name, machine.datamodel, machine.late, (), (), machine.scripts)
+    lines = [f"Machine made = {text(head, _IN)};"]
+    lines += [f"made.states.push_back({text(state, _IN)});" for state in machine.states]
+    lines += [f"made.transitions.push_back({text(transition, _IN)});" for transition in machine.transitions]
+    lines += [f"made.machines.push_back({name}_{number}());" for number in range(1, len(inner) + 1)]
+    body = "".join(f"{_IN}{line}\n" for line in [*lines, "return made;"])
+    return "\n".join([*inner, f"Machine {name}()\n{{\n{body}}}\n"])
+
+
+def _field(table: object, name: str, indent: str) -> str:
+    value = getattr(table, name)
+    if name == "kind":
+        return f"{_KINDS[type(table).__name__]}::{value.capitalize()}"
+    if isinstance(table, Value) and name == "text" and table.kind == "literal":
+        decoded = json.loads(value)
+        return string(decoded if isinstance(decoded, str) else value)
+    return "{}" if value in ("", ()) or value == Value() else text(value, indent)
+
+
+def _braces(head: str, items: list[str], indent: str) -> str:
+    line = f"{head}{{{', '.join(items)}}}"
+    if "\n" not in line and len(indent) + len(line) <= WIDTH:
+        return line
+    inner = indent + "    "
+    return f"{head}{{\n" + "".join(f"{inner}{item},\n" for item in items) + f"{indent}}}"
+
+
+def string(data: str) -> str:
+    """A string literal, whatever the text holds."""
+    plain = "".join(
+        character if character.isprintable() and character not in '"\\?' else
+        "".join(f"\\{byte:03o}" for byte in character.encode("utf-8", "replace"))
+        for character in data
+    )  # fmt: skip
+    return f'"{plain}"'

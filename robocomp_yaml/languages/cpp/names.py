@@ -1,0 +1,52 @@
+"""Names in C++: what Ice's C++11 mapping makes of a Slice name, and how clashes are settled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.ports import Spelling
+from robocomp_yaml.languages.cpp import KEYWORDS
+from robocomp_yaml.languages.cpp.macros import EVER
+from robocomp_yaml.link.program import LinkedModule
+
+# What Ice 3.7's mapping puts `_cpp_` before.
+ICE_ESCAPES = frozenset(
+    "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const "
+    "const_cast constexpr continue decltype default delete do double dynamic_cast else enum explicit export extern "
+    "false float for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or "
+    "or_eq private protected public register reinterpret_cast requires return short signed sizeof static static_assert "
+    "static_cast struct switch template this thread_local throw true try typedef typeid typename union unsigned using "
+    "virtual void volatile wchar_t while xor xor_eq".split()
+)
+# Later keywords, which the mapping lets through: they count where a component asks for a later standard. And macros.
+_KEYWORDS = ICE_ESCAPES | KEYWORDS | EVER
+
+
+def ice_name(name: str) -> str:
+    """The name that Ice gives to a type, member, operation or parameter."""
+    return f"_cpp_{name}" if name in ICE_ESCAPES else name
+
+
+def qualified(scope: LinkedModule, name: str) -> str:
+    """A definition as generated code refers to it."""
+    return f"{ice_name(scope.module.name)}::{ice_name(name)}"
+
+
+def proxy(scope: LinkedModule, interface: str) -> str:
+    """The class of an interface's proxies; with its suffix, the name is no keyword."""
+    return f"{ice_name(scope.module.name)}::{interface}Prx"
+
+
+def parameter(name: str) -> str:
+    return f"{name}_" if name in _KEYWORDS else name
+
+
+PORTS = Spelling(
+    taken=frozenset(("parameters",)) | _KEYWORDS, published=("{name}_pubproxy",), called=ice_name,
+)
+
+
+def names(taken: Iterable[str] = ()) -> Names:
+    """Hands out names that are no words of C++ either."""
+    return Names((*taken, *_KEYWORDS))

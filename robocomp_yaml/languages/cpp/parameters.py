@@ -1,0 +1,275 @@
+"""A component's parameters as C++: structs for records, a class of getters and setters, and the run time's table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import msgspec
+
+from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
+from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.parameters import (
+    Spelling,
+    Types,
+    about_enum,
+    about_member,
+    capitals,
+    group_of,
+    path_of,
+)
+from robocomp_yaml.emit.parameter_facts import inside
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.languages.cpp import LANGUAGE
+from robocomp_yaml.languages.cpp.literals import number, string, value
+from robocomp_yaml.languages.cpp.literals import text as quoted
+from robocomp_yaml.languages.cpp.names import names
+from robocomp_yaml.languages.cpp.text import IN, comment, folded, one_line
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model.parameters import (
+    BasicType,
+    EnumType,
+    Member,
+    Parameters,
+    RecordType,
+)
+from robocomp_yaml.transactions.plan import FilePlan
+
+_TYPES_TAKEN = ("Values", "table", "fromValue", "toValue", "of")
+_METHODS_TAKEN = ("Parameters", "change", "listen", "live_", "now", "set")
+
+
+class EnumView(msgspec.Struct, frozen=True):
+    name: str
+    names: str
+    comment: str
+    enumerators: list[str]
+    literals: list[str]
+
+
+class MemberView(msgspec.Struct, frozen=True):
+    comment: str
+    field: str
+    kind: str
+    read: str
+    write: str
+
+
+class RecordView(msgspec.Struct, frozen=True):
+    name: str
+    comment: str
+    function: str
+    made: str
+    members: list[MemberView]
+
+
+class GetterView(msgspec.Struct, frozen=True):
+    comment: str
+    declaration: str
+    definition: str
+    setters: list[str]
+    setter_definitions: list[str]
+
+
+class ConstraintView(msgspec.Struct, frozen=True):
+    text: str
+    otherwise: str
+    value: str
+
+
+class View(msgspec.Struct, frozen=True):
+    source: str
+    name: str
+    comment: str
+    enums: list[EnumView]
+    records: list[RecordView]
+    converted: list[str]
+    getters: list[GetterView]
+    headers: list[str]
+    root: str
+    spellings: list[str]
+    constraints: list[ConstraintView]
+
+
+def plan(linked: LinkedComponent) -> list[FilePlan]:
+    """`generated/parameters.h` and `.cpp`."""
+    found = linked.parameters
+    source = found.document.path if found.document is not None else linked.component.path
+    return [
+        FilePlan(f"generated/{name}", made)
+        for name, made in texts(found.parameters, linked.component.name, source).items()
+    ]
+
+
+def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]:
+    """Header and source of a component's parameters, made from the document `source`."""
+    view = _view(parameters, component, one_line(source.rpartition("/")[2]))
+    return {f"parameters.{suffix}": render(f"cpp/parameters.{suffix}.j2", view) for suffix in ("h", "cpp")}
+
+
+def unused_runtime(parameters: Parameters) -> frozenset[str]:
+    """The files of the run time that these parameters do not need."""
+    unused = set() if pattern_count(parameters.root) else {"pattern.cpp", "pattern.h"}
+    return frozenset(unused if parameters.constraints else {*unused, "expressions.cpp", "expressions.h"})
+
+
+def _view(parameters: Parameters, name: str, source: str) -> View:
+    types = _Types(parameters.root)
+    views = [types.record(path, record) for path, record in types.records]
+    headers = [
+        *(["expressions.h"] if parameters.constraints else []), "kinds.h",
+        *(["pattern.h"] if pattern_count(parameters.root) else []),
+    ]  # fmt: skip
+    said = f"The parameters of {name} while it runs."
+    enums = [types.enum(enum) for enum in types.enums]
+    return View(
+        source=source,
+        name=name,
+        comment=comment(f"{said}\n\n{parameters.doc}" if parameters.doc else said),
+        enums=enums,
+        records=views,
+        converted=[*(enum.name for enum in enums), *(view.name for view in views)],
+        getters=list(types.getters()),
+        headers=headers,
+        root=types.functions["."],
+        spellings=[
+            folded(f"{{{quoted(each.path)}, runtime::Spelling{{{_BUILDERS.spelling(each)}}}}},", 3 * IN)
+            for each in parameters.spellings
+        ],
+        constraints=_constraints(parameters) if parameters.constraints else [],
+    )
+
+
+def _constraints(parameters: Parameters) -> list[ConstraintView]:
+    from robocomp_yaml.languages.cpp.constraints import lambda_of  # with all about expressions
+
+    return [
+        ConstraintView(
+            quoted(each.text), quoted(each.message), folded(f"{lambda_of(each.expression, parameters.root)},", 4 * IN)
+        )
+        for each in parameters.constraints
+    ]
+
+
+_SPELLING = Spelling(
+    basic={
+        "bool": "bool", "int": "int", "long": "long long", "float": "float", "double": "double",
+        "string": "std::string",
+    },
+    listing="std::vector<{}>",
+    mapping="std::map<std::string, {}>",
+    own="parameters::{}",
+)  # fmt: skip
+_BUILDERS = Builders(
+    prefix="runtime::",
+    text=quoted,
+    value=value,
+    listed=lambda items: f"{{{', '.join(items)}}}",
+    pattern=lambda pattern: f"runtime::pattern({string(pattern)})",
+)
+
+
+class _Types(Types):
+    """The C++ types of all enums and records that the parameters use, with names that do not clash."""
+
+    def __init__(self, root: RecordType) -> None:
+        taken = names(_TYPES_TAKEN)
+        super().__init__(root, taken, _SPELLING)
+        self.root = root
+        self.functions = {path: taken.take(f"kindOf{self.of[path]}") for path, _ in self.records}
+        self.enumerators = {enum.name: _enumerators(enum) for enum in self.enums}
+        self.tables = {enum.name: taken.take(f"namesOf{self.of[enum.name]}") for enum in self.enums}
+
+    def enum(self, enum: EnumType) -> EnumView:
+        return EnumView(
+            self.of[enum.name], self.tables[enum.name], comment("\n".join(about_enum(enum))),
+            [f"{name}," for name in self.enumerators[enum.name].values()], [f"{quoted(name)}," for name in enum.names],
+        )
+
+    def record(self, path: str, record: RecordType) -> RecordView:
+        group = group_of(path, record)
+        return RecordView(
+            self.of[path],
+            comment(self.about_record(path, record)),
+            self.functions[path],
+            "runtime::group(" if record.is_group else f"runtime::record({quoted(record.name)}, ",
+            [self.member(member, group) for member in record.members],
+        )
+
+    def member(self, member: Member, group: str | None) -> MemberView:
+        """`group` is the path of the group that it stands in, None in a struct."""
+        inner = path_of(member, group)
+        name, key = LANGUAGE.in_code(member.code_name), string(member.name)
+        made = f"runtime::Member({key}, {_BUILDERS.kind(member.type, self.functions, inner)})"
+        made += f".byDefault({value(member.default.data)})" if member.default is not None else ""
+        made += "".join(f".{word}()" for word in ("optional", "editable") if getattr(member, word))
+        initial = self.initial(member)
+        return MemberView(
+            comment=comment(about_member(member, "\n"), IN),
+            field=f"{self.member_type(member, inner)} {name}{f' = {initial}' if initial else '{}'};",
+            kind=folded(f"{made},", 2 * IN),
+            read=f"fromValue(value[{key}], to.{name});",
+            write=f"runtime::putMember(made, {key}, value.{name});",
+        )
+
+    def member_type(self, member: Member, group: str | None) -> str:
+        made = self.spelled(member.type, group)
+        return f"std::optional<{made}>" if member.optional else made
+
+    def initial(self, member: Member) -> str:
+        """What stands there before the config is read, and in a record that code makes."""
+        data = member.default.data if member.default is not None else None
+        match member.type:
+            case EnumType(name=name) if isinstance(data, str):
+                return f"parameters::{self.of[name]}::{self.enumerators[name][data]}"
+            case BasicType() if isinstance(data, bool):
+                return "true" if data else "false"
+            case BasicType() if isinstance(data, str):
+                return string(data)
+            case BasicType(name=name) if isinstance(data, int | float):
+                if name in ("int", "long"):
+                    return number(int(data))
+                return f"{float(data)!r}{'f' if name == 'float' else ''}"
+        return ""
+
+    def getters(self) -> Iterator[GetterView]:
+        taken = names(_METHODS_TAKEN)
+        getters = {member.name: taken.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
+        for member in self.root.members:
+            group = inside(".", member.code_name)
+            name, made = getters[member.name], self.member_type(member, group)
+            field = LANGUAGE.in_code(member.code_name)
+            if member.optional or isinstance(member.type, BasicType | EnumType):
+                body = f"return live_.now().{field};"
+            else:
+                made, body = f"runtime::Held<{made}>", f"return live_.held(&parameters::Values::{field});"
+            setters = list(self.setters(member, group, (member.name,), taken))
+            yield GetterView(
+                comment(about_member(member, "\n"), IN),
+                f"{made} {name}() const;",
+                f"{made} Parameters::{name}() const\n{{\n{IN}{body}\n}}",
+                [f"void {setter}({type_} value);" for setter, type_, _ in setters],
+                [_setter(*setter) for setter in setters],
+            )
+
+    def setters(
+        self, member: Member, group: str, path: tuple[str, ...], taken: Names
+    ) -> Iterator[tuple[str, str, str]]:
+        """Name, type and path of each setter: of the member, or of what the group holds."""
+        if member.is_group and isinstance(member.type, RecordType):
+            for inner in member.type.members:
+                yield from self.setters(inner, inside(group, inner.code_name), (*path, inner.name), taken)
+        elif member.editable:
+            made = self.member_type(member, None)
+            is_small = isinstance(member.type, BasicType | EnumType) and made != "std::string" and not member.optional
+            yield taken.take(f"set{capitals(group[1:])}"), made if is_small else f"const {made}&", ".".join(path)
+
+
+def _enumerators(enum: EnumType) -> dict[str, str]:
+    """The names in code of an enum's names."""
+    taken = names()
+    return {name: taken.take(LANGUAGE.in_code(name)) for name in enum.names}
+
+
+def _setter(name: str, type_: str, path: str) -> str:
+    body = f"{IN}using runtime::toValue;\n{IN}live_.store().change({{{{{quoted(path)}, toValue(value)}}}});"
+    return f"void Parameters::{name}({type_} value)\n{{\n{body}\n}}"

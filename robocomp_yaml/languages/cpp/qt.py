@@ -1,0 +1,134 @@
+"""C++ components with Qt: those with a window, and those with code for RoboComp's own tool."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+import msgspec
+from msgspec.structs import replace
+
+from robocomp_yaml.languages.cpp.names import ice_name, parameter, qualified
+from robocomp_yaml.languages.cpp.ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.languages.cpp.text import IN, declaration
+from robocomp_yaml.languages.cpp.types import input_type, type_name
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
+from robocomp_yaml.model.interface import Enum, Method
+
+WINDOW_FILES = frozenset(("windowworker.h",))  # of the folder qt, only for windows whose worker has its own thread
+MACHINE_FILES = frozenset(("machine.cpp", "machine.h"))  # of the folder robocomp, only where there is a machine
+
+
+class QtView(msgspec.Struct, frozen=True):
+    """What a component needs of Qt: `modules` for find_package, `libraries` to link, `base` the class of its window."""
+
+    modules: str
+    libraries: str
+    base: str
+
+
+class Enumerators(msgspec.Struct, frozen=True):
+    """The enumerators of a module, as they were called before they had scopes."""
+
+    module: str
+    constants: list[str]
+
+
+class RobocompView(msgspec.Struct, frozen=True):
+    """What only code for RoboComp's own tool needs. `tie`, `tuple_types` and `map` list the accessors; `methods`
+    are declared for those who override them; `legacy_sources` are names that RoboComp's own files have in `src/`."""
+
+    base: str
+    tuple_types: str
+    tie: str
+    map: str
+    casts: list[str]
+    methods: list[str]
+    namespaces: list[str]
+    enumerators: list[Enumerators]
+    legacy_sources: str
+    services: list[ServiceView]
+
+
+def qt_view(linked: LinkedComponent) -> QtView | None:
+    gui = linked.component.gui
+    if not (gui or linked.component.compatibility):
+        return None
+    modules = ["Core", "Widgets"] if gui else ["Core"]
+    libraries = " ".join(f"Qt${{QT_VERSION_MAJOR}}::{module}" for module in modules)
+    return QtView(" ".join(modules), libraries, gui.base if gui else "")
+
+
+def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
+    component = linked.component
+    if not component.compatibility:
+        return None
+    accessors = [*ports.requires, *ports.publishes]
+    served = sorted({port.interface.name.lower() for port in (*linked.implements, *linked.subscribes)})
+    return RobocompView(
+        base=f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
+        tuple_types=", ".join(f"std::shared_ptr<{accessor.proxy}>" for accessor in accessors),
+        tie=", ".join(accessor.name for accessor in accessors),
+        map=", ".join(f'{{"{accessor.name}", {accessor.name}}}' for accessor in accessors),
+        casts=_casts(accessors),
+        methods=list(_methods(linked)),
+        namespaces=[ice_name(scope.module.name) for scope in linked.modules()],
+        enumerators=[_enumerators(scope) for scope in linked.modules()],
+        legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
+        services=[_behind_pointer(service) for service in (*ports.implements, *ports.subscribes)],
+    )
+
+
+def _casts(accessors: list[AccessorView]) -> list[str]:
+    """Each proxy out of the map, as arguments."""
+    casts = [f'Ice::uncheckedCast<{accessor.proxy}>(mprx["{accessor.name}"]),' for accessor in accessors]
+    return [*casts[:-1], casts[-1].removesuffix(",")] if casts else []
+
+
+def _behind_pointer(service: ServiceView) -> ServiceView:
+    """There the servants are made before the worker, and the worker has no log."""
+    return replace(
+        service,
+        operations=[replace(one, body=one.body.replace("worker_.", "worker_->", 1)) for one in service.operations],
+        new_methods=[replace(method, stub=method.stub[1:]) for method in service.new_methods],
+    )
+
+
+def _methods(linked: LinkedComponent) -> Iterator[str]:
+    """The worker's methods, with their inputs by reference and by value: RoboComp's tool has spelled them both ways."""
+    seen: set[str] = set()
+    for port in (*linked.implements, *linked.subscribes):
+        subscribed = port in linked.subscribes
+        for method in port.interface.methods:
+            name = f"{port.interface.name}_{method.name}"
+            if name not in seen and (method.can_be_published or not subscribed):
+                seen.add(name)
+                yield from _variants(name, method, port)
+
+
+def _variants(name: str, method: Method, port: Port) -> Iterator[str]:
+    scope = port.scope
+    returns = "void" if method.returns is None else type_name(method.returns, scope)
+    outputs = [f"{type_name(m.type, scope)}& {parameter(m.name)}" for m in method.outputs]
+    by_reference = [f"{input_type(m.type, scope)} {parameter(m.name)}" for m in method.inputs]
+    by_value = [f"{type_name(m.type, scope)} {parameter(m.name)}" for m in method.inputs]
+    head = f"virtual {returns} {name}"
+    if by_reference == by_value:
+        yield declaration(head, [*by_value, *outputs], " = 0;", IN)
+        return
+    for inputs in (by_reference, by_value):
+        unnamed = [word.rpartition(" ")[0] for word in (*inputs, *outputs)]
+        yield declaration(head, unnamed, f" {{ throw std::logic_error(\"{name}() is missing\"); }}", IN)
+
+
+def _enumerators(scope: LinkedModule) -> Enumerators:
+    """Those that no other definition of the module hides."""
+    enums = [definition for definition in scope.module.definitions if isinstance(definition, Enum)]
+    taken = Counter(definition.name for definition in scope.module.definitions)
+    taken.update(enumerator.name for enum in enums for enumerator in enum.enumerators)
+    constants = [
+        f"inline constexpr auto {name} = {qualified(scope, enum.name)}::{name};"
+        for enum in enums for name in (ice_name(enumerator.name) for enumerator in enum.enumerators)
+        if taken[name] == 1
+    ]  # fmt: skip
+    return Enumerators(ice_name(scope.module.name), constants)

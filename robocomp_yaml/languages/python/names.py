@@ -1,0 +1,68 @@
+"""Names in Python: what Ice's mapping makes of a Slice name, and how clashes are settled."""
+
+from __future__ import annotations
+
+import keyword
+from collections.abc import Iterable, Iterator
+
+from robocomp_yaml.emit.lowering.ports import Spelling
+
+# What Ice 3.7's mapping puts an underscore before. What it forgets is escaped when the generated component loads its
+# Slice (templates/runtime/keywords.py).
+ICE_ESCAPES = frozenset(
+    "None and assert break class continue def del elif else except exec finally for from global if import in is lambda "
+    "not or pass print raise return self try while yield".split()
+)
+_PROXY_METHODS = frozenset(("checkedCast", "uncheckedCast"))
+_KEYWORDS = frozenset((*keyword.kwlist, "staticmethod"))
+_FORGOTTEN = _KEYWORDS - ICE_ESCAPES
+
+# Attributes of every worker: accessors and methods called so get another name.
+WORKER_ATTRIBUTES = frozenset(
+    "communicator compute getPeriod initialize initializeGui killYourSelf log mutex parameters runInGui runInWorker "
+    "setPeriod ui window".split()
+)
+
+# Names that stand in the generated files beside the Slice modules.
+_TAKEN = frozenset(
+    "COMPONENT Component Context Events GenericWorker Implemented MACHINE MODELS MachineWorker Method Parameters "
+    "Published Required SpecificWorker Subscribed "
+    "Worker annotations bool bytes dict float int list load main str super tuple".split()
+)
+
+
+def ice_name(name: str) -> str:
+    """The name under which Ice finds it: of an operation in a servant, of a module."""
+    return f"_{name}" if name in ICE_ESCAPES else name
+
+
+def python_name(name: str) -> str:
+    """The attribute or variable called so."""
+    return f"_{name}" if name in ICE_ESCAPES or name in _KEYWORDS else name
+
+
+def proxy_method(name: str) -> str:
+    """An operation as the caller spells it."""
+    return f"_{name}" if name in _PROXY_METHODS else python_name(name)
+
+
+def is_forgotten(name: str) -> bool:
+    """Whether Python cannot have the name, and Ice does not escape it."""
+    return name in _FORGOTTEN
+
+
+def module_variable(name: str) -> str:
+    """The variable that holds a Slice module in a generated file."""
+    return f"_{name}" if name in _TAKEN else python_name(name)
+
+
+def parameters(names: Iterable[str], modules: Iterable[str]) -> Iterator[str]:
+    """Parameters of a method in whose file these module variables are used."""
+    hidden = {"self", *modules}
+    for name in names:
+        yield f"_{name}" if name in hidden else python_name(name)
+
+
+PORTS = Spelling(
+    taken=WORKER_ATTRIBUTES, published=("{name}_proxy", "{name}_pubproxy"), called=proxy_method, property="`{name}`",
+)

@@ -1,0 +1,236 @@
+"""A component's parameters as Python: a class for each record, whose members say type, limits, default and unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import msgspec
+
+from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.parameters import Spelling, Types, about_enum, about_member, group_of, path_of
+from robocomp_yaml.emit.parameter_facts import records
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.languages.python import LANGUAGE
+from robocomp_yaml.languages.python.text import docstring, literal, one_line
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.model.parameters import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    Parameters,
+    RecordType,
+    Size,
+    Type,
+)
+from robocomp_yaml.model.pdsl import Spelling as PropertySpelling
+from robocomp_yaml.transactions.plan import FilePlan
+
+WIDTH = 112
+_TAKEN = (
+    "Literal Mapping Optional Parameters TABLE Values annotations bool composite constraints float int parameters "
+    "plain reading str tuple"
+).split()
+
+
+class EnumView(msgspec.Struct, frozen=True):
+    name: str
+    literal: str
+    docstring: str
+
+
+class MemberView(msgspec.Struct, frozen=True):
+    name: str
+    hint: str
+    declaration: str
+    docstring: str
+
+
+class RecordView(msgspec.Struct, frozen=True):
+    name: str
+    docstring: str
+    members: list[MemberView]
+
+
+class ConstraintView(msgspec.Struct, frozen=True):
+    text: str
+    otherwise: str
+    value: str
+
+
+class View(msgspec.Struct, frozen=True):
+    source: str
+    title: str
+    imports: list[str]
+    enums: list[EnumView]
+    records: list[RecordView]
+    spellings: list[str]
+    constraints: list[ConstraintView]
+
+
+def plan(linked: LinkedComponent) -> FilePlan:
+    """`generated/parameters.py`."""
+    found = linked.parameters
+    source = found.document.path if found.document is not None else linked.component.path
+    return FilePlan("generated/parameters.py", text(found.parameters, linked.component.name, source))
+
+
+def text(parameters: Parameters, component: str, source: str) -> str:
+    """The module with the parameters of a component, made from the document `source`."""
+    return render("python/parameters.py.j2", _view(parameters, component, one_line(source.rpartition("/")[2])))
+
+
+def _view(parameters: Parameters, name: str, source: str) -> View:
+    types = _Types(parameters.root)
+    views = [types.record(path, record) for path, record in types.records]
+    constraints = _constraints(parameters) if parameters.constraints else []
+    said = f"The parameters of {name}."
+    return View(
+        source=source,
+        title=docstring(f"{said}\n\n{parameters.doc}" if parameters.doc else said, ""),
+        imports=list(_imports(views, bool(types.enums), bool(parameters.spellings), bool(constraints))),
+        enums=[types.enum(enum) for enum in types.enums],
+        records=views,
+        spellings=[f"{literal(spelling.path)}: {_spelling(spelling)}" for spelling in parameters.spellings],
+        constraints=constraints,
+    )
+
+
+def _constraints(parameters: Parameters) -> list[ConstraintView]:
+    from robocomp_yaml.languages.python.constraints import lambda_of  # with all about expressions
+
+    return [
+        ConstraintView(literal(each.text), literal(each.message), lambda_of(each.expression, parameters.root))
+        for each in parameters.constraints
+    ]
+
+
+def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints: bool) -> Iterator[str]:
+    hints = " ".join(member.hint for view in views for member in view.members)
+    if "Mapping[" in hints:
+        yield "from collections.abc import Mapping"
+    typing = [name for name, used in (("Literal", enums), ("Optional", "Optional[" in hints)) if used]
+    if typing:
+        yield f"from typing import {', '.join(typing)}"
+    if "Mapping[" in hints or typing:
+        yield ""
+    modules = {"composite": True, "constraints": constraints, "parameters": True, "plain": True, "reading": spellings}
+    yield f"from generated.runtime import {', '.join(name for name, used in modules.items() if used)}"
+
+
+_SPELLING = Spelling(
+    basic={"bool": "bool", "int": "int", "long": "int", "float": "float", "double": "float", "string": "str"},
+    listing="tuple[{}, ...]",
+    mapping="Mapping[str, {}]",
+    path="`{}`",
+)
+
+
+class _Types(Types):
+    """The classes of all records that the parameters use, with names that do not clash."""
+
+    def __init__(self, root: RecordType) -> None:
+        members = {LANGUAGE.in_code(member.code_name) for _, record in records(root)[0] for member in record.members}
+        super().__init__(root, Names((*_TAKEN, *members)), _SPELLING)  # a class's members hide what else is called so
+
+    def enum(self, enum: EnumType) -> EnumView:
+        names = ", ".join(map(literal, enum.names))
+        return EnumView(self.of[enum.name], f"Literal[{names}]", docstring("\n".join(about_enum(enum)), ""))
+
+    def record(self, path: str, record: RecordType) -> RecordView:
+        group = group_of(path, record)
+        return RecordView(
+            self.of[path],
+            docstring(self.about_record(path, record), "    "),
+            [self.member(member, group) for member in record.members],
+        )
+
+    def member(self, member: Member, group: str | None) -> MemberView:
+        """`group` is the path of the group that it stands in, None in a struct."""
+        inner = path_of(member, group)
+        arguments = [self.kind(member.type, inner)]
+        if member.default is not None:
+            arguments.append(f"default={literal(member.default.data)}")
+        arguments += [f"{word}=True" for word in ("optional", "editable") if getattr(member, word)]
+        name = LANGUAGE.in_code(member.code_name)
+        if name != member.name:
+            arguments.append(f"key={literal(member.name)}")
+        hint = self.spelled(member.type, inner)
+        hint = f"Optional[{hint}]" if member.optional else hint
+        doc = about_member(member, "\n\n")
+        return MemberView(name, hint, _call("composite.member", arguments, "    "), docstring(doc, "    "))
+
+    def kind(self, type_: Type, group: str | None) -> str:
+        match type_:
+            case BasicType():
+                return _secret(type_, _plain(type_))
+            case EnumType(name=name, allowed=allowed):
+                return _secret(type_, f"plain.choice({', '.join(map(literal, (name, *allowed)))})")
+            case ListType(element=element, size=size, unique=unique):
+                words = [self.kind(element, None), *_size(size), *(["unique=True"] if unique else [])]
+                return f"composite.listing({', '.join(words)})"
+            case MapType(element=element, size=size):
+                return f"composite.naming({', '.join((self.kind(element, None), *_size(size)))})"
+            case _:
+                made = "group" if type_.is_group else "record"
+                return f"composite.{made}({self.spelled(type_, group)})"
+
+
+def _secret(type_: BasicType | EnumType, made: str) -> str:
+    return f"plain.secret({made})" if type_.secret else made
+
+
+def _plain(type_: BasicType) -> str:
+    limits = list(_limits(type_))
+    if type_.name == "bool":
+        return "plain.truth()"
+    if type_.name == "string":
+        return f"plain.text({', '.join(limits)})"
+    made = "whole" if type_.is_integer else "decimal"
+    return f"plain.{made}({', '.join((literal(type_.name), *limits))})"
+
+
+def _limits(type_: BasicType) -> Iterator[str]:
+    if type_.values:
+        yield f"values={literal(tuple(value.value for value in type_.values))}"
+    low, high = (type_.range.low, type_.range.high) if type_.range else (None, None)
+    if low is not None:
+        yield f"{'above' if low.is_open else 'at_least'}={low.value!r}"
+    if high is not None:
+        yield f"{'below' if high.is_open else 'at_most'}={high.value!r}"
+    if type_.pattern is not None:
+        yield f"pattern={literal(type_.pattern.portable)}"
+        if type_.pattern.text != type_.pattern.portable:
+            yield f"shown_as={literal(type_.pattern.text)}"
+    if type_.unit:
+        yield f"unit={literal(type_.unit)}"
+
+
+def _size(size: Size) -> Iterator[str]:
+    if size.least:
+        yield f"at_least={size.least}"
+    if size.most is not None:
+        yield f"at_most={size.most}"
+
+
+def _spelling(spelling: PropertySpelling) -> str:
+    words = [literal(spelling.key)] if spelling.key else []
+    words += [f"fields={literal(spelling.fields)}"] if spelling.fields else []
+    words += [f"first={spelling.first}"] if spelling.first else []
+    words += [f"columns={literal(spelling.columns)}"] if spelling.columns else []
+    words += [f"separator={literal(spelling.separator)}"] if spelling.separator != "," else []
+    words += [f"separators={literal(spelling.separators)}"] if spelling.separators else []
+    words += ["trailing=True"] if spelling.trailing else []
+    words += [f"count={literal(spelling.count)}"] if spelling.count else []
+    return _call("reading.Spelling", words, "        ")
+
+
+def _call(function: str, arguments: Iterable[str], indent: str) -> str:
+    """On one line, or one argument a line where it would be too long."""
+    words = list(arguments)
+    line = f"{function}({', '.join(words)})"
+    if len(indent) + len(line) <= WIDTH - 20:
+        return line
+    inner = "".join(f"{indent}    {word},\n" for word in words)
+    return f"{function}(\n{inner}{indent})"

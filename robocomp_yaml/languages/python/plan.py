@@ -1,0 +1,178 @@
+"""The Python target: a component that runs with Python 3.9 and Ice 3.7 alone.
+
+Most of it is the same for every component and is copied as it stands (`templates/runtime/`); what differs are
+a few small generated files, the user's skeleton and a launcher.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Iterator
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+import msgspec
+from msgspec.structs import replace
+
+from robocomp_yaml.emit import windows
+from robocomp_yaml.emit.copied import copied
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, lower
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.languages.python import parameters, qt
+from robocomp_yaml.languages.python.names import ice_name, is_forgotten, module_variable
+from robocomp_yaml.languages.python.ports import AccessorView, Ports, ServedView
+from robocomp_yaml.languages.python.stubs import ModuleStub, stub
+from robocomp_yaml.languages.python.text import docstring, one_line
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.link.references import groups
+from robocomp_yaml.transactions.plan import ONCE, FilePlan
+
+if TYPE_CHECKING:
+    from robocomp_yaml.languages.python.statemachine import MachineView
+
+
+
+class SliceModule(msgspec.Struct, frozen=True):
+    """A Slice module: the name Ice gives it, and the variable that holds it."""
+
+    name: str
+    variable: str
+
+
+class View(msgspec.Struct, frozen=True):
+    """What the templates show: each file is about the same few things.
+
+    `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `stage`,
+    `window`, `qt_base`, `sequences` and `spread` are for components in Qt's event loop; `imports` names the modules
+    that the file at hand uses.
+    """
+
+    source: str
+    name: str
+    title: str
+    docstring: str
+    period: int
+    files: list[str]
+    modules: list[SliceModule]
+    escape: bool
+    behavior: str
+    has_behavior: bool
+    stubs: list[ModuleStub]
+    implements: list[ServedView]
+    subscribes: list[ServedView]
+    served: list[ServedView]
+    requires: list[AccessorView]
+    publishes: list[AccessorView]
+    accessors: list[AccessorView]
+    stage: str
+    window: str
+    qt_base: str
+    sequences: list[str]
+    machine: MachineView | None
+    base: str
+    imports: str = ""
+    spread: tuple[str, ...] = ()
+
+
+def plan(component: LinkedComponent) -> list[FilePlan]:
+    """The component's files but for `slice/` and `etc/`."""
+    view = _view(component)
+    methods = [method for port in view.served for method in port.new_methods]
+    proxies = [port.proxy for port in view.accessors]
+    signatures = [method.signature for method in methods]
+    table = [view.behavior + ".", *proxies, *(port.interface for port in view.served)]
+    table += [method.throws for port in view.implements for method in port.methods]
+    stubs = [*signatures, *(method.value for method in methods)]
+    return [
+        *_runtime(),
+        *(_machine().files(component.machine, component.component.name) if component.machine else []),
+        FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
+        FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
+        parameters.plan(component),
+        FilePlan("generated/component.py", _rendered("component.py", view, table)),
+        *windows.files(component, of_machines=qt.MACHINE_FILES),
+        *(_robocomp(view) if component.component.compatibility else [
+            FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
+            FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
+        ]),
+        FilePlan(f"bin/{view.name}", _rendered("launcher", view), ONCE, executable=True),
+    ]
+
+
+def _machine() -> ModuleType:
+    from robocomp_yaml.languages.python import statemachine  # with all about machines, which few have
+
+    return statemachine
+
+
+def _robocomp(view: View) -> list[FilePlan]:
+    """What code written for RoboComp's own tool imports, and a skeleton like its own."""
+    every = tuple(module.variable for module in view.modules)
+    view = replace(view, imports=", ".join(every), spread=every)
+    return [
+        FilePlan("generated/robocomp/genericworker.py", render("python/robocomp_genericworker.py.j2", view)),
+        FilePlan("generated/robocomp/interfaces.py", render("python/robocomp_interfaces.py.j2", view)),
+        FilePlan("src/specificworker.py", render("python/robocomp_specificworker.py.j2", view), ONCE),
+    ]
+
+
+def _rendered(template: str, view: View, code: Iterable[str] = ()) -> str:
+    """The template, importing those modules that the pieces of code name."""
+    named = {name for piece in code for name in re.findall(r"(\w+)\.", piece)}
+    imports = ", ".join(sorted(module.variable for module in view.modules if module.variable in named))
+    return render(f"python/{template}.j2", replace(view, imports=imports))
+
+
+def _runtime() -> tuple[FilePlan, ...]:
+    """The files that are the same in every component."""
+    files = copied("python", "runtime")
+    package = next(file for file in files if file.path.endswith("/__init__.py"))
+    return (replace(package, path="generated/__init__.py"), *files)
+
+
+def _view(linked: LinkedComponent) -> View:
+    component = linked.component
+    ports = Ports(linked)
+    lowered = lower(linked)
+    return View(
+        source=one_line(lowered.source),
+        name=lowered.name,
+        title=docstring(lowered.doc, ""),
+        docstring=docstring(lowered.doc, "    "),
+        period=lowered.period,
+        files=[json.dumps(file, ensure_ascii=False) for file in lowered.imported],
+        modules=[SliceModule(ice_name(name), module_variable(name)) for name in lowered.modules],
+        escape=any(is_forgotten(name) for name in _identifiers(linked)),
+        behavior=module_variable(BEHAVIOR),
+        has_behavior=lowered.is_common,
+        stubs=[stub(scope) for scope in linked.modules()],
+        implements=ports.implements,
+        subscribes=ports.subscribes,
+        served=[*ports.implements, *ports.subscribes],
+        requires=ports.requires,
+        publishes=ports.publishes,
+        accessors=[*ports.requires, *ports.publishes],
+        stage=qt.stage(linked),
+        window=component.gui.base if component.gui else "",
+        qt_base=qt.qt_base(linked),
+        sequences=qt.sequences(linked),
+        machine=_machine().view(linked.machine) if linked.machine else None,
+        base=_base(linked),
+    )
+
+
+def _base(linked: LinkedComponent) -> str:
+    """What GenericWorker is derived from."""
+    machine = "MachineWorker" if linked.machine else ""
+    window = "WindowWorker" if linked.component.gui else ""
+    return ", ".join(base for base in (window, machine) if base) or "Worker"
+
+
+def _identifiers(linked: LinkedComponent) -> Iterator[str]:
+    """Every name in the component's Slice."""
+    for scope in linked.modules():
+        yield scope.module.name
+        for definition in scope.module.definitions:
+            yield definition.name
+            yield from (name.text for group in groups(definition) for name in group)

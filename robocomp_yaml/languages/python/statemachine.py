@@ -1,0 +1,104 @@
+"""The state machine of a Python component: its tables and events, and the interpreter that is copied along.
+
+The part that evaluates Python text is copied only where the machine's data model asks for it.
+"""
+
+from __future__ import annotations
+
+import re
+
+import msgspec
+
+from robocomp_yaml.emit.copied import copied
+from robocomp_yaml.emit.machines import lower
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.languages.python import machine_text
+from robocomp_yaml.languages.python.names import python_name
+from robocomp_yaml.languages.python.text import docstring, one_line
+from robocomp_yaml.model import machine_names as names
+from robocomp_yaml.model.machine_index import MachineIndex
+from robocomp_yaml.model.statemachine import PYTHON, State, StateMachine
+from robocomp_yaml.transactions.plan import FilePlan
+
+_SCRIPTING = "scripting.py"
+
+
+class EventView(msgspec.Struct, frozen=True):
+    name: str
+    method: str
+
+
+class StateView(msgspec.Struct, frozen=True):
+    name: str
+    docstring: str
+
+
+class MachineView(msgspec.Struct, frozen=True):
+    """What the worker has of a machine: states, names of guards and actions. `fires` is an example of an event.
+    `member` and `signals` are for code for RoboComp's own tool."""
+
+    states: list[StateView]
+    guards: list[str]
+    actions: list[str]
+    fires: str
+    member: str
+    signals: list[str]
+
+
+class TablesView(msgspec.Struct, frozen=True):
+    source: str
+    name: str
+    scripting: bool
+    tables: str
+    events: list[EventView]
+    machine: str
+
+
+def view(machine: StateMachine) -> MachineView:
+    return MachineView(
+        [StateView(state.id, _docstring(state)) for state in names.with_handler(machine)],
+        [guard.name for guard in names.guards(machine)],
+        [action.name for action in names.actions(machine) if action.name not in names.CALLABLE],
+        next((f"self.events.{event.method}()" for event in _events(machine)), "there are none"),
+        python_name(names.robocomps_machine(machine)),
+        names.robocomps_signals(machine),
+    )
+
+
+def _docstring(state: State) -> str:
+    return docstring(f"The state '{state.id}' has been entered.\n\n{state.doc}", "        ")
+
+
+def files(machine: StateMachine, component: str) -> list[FilePlan]:
+    """The interpreter, and the tables of the component's machine."""
+    without = frozenset() if _scripts(machine) else frozenset((_SCRIPTING,))
+    return [*copied("python", "machine", without), FilePlan("generated/statemachine.py", tables(machine, component))]
+
+
+def tables(machine: StateMachine, component: str) -> str:
+    """The module that holds the tables."""
+    literal = machine_text.text(lower.lower(machine))
+    return render(
+        "python/statemachine.py.j2",
+        TablesView(
+            source=one_line(machine.path.rpartition("/")[2]),
+            name=component,
+            scripting=_scripts(machine),
+            tables=", ".join(sorted(set(re.findall(r"\b([A-Z][a-z]+)\(", _without_texts(literal))))),
+            events=_events(machine),
+            machine=literal,
+        ),
+    )
+
+
+def _without_texts(literal: str) -> str:
+    return re.sub(r"""'(?:[^'\\\n]|\\.)*'|"(?:[^"\\\n]|\\.)*\"""", "''", literal)
+
+
+def _events(machine: StateMachine) -> list[EventView]:
+    return [EventView(event.text.text, python_name(event.name)) for event in names.events(machine)]
+
+
+def _scripts(machine: StateMachine) -> bool:
+    """Whether it, or a machine that it invokes, has expressions of Python."""
+    return machine.datamodel == PYTHON or any(map(_scripts, MachineIndex(machine).invoked()))

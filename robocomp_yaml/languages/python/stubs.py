@@ -1,0 +1,88 @@
+"""What editors and type checkers know of the Slice modules, which exist only once Ice has loaded them: a `.pyi`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import msgspec
+
+from robocomp_yaml.languages.python.names import module_variable, parameters, proxy_method, python_name
+from robocomp_yaml.languages.python.text import about, docstring, signature
+from robocomp_yaml.languages.python.types import hint, qualified, result_hint
+from robocomp_yaml.link.program import Definition, LinkedModule
+from robocomp_yaml.model.interface import Constant, Enum, ExceptionType, Interface, Member, Struct
+
+IN = "    "
+
+
+class MethodStub(msgspec.Struct, frozen=True):
+    """A method as its caller sees it."""
+
+    signature: str
+    docstring: str
+
+
+class ClassStub(msgspec.Struct, frozen=True):
+    """A class: `header` from its name to the colon, its attributes, and its methods."""
+
+    header: str
+    docstring: str
+    attributes: list[str]
+    methods: list[MethodStub]
+
+
+class ModuleStub(msgspec.Struct, frozen=True):
+    """A Slice module, shown as a class: that is a name space, too."""
+
+    variable: str
+    docstring: str
+    constants: list[str]
+    classes: list[ClassStub]
+
+
+def stub(linked: LinkedModule) -> ModuleStub:
+    """The names of a module."""
+    module = linked.module
+    return ModuleStub(
+        variable=module_variable(module.name),
+        docstring=docstring(module.doc or module.name, IN),
+        constants=[f"{python_name(c.name)}: {hint(c.type, linked)}" for c in module.constants],
+        classes=[view for definition in module.definitions for view in _classes(definition, linked)],
+    )
+
+
+def _classes(definition: Definition, linked: LinkedModule) -> Iterator[ClassStub]:
+    doc = docstring(definition.doc or definition.name, IN * 2)
+    name = python_name(definition.name)
+    match definition:
+        case Enum(enumerators=enumerators):
+            own = qualified(linked, definition.name)
+            values = [f"{python_name(enumerator.name)}: {own}" for enumerator in enumerators]
+            yield ClassStub(f"{name}(Ice.EnumBase)", doc, values, [])
+        case Struct(members=members):
+            yield _record(name, doc, members, linked)
+        case ExceptionType(members=members):
+            yield _record(f"{name}(Ice.UserException)", doc, members, linked)
+        case Interface():
+            yield ClassStub(f"{name}(Ice.Object)", doc, [], [])
+            methods = list(_proxy_methods(definition, linked))
+            yield ClassStub(f"{definition.name}Prx(Ice.ObjectPrx)", doc, [], methods)
+        case Constant() | _:
+            return
+
+
+def _record(header: str, doc: str, members: Sequence[Member], linked: LinkedModule) -> ClassStub:
+    """A struct or exception: every member may be given to its constructor, by place or by name."""
+    fields = [f"{python_name(member.name)}: {hint(member.type, linked)}" for member in members]
+    notes = [f"  # {note}" if (note := about(member)) else "" for member in members]
+    made = signature("__init__", [f"{field} = ..." for field in fields], "None", IN * 2)
+    attributes = [field + note for field, note in zip(fields, notes, strict=True)]
+    return ClassStub(header, doc, attributes, [MethodStub(made, "...")])
+
+
+def _proxy_methods(interface: Interface, linked: LinkedModule) -> Iterator[MethodStub]:
+    for method in interface.methods:
+        names = parameters((member.name for member in method.inputs), ())
+        typed = [f"{n}: {hint(m.type, linked)}" for n, m in zip(names, method.inputs, strict=True)]
+        made = signature(proxy_method(method.name), typed, result_hint(method, linked), IN * 2)
+        yield MethodStub(made, docstring(method.doc or f"{interface.name}.{method.name}", IN * 3))
