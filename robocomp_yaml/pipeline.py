@@ -1,7 +1,15 @@
 """The pipeline: paths to a linked program and everything that is wrong with it.
 
-discover → (read → tree → shape → model, each document once) → link → checks (with networks, where there are
-deployments). `check` is this and no more; `compile` goes on from the program that it gives.
+Each pass takes what the one before it gave, and nothing is changed once it is given:
+
+    discover   paths → which documents                                    source.discover
+    read       each document once: bytes → tree → shape → model           link.documents (source, schemas, model)
+    link       imports, names, parameters, values, deployments → program  link.linker
+    derive     deployments → networks                                     network.networks
+    check      what no schema can say, of documents and of networks       check
+    tell       what comments allow and `lint:` asks for, fixes spelled, secrets hidden
+
+`check` is this and no more; `compile` goes on from the program that it gives.
 """
 
 from __future__ import annotations
@@ -11,15 +19,18 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.check import checks, secrets
 from robocomp_yaml.check.allowed import Allowed
+from robocomp_yaml.check.networks import of_networks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.network.networks import Derived, networks_of
 from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import spelled
@@ -28,17 +39,21 @@ if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
 
-class Analysis(msgspec.Struct):
-    """A program with its diagnostics, sorted, and the disk that they were read from. `networks` are what the
-    deployments come to, by real path."""
+class Analysis(msgspec.Struct, frozen=True):
+    """A program with its diagnostics, sorted, the disk that they were read from, and its networks."""
 
     program: Program
     linker: Linker
     found: Found
-    diagnostics: list[Diagnostic]
     disk: Disk
-    networks: dict[str, Network] = {}
-    allowed: Allowed = msgspec.field(default_factory=Allowed)
+    derived: Derived
+    allowed: Allowed
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def networks(self) -> Mapping[str, Network]:
+        """What the deployments come to, by real path."""
+        return self.derived.networks
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
@@ -85,24 +100,17 @@ def analyse(
     """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
     document that is read. `overlay` has contents, by path, that count instead of the disk's."""
     disk = Disk(overlay)
-    documents = Documents(disk, on_read)
-    linker = Linker(documents, Search(search_folders(extra), disk))
     found = discover(list(paths), disk)
+    linker = Linker(Documents(disk, on_read), Search(search_folders(extra), disk))
     program = linker.link(found.documents)
-    said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]
-    for run in checks(program):
-        said += run(program)
-    networks: dict[str, Network] = {}
-    if program.deployments:
-        from robocomp_yaml.check.networks import networks_of  # most programs have none
-
-        networks, more = networks_of(program)
-        said += more
-    said += secrets.check(program, documents.read.values())
-    analysis = Analysis(program, linker, found, [], disk, networks)
-    analysis.allowed = Allowed.of(disk.contents)
-    analysis.diagnostics = in_order(analysis.told([*said, *analysis.allowed.said]))
-    return analysis
+    derived = networks_of(program)
+    said = [*found.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
+    for check in checks(program):
+        said += check(program)
+    said += of_networks(derived)
+    said += secrets.check(program, linker.documents.read.values())
+    analysis = Analysis(program, linker, found, disk, derived, Allowed.of(disk.contents))
+    return replace(analysis, diagnostics=tuple(in_order(analysis.told([*said, *analysis.allowed.said]))))
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

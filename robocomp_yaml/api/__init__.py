@@ -32,14 +32,14 @@ if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
 __all__ = [
-    "ERROR", "NOTE", "WARNING", "Change", "Compilation", "Diagnostic", "Faulty", "File", "Fixing", "Migration", "Network",
-    "Outcome", "Refused", "Related", "Span", "Value", "Values", "Workspace", "load", "migrate",
+    "ERROR", "NOTE", "WARNING", "Change", "Compilation", "Diagnostic", "Faulty", "File", "Fixing", "Migration",
+    "Network", "Outcome", "Refused", "Related", "Span", "Value", "Values", "Workspace", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {
-    "Change": "api.values", "Compilation": "api.compiling", "File": "api.outcome", "Fixing": "api.fixing", "Migration": "api.migrating",
-    "Network": "network.network", "Outcome": "api.outcome", "Value": "api.values", "Values": "api.values",
-    "Workspace": "api.workspace",
+    "Change": "api.values", "Compilation": "api.compiling", "File": "api.outcome", "Fixing": "api.fixing",
+    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Value": "api.values",
+    "Values": "api.values", "Workspace": "api.workspace",
 }  # fmt: skip
 
 

@@ -123,7 +123,7 @@ class Workspace:
         if analysis.networks:
             from robocomp_yaml.check.networks import of_environment
 
-            yield from of_environment(analysis.networks, analysis.program, environment=environment)
+            yield from of_environment(analysis.derived, environment=environment)
 
     def _missing(self) -> Iterator[Diagnostic]:
         from robocomp_yaml.emit.environment import missing

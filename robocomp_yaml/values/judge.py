@@ -9,8 +9,8 @@ from math import isfinite
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, hint_for_key
 from robocomp_yaml.model.parameters import (
     LIMITS,
