@@ -171,7 +171,7 @@ class Attachments(msgspec.Struct):
             path = os.path.normpath(os.path.join(os.path.dirname(document.path), str(layer.value)))
             if not (path.endswith(".yaml") and disk.has_file(path) and kind_of(path, disk) in ("config", None)):
                 folder = os.path.dirname(document.path)
-                advice = self._references.advice(str(layer.value), folder, "extends", ("config",))
+                advice = self._references.advice(str(layer.value), folder, "extends", ("config",), document.path)
                 self.diagnostics.append(value_codes.NO_LAYER.at(layer.span, name=layer.value, hint=advice.hint))
                 self.program.values[document.real].broken = True
                 continue

@@ -91,11 +91,11 @@ class DeploymentDocuments(msgspec.Struct):
             yield self.documents.get(found)
             return
         path = paths.joined(paths.folder_of(model), include.text)
-        hint = self._nearby(path, ".ddsl.yaml")
+        hint = self._nearby(path, ".ddsl.yaml", without=model.path)
         self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=hint))
 
-    def _nearby(self, path: str, *suffixes: str) -> Hint:
-        """What was probably meant: a name in the same folder."""
+    def _nearby(self, path: str, *suffixes: str, without: str = "") -> Hint:
+        """What was probably meant: a name in the same folder, but for one document."""
         folder, name = os.path.split(path)
         disk = self.documents.disk
         if not disk.has_folder(folder or "."):
@@ -103,7 +103,8 @@ class DeploymentDocuments(msgspec.Struct):
         names = disk.names(folder)
         if suffixes:
             names = [n for n in names if n.endswith(suffixes) or disk.has_folder(os.path.join(folder, n))]
-        return did_you_mean(name, names, open_=True)
+        own = os.path.basename(without) if os.path.dirname(without) == folder else ""
+        return did_you_mean(name, [n for n in names if n != own], open_=True)
 
     def join(self) -> None:
         """After all documents are linked: each deployment with what it includes."""

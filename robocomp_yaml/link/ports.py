@@ -61,7 +61,7 @@ def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | N
     document = importable(name)
     imported = {scope.module.stem for scope in linked.imports}
     if document and document not in imported:
-        return Hint(f"add '{document}' to `imports`")
+        return Hint(f"add '{document}' to `imports`", imports=document)
     where = {i.name: scope.module.path for scope in linked.imports for i in scope.module.all_interfaces}
     meant = suggest(name, (one for one in where if one not in given))
     if meant:
