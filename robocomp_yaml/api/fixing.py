@@ -92,7 +92,7 @@ class Fixing:
         }
         # Whether a comment allows something in vain is known once all is checked.
         told = workspace.check(environment=self._environment) if analysis.allowed.by_file else analysis.diagnostics
-        return Look(told, analysis.disk.contents, levels)
+        return Look(list(told), analysis.disk.contents, levels)
 
 
 def _asked(analysis: Analysis) -> set[str]:

@@ -18,7 +18,8 @@ from robocomp_yaml.link.deployment_sizes import too_large
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.expand_deployments import Expansion
-from robocomp_yaml.link.program import Program
+from robocomp_yaml.link.knot import tie
+from robocomp_yaml.link.program import Tables
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Text
 
 
@@ -26,7 +27,7 @@ class DeploymentDocuments(msgspec.Struct):
     """Follows what deployments name."""
 
     documents: Documents
-    program: Program
+    tables: Tables
     diagnostics: list[Diagnostic] = []
     _deployments: dict[str, Deployment] = {}
 
@@ -113,8 +114,8 @@ class DeploymentDocuments(msgspec.Struct):
         self.diagnostics += [found for found in large.values() if found is not None]
         usable = {real: model for real, model in self._deployments.items() if real not in large}
         for real, model in usable.items():
-            linked = self.program.deployments[real] = LinkedDeployment(model, real)
-            expansion = Expansion(linked, self.program, usable, disk)
+            linked = self.tables.deployments[real] = LinkedDeployment(model, real)
+            expansion = Expansion(linked, self.tables, usable, disk)
             expansion.run()
             names = Names(linked, expansion.placed, expansion.included)
             names.resolve()
@@ -123,7 +124,7 @@ class DeploymentDocuments(msgspec.Struct):
         for model in usable.values():
             for path in filter(None, (paths.include_at(model, include.text, disk) for include in _includes(model))):
                 if os.path.realpath(path) in usable:
-                    self.program.deployments[os.path.realpath(path)].is_included = True
+                    tie(self.tables.deployments[os.path.realpath(path)], is_included=True)
 
 
 def _includes(model: Deployment) -> Iterable[Text]:
