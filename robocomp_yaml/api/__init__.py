@@ -27,9 +27,10 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.fixing import Fixing
     from robocomp_yaml.api.migrating import Migration
     from robocomp_yaml.api.outcome import File, Outcome
-    from robocomp_yaml.api.values import Change, Value, Values
+    from robocomp_yaml.api.values import Change, Values
     from robocomp_yaml.api.workspace import Workspace
     from robocomp_yaml.network.network import Network
+    from robocomp_yaml.values.show import Value
 
 __all__ = [
     "ERROR", "NOTE", "WARNING", "Change", "Compilation", "Diagnostic", "Faulty", "File", "Fixing", "Migration",
@@ -38,7 +39,7 @@ __all__ = [
 
 _HOMES = {
     "Change": "api.values", "Compilation": "api.compiling", "File": "api.outcome", "Fixing": "api.fixing",
-    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Value": "api.values",
+    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Value": "values.show",
     "Values": "api.values", "Workspace": "api.workspace",
 }  # fmt: skip
 

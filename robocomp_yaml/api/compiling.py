@@ -166,9 +166,12 @@ def _outcome_of(
     hidden = analysis.hidden() if with_diff else Hidden()
     files = (
         File(
-            root.root, change.path, change.action, change.orig,
+            root.root,
+            change.path,
+            change.action,
+            change.orig,
             hidden.without(change.diff(properties=is_settings(change.path))) if with_diff else "",
-        )  # fmt: skip
+        )
         for root in changes.roots
         for change in root.changes
     )

@@ -116,9 +116,10 @@ class Workspace:
                 from robocomp_yaml.api import made_already
 
                 told = None if self._overlay else made_already.told_of_code(self._paths, self._include)
-                if told is None:
-                    told = written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
-                yield from told
+                if told is not None:
+                    yield from told
+                else:
+                    yield from written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
         if analysis.networks:
             from robocomp_yaml.check.networks import of_environment
 

@@ -133,7 +133,7 @@ class _Rounds:
             if (fix.safe or self.unsafe) and fix.is_spelled and (_key(told), fix) not in self.refused
             and all(edit.span.file in self.may_change for edit in fix.edits)
         ]  # fmt: skip
-        yield from sorted(dict((_place(told), (told, fix)) for told, fix in reversed(found)).values(), key=_rank)
+        yield from sorted({_place(told): (told, fix) for told, fix in reversed(found)}.values(), key=_rank)
 
 
 def _place(told: Diagnostic) -> tuple[object, ...]:

@@ -47,7 +47,7 @@ class Names(msgspec.Struct):
         for named in group.group.members:
             for target in self._find(here, named, f"the group '{group.group.name}'", group) or ():
                 if isinstance(target, LinkedStorm):
-                    self._unknown(here, named, f"the group '{group.group.name}'", "a service belongs to no group")
+                    self._unknown(here, named, f"the group '{group.group.name}'", Hint("a service belongs to no group"))
                 else:
                     yield target
         yield from self.included.get(group, ())
@@ -56,7 +56,8 @@ class Names(msgspec.Struct):
 
     def _fill(self, here: Placed, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
         """All instances in a group, those of its inner groups too."""
-        todo, seen = deque(inside[group]), {group}
+        todo = deque(inside[group])
+        seen: set[Target] = {group}
         while todo:
             target = todo.popleft()
             if target is group:

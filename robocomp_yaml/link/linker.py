@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable
 from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import msgspec
 
@@ -59,7 +60,7 @@ class Linker(msgspec.Struct):
                 todo += deployments.follow(document)
                 continue
             if document.kind == "cdsl" and document.model is not None:
-                component = self.program.components[document.real] = self._expanded(document.model)
+                component = self.program.components[document.real] = self._expanded(cast("Component", document.model))
                 components.append((document, component))
                 unresolved: set[str] = set()
                 todo += self._imports(document, component.component.imports, unresolved, cdsl)
@@ -204,18 +205,19 @@ class Linker(msgspec.Struct):
             import networkx  # slow to import, and wanted only to explain
 
         circles: set[tuple[str, str]] = set()
-        for members in networkx.strongly_connected_components(networkx.DiGraph(graph)):
+        whole: networkx.DiGraph[str] = networkx.DiGraph(graph)
+        for members in networkx.strongly_connected_components(whole):
             if len(members) < 2:
                 continue
             circles |= {(real, other) for real in members for other in graph[real] if other in members}
             first = min(members, key=lambda real: self.program.modules[real].module.path)
-            circle = next(networkx.simple_cycles(networkx.DiGraph(graph).subgraph(members)))
+            circle = next(networkx.simple_cycles(whole.subgraph(members)))
             start = circle.index(first) if first in circle else 0
             around = [self.program.modules[real].module for real in (*circle[start:], *circle[:start])]
             around.append(around[0])
             places = [
                 Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
-                for one, next_ in zip(around, around[1:], strict=False)
+                for one, next_ in pairwise(around)
             ]
             self.diagnostics.append(idsl.IMPORT_CYCLE.at(
                 places[0].span, cycle=" → ".join(module.stem for module in around), related=places[1:],

@@ -44,10 +44,10 @@ class Allowance(msgspec.Struct, frozen=True):
         """Without it; the last code takes the comment with it."""
         if not self.others:
             start, end = (text.index(self.whole.line, at) for at in (self.whole.column, self.whole.end_column))
-            before = text.text[:start].rstrip(" \t")
-            is_alone = not before or before[-1] in "\r\n"
+            line = text.text[:start].rstrip(" \t")
+            is_alone = not line or line[-1] in "\r\n"
             line_end = re.compile(r"\r\n|\r|\n|\Z").match(text.text, end) if is_alone else None
-            return Fix("remove it", (text.edit(len(before), line_end.end() if line_end else end, ""),))
+            return Fix("remove it", (text.edit(len(line), line_end.end() if line_end else end, ""),))
         start, end = (text.index(self.span.line, at) for at in (self.span.column, self.span.end_column))
         gap = re.compile(r"[ \t]*,[ \t]*|[ \t]+(?!--)").match(text.text, end)
         if gap is None:  # it is the last one
@@ -91,7 +91,7 @@ def _read(text: Text, comment: re.Match[str]) -> tuple[list[tuple[str, Span]], l
         fixes = [Fix("write 'allow'", (Edit(verb, "allow"),))] if isinstance(hint, Hint) else []
         problem = f"`rcyaml: {parts['verb']}` means nothing" if parts["verb"] else "this comment says nothing to rcyaml"
         return [], [*said, codes.ALLOW_MALFORMED.at(whole, problem=problem, hint=_FORM, fixes=fixes)]
-    made = []
+    made: list[tuple[str, Span]] = []
     for word in _WORD.finditer(parts["codes"]):
         place = [comment.start() + parts.start("codes") + at for at in word.span()]
         if _CODE.fullmatch(word[0]) is None:

@@ -133,7 +133,8 @@ def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iter
             return ()  # it would be text, and the wrong one
         return retyped([type_ for type_ in facts["types"] if type_ != "null"], node.lexeme, node.data, node.span)
     if keyword == "uniqueItems" and isinstance(node, Sequence):
-        return [removal(item.span) for at, item in enumerate(node.items) if item.data in node.data[:at]][:1]
+        data = [item.data for item in node.items]
+        return [removal(item.span) for at, item in enumerate(node.items) if item.data in data[:at]][:1]
     return ()
 
 

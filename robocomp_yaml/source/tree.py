@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from typing import Any, cast
 
 import msgspec
 from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
@@ -26,7 +27,7 @@ MAX_ALIASED = 100_000  # nodes that aliases may add, all together
 
 _INT = re.compile(r"[-+]?[0-9]+\Z")
 _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?\Z")
-_NAMED = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
+_NAMED: dict[str, bool | float | None] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
 _NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
 _NAMED |= {sign + dot: float(sign + "inf") for sign in ("", "+", "-") for dot in (".inf", ".Inf", ".INF")}
 _NAMED |= {word: float("nan") for word in (".nan", ".NaN", ".NAN")}
@@ -38,7 +39,7 @@ _CORE_START = frozenset("0123456789+-.~nNtTfF")  # no other first character can 
 class Node:
     """A value with its place. `data` is the same value as plain Python data, all the way down."""
 
-    __slots__ = ("file", "_start", "_end", "data")
+    __slots__ = ("_end", "_start", "data", "file")
 
     def __init__(self, file: str, node: YamlNode, data: object) -> None:
         self.file, self._start, self._end, self.data = file, node.start_mark, node.end_mark, data
@@ -89,9 +90,9 @@ class Mapping(Node):
 
 
 class Sequence(Node):
-    __slots__ = ("items", "is_flow")
+    __slots__ = ("is_flow", "items")
 
-    def __init__(self, file: str, node: YamlNode, items: list[Node]) -> None:
+    def __init__(self, file: str, node: SequenceNode, items: list[Node]) -> None:
         super().__init__(file, node, [item.data for item in items])
         self.items = items
         self.is_flow = bool(node.flow_style)
@@ -188,7 +189,7 @@ class _Builder:
         else:
             self.open.add(id(node))
             built = self._mapping(node) if isinstance(node, MappingNode) else Sequence(
-                self.path, node, [self.build(item) for item in node.value]
+                self.path, cast("SequenceNode", node), [self.build(item) for item in node.value]
             )
             self.open.discard(id(node))
         if self.last is not None and built._end.line > self.last.line:
@@ -316,6 +317,6 @@ class _Builder:
         return Span(self.path, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
 
     def _say(self, code: Code, node: YamlNode, *, hint: str = "", related: list[Related] | None = None,
-             fixes: Iterable[Fix] = (), **facts: object) -> None:
+             fixes: Iterable[Fix] = (), **facts: Any) -> None:
         self.diagnostics.append(code.at(self._span(node), hint=hint, related=related or (), fixes=fixes, **facts))
 

@@ -178,7 +178,7 @@ def _behind_comments(text: str, at: int, indent: int) -> int:
 
 def _left_out(text: str, node: Node, key: Scalar | None, step: Step, above: Collection[str]) -> re.Match[str] | None:
     """The line of an entry that a first document leaves out, below the key of the mapping that it belongs to."""
-    is_block = isinstance(node, Mapping) and not node.is_flow or isinstance(node, Scalar) and node.data is None
+    is_block = (isinstance(node, Mapping) and not node.is_flow) or (isinstance(node, Scalar) and node.data is None)
     if key is None or not above or not is_block:
         return None
     outer = key.span.column - 1

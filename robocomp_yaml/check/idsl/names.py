@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
+from typing import Any
 
 import msgspec
 
@@ -33,7 +34,7 @@ class Fault(msgspec.Struct, frozen=True):
 
     code: Code
     hint: str | Hint = "choose another name"
-    facts: Mapping[str, str] = {}
+    facts: Mapping[str, Any] = {}
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -47,7 +47,7 @@ def test_a_tree_that_is_nowhere_saved_says_the_same(
     saved = write_tree(tmp_path / "saved", texts)
     monkeypatch.chdir(saved)
     expected = _facts(analyse(paths))
-    for before in ({}, {name: b"\xff: [" for name in texts}):
+    for before in ({}, dict.fromkeys(texts, b"\xff: [")):
         other = tmp_path / f"other{len(before)}"
         other.mkdir()
         monkeypatch.chdir(write_tree(other, before))
