@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.pipeline import Analysis, analyse
 
@@ -44,8 +44,7 @@ class Workspace:
         configurations, the programs of deployments), sorted by place. `environment` also looks for the libraries that
         components name, for programs on PATH and for hosts."""
         found = [*self._on_disk(environment), *(self._missing() if environment else ())]
-        told = self.analysis.with_more(found)
-        return in_order([*told, *self.analysis.allowed_in_vain(environment=environment)])
+        return self.analysis.whole(found, environment=environment)
 
     def compile(
         self, *, output: str | None = None, targets: Sequence[str] = (), adopt: bool = False, merge: bool = False

@@ -10,7 +10,7 @@ Nothing here touches the disk; documents are looked at as they would be.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -28,7 +28,7 @@ class Look(msgspec.Struct):
     """What a check finds: `contents` are the bytes of each document by its path, `levels` say how far each could be
     understood: UNREADABLE, MISSHAPEN or UNDERSTOOD."""
 
-    diagnostics: list[Diagnostic]
+    diagnostics: Sequence[Diagnostic]
     contents: Mapping[str, bytes]
     levels: Mapping[str, int] = {}
 
