@@ -45,7 +45,7 @@ def builder(kind: str) -> Callable[[Mapping, str], Model]:
     return build
 
 
-class Document(msgspec.Struct):
+class Document(msgspec.Struct, frozen=True, eq=False):
     """A document as far as it could be read: `model` is None where it has errors of its own, `tree` where it is no
     YAML. `real` is its real path, `module` the name of the module it defines, as far as that can be told;
     `component` is what it says under `component:`, and None where it cannot be read at all."""
@@ -84,35 +84,38 @@ class Documents(msgspec.Struct):
         if document is not None:
             return document
         if real not in self._glanced:
-            document = Document(path, real, kind_of(path, self.disk) or kind or "idsl")
-            self._glanced[real] = document, list(self._load(document))
+            self._glanced[real] = self._load(path, real, kind_of(path, self.disk) or kind or "idsl")
         return self._glanced[real][0]
 
-    def _load(self, document: Document) -> Iterator[Diagnostic]:
-        raw, diagnostics = self.disk.read(document.path)
-        yield from diagnostics
+    def _load(self, path: str, real: str, kind: str) -> tuple[Document, list[Diagnostic]]:
+        """Bytes → text → tree → shape → model, as far as it goes."""
+        nothing = Document(path, real, kind)
+        raw, said = self.disk.read(path)
         if raw is None:
-            return
-        text, diagnostics = decode(document.path, raw)
-        yield from diagnostics
+            return nothing, said
+        text, more = decode(path, raw)
+        said = [*said, *more]
         if text is None:
-            return
-        tree, diagnostics = parse(document.path, text)
-        yield from diagnostics
+            return nothing, said
+        tree, more = parse(path, text)
+        said += more
         if tree is None:
-            return
-        document.tree = tree
-        yield from (diagnostics := self._fits(document, tree))
-        if not has_errors(diagnostics):
+            return nothing, said
+        misfits = _misfits(kind, tree)
+        model = None
+        if not has_errors(misfits):
             assert isinstance(tree, Mapping)
-            document.model = builder(document.kind)(tree, document.path)
-        document.module, document.component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
+            model = builder(kind)(tree, path)
+        module, component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
+        return Document(path, real, kind, model, module, component, tree), [*said, *misfits]
 
-    def _fits(self, document: Document, tree: Node) -> list[Diagnostic]:
-        diagnostics = schema.validate(document.kind, tree)
-        if not diagnostics and document.kind == "idsl" and isinstance(tree, Mapping):
-            diagnostics = list(_kinds_of_types(tree))
-        return diagnostics
+
+def _misfits(kind: str, tree: Node) -> list[Diagnostic]:
+    """What of a document's shape is not as its kind wants it."""
+    diagnostics = schema.validate(kind, tree)
+    if not diagnostics and kind == "idsl" and isinstance(tree, Mapping):
+        diagnostics = list(_kinds_of_types(tree))
+    return diagnostics
 
 
 def _kinds_of_types(tree: Mapping) -> Iterator[Diagnostic]:

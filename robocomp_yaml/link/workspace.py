@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from collections.abc import Mapping as Map
 
 import msgspec
 
@@ -19,7 +20,7 @@ from robocomp_yaml.source.tree import Mapping, Scalar, parse
 SUFFIX = ".idsl.yaml"
 
 
-class Workspace(msgspec.Struct):
+class Workspace(msgspec.Struct, frozen=True):
     """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
     look for imports in, `slice_folder` is where Slice goes (both joined with the root), `lint` a severity (or
     'off') by code."""
@@ -28,7 +29,7 @@ class Workspace(msgspec.Struct):
     declared: bool = False
     interfaces: tuple[str, ...] = ()
     slice_folder: str = ""
-    lint: dict[str, str] = {}
+    lint: Map[str, str] = {}
 
 
 def root_above(folder: str, disk: Disk | None = None) -> str | None:
@@ -59,14 +60,13 @@ def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnosti
     diagnostics = schema.validate("workspace", tree)
     if diagnostics or not isinstance(tree, Mapping):
         return workspace, diagnostics
-    workspace.interfaces = tuple(
-        os.path.normpath(os.path.join(root, node.lexeme))
-        for node in items(tree, "interfaces")
-        if isinstance(node, Scalar)
-    )
+    named = (node.lexeme for node in items(tree, "interfaces") if isinstance(node, Scalar))
     slice_folder = text(tree.get("output"), "slice")
-    workspace.slice_folder = os.path.normpath(os.path.join(root, slice_folder)) if slice_folder else ""
-    workspace.lint = {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None}
+    workspace = Workspace(
+        root, True, tuple(os.path.normpath(os.path.join(root, folder)) for folder in named),
+        os.path.normpath(os.path.join(root, slice_folder)) if slice_folder else "",
+        {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None},
+    )
     return workspace, list(_idle_settings(tree, root, disk))
 
 

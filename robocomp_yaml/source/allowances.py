@@ -12,7 +12,6 @@ from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Edit, Fix, Hint
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.source.spelled import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -103,7 +102,7 @@ def _read(text: Text, comment: re.Match[str]) -> tuple[list[tuple[str, Span]], l
             ))
             return (made if parts["colon"] else []), said
         if word[0].upper() not in table():
-            said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint=_meant(word[0])))
+            said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint="`rcyaml explain` lists them"))
         elif parts["colon"]:
             made.append((word[0].upper(), text.span(*place)))
     if not made and not said:
@@ -112,11 +111,6 @@ def _read(text: Text, comment: re.Match[str]) -> tuple[list[tuple[str, Span]], l
         listed = ", ".join(code for code, _ in made)
         said.append(codes.ALLOW_NO_REASON.at(whole, codes=listed, hint="write it behind `--`"))
     return made, said
-
-
-def _meant(code: str) -> str:
-    meant = suggest(code.upper(), table())
-    return f"did you mean '{meant}'? `rcyaml explain` lists them" if meant else "`rcyaml explain` lists them"
 
 
 def _lines(text: Text, comment: re.Match[str], texts: list[Node]) -> tuple[int, int]:

@@ -18,10 +18,10 @@ from ruamel.yaml.nodes import Node as YamlNode
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.fix import Edit, Fix, quoting
+from robocomp_yaml.diag.fix import UNTAG, Edit, Fix, quoting, removal
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.source import syntax
-from robocomp_yaml.source.text import MAX_SCALAR, size_in_words
+from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
 
 MAX_ALIASED = 100_000  # nodes that aliases may add, all together
 
@@ -32,6 +32,7 @@ _NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "
 _NAMED |= {sign + dot: float(sign + "inf") for sign in ("", "+", "-") for dot in (".inf", ".Inf", ".INF")}
 _NAMED |= {word: float("nan") for word in (".nan", ".NaN", ".NAN")}
 _SURROGATE = re.compile("[\ud800-\udfff]")
+_PLAIN_TAGS = ("!!str", "!!int", "!!float", "!!bool", "!!null", "!!map", "!!seq")  # which YAML sees without them
 _CORE_START = frozenset("0123456789+-.~nNtTfF")  # no other first character can begin a core scalar
 
 
@@ -95,6 +96,25 @@ class Sequence(Node):
         super().__init__(file, node, [item.data for item in items])
         self.items = items
         self.is_flow = bool(node.flow_style)
+
+
+def last_end(node: Mapping) -> int | None:
+    """Where the last entry of a mapping ends."""
+    end = None
+    for key, value in node.entries.values():
+        end = max(key.end, end_of(value))
+        if isinstance(value, Scalar) and value.start == value.end:
+            end = max(end, key.end + 1)  # the colon
+    return end
+
+
+def end_of(node: Node) -> int:
+    """Where a node's own text ends: libyaml ends block collections only where the next thing starts."""
+    if isinstance(node, Mapping) and node.entries and not node.is_flow:
+        return last_end(node) or node.end
+    if isinstance(node, Sequence) and node.items and not node.is_flow:
+        return end_of(node.items[-1])
+    return node.end
 
 
 class _Mark(msgspec.Struct, frozen=True):
@@ -246,7 +266,7 @@ class _Builder:
                 self._say(
                     codes.DUPLICATE_KEY, key_node, key=key.lexeme,
                     related=[Related("it stands here first", first.span)],
-                    fixes=self._without_second(key_node, value_node, value, entries[key.lexeme][1]),
+                    fixes=self._without_second(first, entries[key.lexeme][1], key, value),
                 )
                 continue
             entries[key.lexeme] = (key, value)
@@ -262,32 +282,34 @@ class _Builder:
             missing_value = value.data is None and isinstance(value, Scalar) and not value.lexeme
             if node.value.endswith(":") or missing_value:
                 head, _, tail = node.value.partition(":")
-                at = node.start_mark.index + len(head) + 1
-                is_plain = tail.strip(":") and self.text[node.start_mark.index : at] == f"{head}:"
+                span = self._span(node).inside(node.value, len(head) + 1, len(head) + 2)
+                behind = Span(span.file, span.line, span.column, span.line, span.column)
+                is_plain = tail.strip(":") and not tail.startswith(":") and span.column != node.start_mark.column + 1
                 self._say(
                     codes.KEY_COLON, node, key=node.value, hint=f"write '{head}: {tail.lstrip(':')}'".rstrip(),
-                    fixes=[Fix("put a blank behind the colon", (self._insertion(at, " "),), True)] if is_plain else [],
+                    fixes=[Fix("put a blank behind the colon", (Edit(behind, " "),), True)] if is_plain else [],
                 )
         return self._quoted(node)
 
     def _explicit_tag(self, node: YamlNode) -> None:
         tag = str(node.tag).replace("tag:yaml.org,2002:", "!!")
-        self._say(codes.TAG, node, tag=tag, hint="leave the tag out" + (", and use quotes" if tag == "!!str" else ""))
+        self._say(
+            codes.TAG, node, tag=tag, hint="leave the tag out" + (", and use quotes" if tag == "!!str" else ""),
+            fixes=[Fix("leave the tag out", (Edit(self._span(node), how=UNTAG),), True)] if tag in _PLAIN_TAGS else [],
+        )
 
-    def _without_second(self, key: YamlNode, node: YamlNode, value: Node, first: Node) -> list[Fix]:
-        """An entry that says the same as the first of its name can go, where it has its line for itself."""
-        start, end = key.start_mark.index, node.end_mark.index
-        if key.start_mark.line != node.end_mark.line or value.data != first.data or node.start_mark.index < start:
+    def _without_second(self, key: Scalar, value: Node, again: Scalar, other: Node) -> list[Fix]:
+        """An entry that is spelled as the first of its name can go."""
+        spelled, same = (
+            self.text[at.end : max(end_of(what), at.end)].rstrip() for at, what in ((key, value), (again, other))
+        )
+        if spelled != same or other.start < again.end or "&" in spelled:
             return []
-        from robocomp_yaml.source.spelled import Text, without_lines
-
-        edits = without_lines(Text(self.path, self.text), start, end)
-        return [Fix("remove it", tuple(edits), True)] if edits else []
-
-    def _insertion(self, index: int, text: str) -> Edit:
-        from robocomp_yaml.source.spelled import Text
-
-        return Text(self.path, self.text).edit(index, index, text)
+        end = max(end_of(other), again.end + 1)
+        end = len(self.text[:end].rstrip())
+        line, column = position(self.text, end)
+        span = again.span
+        return [removal(Span(self.path, span.line, span.column, line, column))]
 
     def _span(self, node: YamlNode) -> Span:
         start, end = node.start_mark, node.end_mark

@@ -83,7 +83,7 @@ topics:
 def texts(folder: Path, files: Tree) -> Mapping[str, str]:
     """The Slice of the modules of a tree that has no errors."""
     analysis = pipeline.analyse([str(write_tree(folder, files))])
-    assert analysis.diagnostics == []
+    assert not analysis.diagnostics
     return {target.file_name(linked): target.text(linked) for linked in analysis.program.modules.values()}
 
 
