@@ -1,8 +1,8 @@
 """Which tests belong together: the folder of a test is its tier, and its marker. What the tests of a tier may do is
 watched, so that `pytest -m unit` stays what it says.
 
-Tests whose module starts processes, or a helper that it imports from, are marked `processes`; only these are tried
-again where they fail, since a busy machine can starve what they started.
+Tests whose module starts processes, or a helper that it imports from, are marked `processes`; where rcyaml starts them,
+a module says so itself. Only these tests are tried again where they fail: a busy machine can starve what they started.
 """
 
 from __future__ import annotations
@@ -28,8 +28,9 @@ def mark(item: pytest.Item) -> None:
     item.add_marker(tier)
     if tier in OF_PROCESSES or (tier != "unit" and isinstance(item, pytest.Function) and _may_start(item.module)):
         item.add_marker("processes")
-        if item.config.pluginmanager.has_plugin("rerunfailures"):
-            item.add_marker(pytest.mark.flaky(reruns=2, reruns_delay=1))
+    is_timed = item.get_closest_marker("processes") is not None and tier != "lint"
+    if is_timed and item.config.pluginmanager.has_plugin("rerunfailures"):
+        item.add_marker(pytest.mark.flaky(reruns=2, reruns_delay=1))
 
 
 def is_left_out(path: Path, config: pytest.Config) -> bool:

@@ -21,9 +21,10 @@ plan: api.Compilation = workspace.compile()
 written: list[str] = [file.path for file in plan.apply().files] if not plan.has_errors else []
 processes: list[str] = [process.name for process in workspace.network().processes.values()]
 values: api.Values = workspace.values("arm")
-rows: list[api.Value] = values.rows()
+rows: list[api.Value] = workspace.values("arm").rows()
 try:
-    outcome: api.Outcome = api.migrate("old", output="new").apply()
+    carried: api.Migration = api.migrate("old", output="new")
+    print(carried.lost, [file.path for file in carried.files])
 except (api.Refused, api.Faulty) as error:
     print(error)
 """
