@@ -36,8 +36,8 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True):
 
     `program` is what is started, relative to the component's folder, with {name} for the component's. `build` are the
     commands that make it, with {folder} for that folder; none where `compile` writes it. `loaded` are the files that
-    the program reads when it starts: folders, and how the names of the files there end. `suffixes` are those of code
-    that `code` reads, and `comment` is how a line of comment begins there.
+    the program reads when it starts: folders, and how the names of the files there end. `suffixes` are those of code,
+    which `code` reads where it has MERGING, and `comment` is how a line of comment begins there.
     """
 
     name: str

@@ -7,11 +7,13 @@ from collections.abc import Iterable, Iterator
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.diag.codes import languages as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.manifest import BASE
 from robocomp_yaml.emit.places import Root
 from robocomp_yaml.emit.plan import ONCE, SOURCES, Merge, Merges, RootPlan
-from robocomp_yaml.emit.specific import entries
+from robocomp_yaml.emit.specific import entries, reading
 from robocomp_yaml.emit.specific.own import Own
 
 
@@ -30,6 +32,10 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
     for plan in plans:
         root = Root(plan.root)
         files = list(_own(plan, root, merge, result))
+        if merge:
+            alone = [file for file in files if reading.unmerged(file.plan.path)]
+            files = [file for file in files if file not in alone]
+            result.diagnostics += _not_merged(alone, root)
         if all(file.is_settled for file in files):
             continue
         from robocomp_yaml.emit.specific import merging, telling  # with the parsers of the languages
@@ -44,6 +50,18 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
             files = [_after(file, merged.get(file.plan.path)) for file in files]
         result.diagnostics += telling.tell(root, files, root.shown(plan.owner))
     return result
+
+
+def _not_merged(files: Iterable[Own], root: Root) -> Iterator[Diagnostic]:
+    """What would be merged, in languages that are not."""
+    for file in files:
+        language = reading.unmerged(file.plan.path)
+        if language and not file.is_settled and file.base != file.plan.text:
+            path = root.shown(file.plan.path)
+            yield codes.NOT_MERGED.at(
+                Span(path), path=path, language=language.title,
+                hint="put in by hand what its build names; an empty folder to compile into (-o) shows a new skeleton",
+            )
 
 
 def _own(plan: RootPlan, root: Root, every: bool, result: Review) -> Iterator[Own]:

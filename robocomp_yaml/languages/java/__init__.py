@@ -22,4 +22,6 @@ LANGUAGE = TargetLanguage(
     members=frozenset(("change", "listen", "now", "set")),
     build=(("{folder}/generated/build",),),
     loaded={"build": (".jar",)},
+    suffixes=("java",),
+    has_checks=True,
 )
