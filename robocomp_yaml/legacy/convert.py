@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import unicodedata
 
 import msgspec
@@ -17,6 +16,9 @@ from robocomp_yaml.legacy.formats import by_name, recognize
 from robocomp_yaml.legacy.grammar import MAX_DEPTH, Parsed, depth, marked, parse, words
 from robocomp_yaml.legacy.reading import Source, read
 from robocomp_yaml.legacy.rules import Rules
+from robocomp_yaml.registry import Modules
+
+CONVERTERS = Modules("robocomp_yaml.legacy.converters", "converter")
 
 
 class Converted(msgspec.Struct):
@@ -59,7 +61,7 @@ def _convert(result: Converted, source: Source, rules: Rules) -> None:
     placed = comments.place(parsed.tree, parsed.comments, source, rules)
     said += placed.diagnostics
     reader = Reader(source, rules, parsed, placed)
-    converter = importlib.import_module(f"robocomp_yaml.legacy.converters.{rules.converter}")
+    converter = CONVERTERS.load(rules.converter)
     draft = converter.convert(reader)
     said += reader.diagnostics
     marks = directives.review(parsed.trivia, source, rules)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from robocomp_yaml.emit.lowering.constraints import Calls
-from robocomp_yaml.languages.java.text import listed, literal, value
+from robocomp_yaml.languages.java.text import literal, value
 from robocomp_yaml.model.expression import Expression
 from robocomp_yaml.model.parameters import RecordType
 
