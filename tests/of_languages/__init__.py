@@ -12,17 +12,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from robocomp_yaml import languages
+from robocomp_yaml.model.parameters import Parameters
 
 
 @dataclass(frozen=True)
 class Spoken:
     """`marks` skip where what it needs is absent. `worker` is the file with the methods of the user's class, `build`
     makes the program of a compiled component, `starts` what stands before the program where Python's own is to run it.
-    `parameters` and `paper` are user's classes that `test_parameters.py` explains; what `stubs` gives of a skeleton
+    `judge` makes of parameters a program that judges values with the
+    generated accessors, as `cpp_accessors.Program`. `parameters` and `paper` are user's classes that `test_parameters.py` explains; what `stubs` gives of a skeleton
     stands behind the latter."""
 
     name: str
@@ -33,6 +36,7 @@ class Spoken:
     stubs: Callable[[str], str]
     marks: Sequence[pytest.MarkDecorator] = ()
     starts: tuple[str, ...] = ()
+    judge: Callable[[Path, Parameters], Any] | None = None
 
     def command(self, program: Path) -> list[str | Path]:
         return [*self.starts, program]
@@ -48,6 +52,6 @@ def names() -> list[str]:
     return sorted(module.name for module in pkgutil.iter_modules(__path__))
 
 
-def each() -> list[object]:
+def each() -> list[Any]:
     """Every language, for `pytest.mark.parametrize`."""
     return [pytest.param(name, marks=list(spoken(name).marks)) for name in languages.table() if name in names()]

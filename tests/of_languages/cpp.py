@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from cpp_accessors import Program
 from cpp_programs import FAST, cmake, needs_cpp
 from of_languages import Spoken
 
@@ -160,5 +161,5 @@ def _stubs(skeleton: str) -> str:
 
 SPOKEN = Spoken(
     "cpp", "src/specificworker.cpp", lambda root: cmake(root, *FAST), PARAMETERS, PAPER, _stubs,
-    marks=(pytest.mark.slow, needs_cpp),
+    marks=(pytest.mark.slow, needs_cpp), judge=Program,
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from java_accessors import Program
 from java_programs import java_build, needs_java
 from of_languages import Spoken
 
@@ -108,5 +109,6 @@ def _stubs(skeleton: str) -> str:
 
 
 SPOKEN = Spoken(
-    "java", "src/SpecificWorker.java", java_build, PARAMETERS, PAPER, _stubs, marks=(pytest.mark.slow, needs_java)
+    "java", "src/SpecificWorker.java", java_build, PARAMETERS, PAPER, _stubs, marks=(pytest.mark.slow, needs_java),
+    judge=Program,
 )
