@@ -4,24 +4,21 @@ only where there are documents of it. What a language says of interfaces stands 
 
 from __future__ import annotations
 
-import importlib
-import os
-import pkgutil
 from collections.abc import Callable, Iterator
 from types import ModuleType
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
+from robocomp_yaml.registry import Modules
 
 Check = Callable[[Program], Iterator[Diagnostic]]
 
 
 def modules_of(kind: str) -> list[ModuleType]:
     """Every module that checks a kind of document, in the order of their names."""
-    modules = sorted(module.name for module in pkgutil.iter_modules([os.path.join(os.path.dirname(__file__), kind)]))
-    found = (importlib.import_module(f"{__name__}.{kind}.{name}") for name in modules)
-    return [module for module in found if hasattr(module, "check")]
+    modules = Modules(f"{__name__}.{kind}", "check")
+    return [module for module in map(modules.load, modules.table()) if hasattr(module, "check")]
 
 
 def checks_of(kind: str) -> list[Check]:

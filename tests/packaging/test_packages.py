@@ -99,7 +99,7 @@ def test_another_build_of_the_same_version_compiles_again(built: Path, bin_: Pat
     run(*compile_, cwd=work)
     assert "0 files written" in run(*compile_, cwd=work)
     (wheel,) = built.glob("*.whl")
-    other = rebuilt(wheel, tmp_path, "languages/python/templates/runtime/log.py", b"Do not edit", b"DO NOT EDIT")
+    other = rebuilt(wheel, tmp_path, "robocomp_yaml/languages/python/templates/runtime/log.py", b"Do not edit", b"DO NOT EDIT")
     install(bin_, other, "--force-reinstall", "--no-deps")
     assert "1 file written" in run(*compile_, cwd=work)
     assert "DO NOT EDIT" in (work / "generated/runtime/log.py").read_text(encoding="utf-8")
@@ -110,11 +110,10 @@ def rebuilt(wheel: Path, folder: Path, file: str, before: bytes, after: bytes) -
     """A wheel of the same name in another folder, with one file of the data changed."""
     with zipfile.ZipFile(wheel) as archive:
         content = {name: archive.read(name) for name in archive.namelist()}
-    path = f"robocomp_yaml/_data/{file}"
-    old, new = content[path], content[path].replace(before, after)
+    old, new = content[file], content[file].replace(before, after)
     assert old != new
     (record,) = (name for name in content if name.endswith(".dist-info/RECORD"))
-    content |= {path: new, record: content[record].replace(recorded(old), recorded(new))}
+    content |= {file: new, record: content[record].replace(recorded(old), recorded(new))}
     with zipfile.ZipFile(folder / wheel.name, "w") as archive:
         for name, data in content.items():
             archive.writestr(name, data)

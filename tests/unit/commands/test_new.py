@@ -182,7 +182,7 @@ def test_a_new_deployment_of_nothing_checks(rcyaml: Run, tmp_path: Path) -> None
         (["interface", "interface"], "a reserved word of Slice"),
         (["interface", "Speech"], "interfaces/Speech.idsl.yaml is there already"),
         (["component", "../../etc/passwd"], "cannot be a name"),
-        (["component", "Talk", "--language", "java"], "'java' is not one of"),
+        (["component", "Talk", "--language", "rust"], "'rust' is not one of"),
         (["component", "Talk", "--requires", "Spech"], "did you mean 'Speech'?"),
         (["component", "Talk", "--requires", "Qwerty"], "`rcyaml new interface NAME` writes one"),
         (["component", "Talk", "--requires", "Speech", "--requires", "Speech"], "--requires Speech stands twice"),
