@@ -10,6 +10,8 @@ from click.testing import Result
 
 from conftest import write_tree
 
+pytestmark = pytest.mark.processes  # a probe asks programs
+
 Rcyaml = Callable[..., Result]
 ROBOT = "deployment: Robot\ncomponents: {base: {program: /bin/true}, arm: {program: /bin/true}}\n"
 READING = ("plan", "status", "logs", "probe", "down", "export")

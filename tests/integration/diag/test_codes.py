@@ -21,6 +21,8 @@ from robocomp_yaml.diag.codes.machines import UNKNOWN_ELEMENT
 from robocomp_yaml.diag.page import Files, Repeated
 from robocomp_yaml.source.discover import KINDS
 
+pytestmark = pytest.mark.processes  # examples with programs ask the machine
+
 ROWS = list(table().values())
 
 

@@ -1,4 +1,4 @@
-"""The rules of the house: layers, the size of modules, what is imported when, docstrings."""
+"""The rules of the house: the size of modules, what is imported when, docstrings."""
 
 from __future__ import annotations
 
@@ -21,18 +21,11 @@ def named(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
 
-def test_layers() -> None:
-    script = "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))"
-    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
 @pytest.mark.parametrize("path", MODULES, ids=named)
 def test_a_module_is_small_and_says_its_subject(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert text.count("\n") <= 400
     assert ast.get_docstring(ast.parse(text)), "a module starts with a docstring"
-    assert max(map(len, text.splitlines()), default=0) <= 120
 
 
 def test_modules_of_tests_have_names_of_their_own() -> None:

@@ -9,6 +9,8 @@ import pytest
 from robocomp_yaml.emit.specific import threeway
 from robocomp_yaml.emit.specific.threeway import merge
 
+pytestmark = pytest.mark.processes  # by git
+
 BASE = "".join(f"line {n}\n" for n in range(1, 13))
 
 

@@ -11,6 +11,8 @@ from click.testing import Result
 
 from conftest import read_tree, write_tree
 
+pytestmark = pytest.mark.processes  # by git
+
 SPEECH = """module: RoboCompSpeech
 types:
   Voice: {enum: [low, high]}

@@ -13,6 +13,8 @@ from click.testing import Result
 from conftest import write_tree
 from robocomp_yaml.emit import environment
 
+pytestmark = pytest.mark.processes  # asks cmake and pkg-config
+
 Run = Callable[..., Result]
 
 
