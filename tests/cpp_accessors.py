@@ -11,7 +11,6 @@ from typing import Any
 
 from conftest import ROOT
 from parameters import Data
-
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.cpp import parameters as cpp_parameters
 from robocomp_yaml.model.parameters import Parameters

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from conftest import ROOT
 from cpp_accessors import Program as CppProgram
-
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.java import parameters as java_parameters
 from robocomp_yaml.model.parameters import Parameters

@@ -35,5 +35,7 @@ def checks(program: Program) -> list[Check]:
     }
     found = [check for kind, documents in kinds.items() if documents for check in checks_of(kind)]
     if program.modules:
-        found += [one.part("checks").check for one in languages.table().values() if one.has_checks]
+        spoken = {linked.component.language.name for linked in program.components.values()}
+        asked = (one for one in languages.table().values() if one.name in spoken or one.warns_others)
+        found += [one.part("checks").check for one in asked if one.has_checks]
     return found

@@ -26,8 +26,9 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True):
 
     `name` is what documents say, `title` what is said of it. `package` holds its parts, modules that are imported when
     they are asked for: `plan` always; `code` where it has MERGING; `uses` for libraries; `checks` for names that it
-    cannot have, where it `has_checks` (with `has_taken(module)` where migrated documents keep such names). Its
-    templates stand there too, in `templates/`.
+    cannot have, where it `has_checks`: they are run where a component is in the language, or always if it
+    `warns_others` (then with `has_taken(module)`, for documents that are migrated). Its templates stand there too, in
+    `templates/`.
 
     `has` are its capabilities. `ignored` are keys that a document may say all the same, to no effect, since nothing is
     built there. `datamodels` are those of state machines, the usual one first.
@@ -58,6 +59,7 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True):
     suffixes: tuple[str, ...] = ()
     comment: str = "//"
     has_checks: bool = False
+    warns_others: bool = False
 
     def part(self, name: str) -> ModuleType:
         """The module of the language that is called so."""

@@ -183,8 +183,7 @@ def _has_taken(text: str) -> bool:
     if not isinstance(tree, Tree) or schema.validate("idsl", tree):
         return False
     module = build(tree, "")
-    checks = (one.part("checks") for one in languages.table().values() if one.has_checks)
-    return any(part.has_taken(module) for part in checks if hasattr(part, "has_taken"))
+    return any(one.part("checks").has_taken(module) for one in languages.table().values() if one.warns_others)
 
 
 def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:

@@ -5,13 +5,11 @@ Each row is a kind, a text with the cursor as `|`, and the labels proposed, in t
 
 from __future__ import annotations
 
-
 import pytest
+
 from editor.proposals import assert_can_stand_there
 from editor.workbench import Workbench
-
 from robocomp_yaml.languages import table
-
 
 BASIC = "bool byte short int long float double string".split()
 TYPE = [*BASIC, "type of another module"]

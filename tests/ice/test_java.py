@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from components import Build, Built, build
 from cpp_programs import Programs as CppPrograms
 from cpp_programs import locked, needs_cpp

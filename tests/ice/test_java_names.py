@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from components import build
 from java_programs import java_build, needs_java
 from processes import Ports, Start
-
 from robocomp_yaml.languages.java.checks import INSIDE, TYPES
-from robocomp_yaml.languages.java.names import ICE_ESCAPES, ice_name
+from robocomp_yaml.languages.java.names import ICE_ESCAPES
 
 # Words of Slice, which no document can use.
 SLICE = set("boolean byte bool class const double enum extends false float implements int interface long object optional "

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import of_languages
 import pytest
-from components import Built, build
-from processes import Ports, Running, Start, until
 
+import of_languages
+from components import Built, build
 from conftest import ROOT
+from processes import Ports, Running, Start, until
 
 PDSL = """\
 types:

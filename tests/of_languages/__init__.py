@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache

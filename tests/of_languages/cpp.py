@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from cpp_accessors import Program
 from cpp_programs import FAST, cmake, needs_cpp
 from of_languages import Spoken

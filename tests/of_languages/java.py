@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from java_accessors import Program
 from java_programs import java_build, needs_java
 from of_languages import Spoken

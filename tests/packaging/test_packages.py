@@ -54,6 +54,8 @@ def test_the_wheel_has_all_data(built: Path) -> None:
     (wheel,) = built.glob("*.whl")
     names = set(zipfile.ZipFile(wheel).namelist())
     assert data_files("robocomp_yaml/_data/") <= names
+    of_languages = (path.relative_to(ROOT).as_posix() for path in ROOT.glob("robocomp_yaml/languages/*/templates/**/*.*"))
+    assert {path for path in of_languages if "__pycache__" not in path} <= names
     assert not [name for name in names if name.startswith(("tests/", "docs/", "examples/"))]
 
 
@@ -107,7 +109,7 @@ def test_another_build_of_the_same_version_compiles_again(built: Path, bin_: Pat
 
 
 def rebuilt(wheel: Path, folder: Path, file: str, before: bytes, after: bytes) -> Path:
-    """A wheel of the same name in another folder, with one file of the data changed."""
+    """A wheel of the same name in another folder, with one file of the package changed."""
     with zipfile.ZipFile(wheel) as archive:
         content = {name: archive.read(name) for name in archive.namelist()}
     old, new = content[file], content[file].replace(before, after)

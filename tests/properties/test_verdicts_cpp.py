@@ -17,12 +17,11 @@ import spellings
 from conftest import FUZZING
 from constraints import CASES, CONSTRAINTS, subject
 from parameters import Data, documents, linked, mutated, parameters, values
-from verdicts import CPP_DOCUMENTS, verdicts
-
 from robocomp_yaml.model.parameters import Parameters, RecordType
 from robocomp_yaml.values import evaluate
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties
+from verdicts import CPP_DOCUMENTS, verdicts
 
 pytestmark = pytest.mark.slow
 LANGUAGES = [each for each in of_languages.each() if of_languages.spoken(each.values[0]).judge]

@@ -9,6 +9,7 @@ import pytest
 from click.testing import Result
 
 from conftest import read_tree, write_tree
+from robocomp_yaml import languages
 
 Run = Callable[..., Result]
 WORKSPACE = {"rcyaml.yaml": "interfaces: [interfaces]\n", "interfaces": None}
@@ -37,7 +38,7 @@ def test_a_new_interface_checks_and_compiles(rcyaml: Run, workspace: Path, name:
     assert (workspace / ".rcyaml/schemas/idsl.schema.json").is_file()
 
 
-@pytest.mark.parametrize("language", ["python", "cpp"])
+@pytest.mark.parametrize("language", languages.table())
 def test_a_new_component_checks_and_compiles(rcyaml: Run, workspace: Path, language: str) -> None:
     uses = ("--implements", "Speech", "--publishes", "SpeechEvents", "--subscribes", "SpeechEvents")
     said = rcyaml("new", "component", "TalkComp", "--language", language, *uses)
