@@ -4,24 +4,21 @@ only where there are documents of it. What a language says of interfaces stands 
 
 from __future__ import annotations
 
-import importlib
-import os
-import pkgutil
 from collections.abc import Callable, Iterator
 from types import ModuleType
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
+from robocomp_yaml.registry import Modules
 
 Check = Callable[[Program], Iterator[Diagnostic]]
 
 
 def modules_of(kind: str) -> list[ModuleType]:
     """Every module that checks a kind of document, in the order of their names."""
-    modules = sorted(module.name for module in pkgutil.iter_modules([os.path.join(os.path.dirname(__file__), kind)]))
-    found = (importlib.import_module(f"{__name__}.{kind}.{name}") for name in modules)
-    return [module for module in found if hasattr(module, "check")]
+    modules = Modules(f"{__name__}.{kind}", "check")
+    return [module for module in map(modules.load, modules.table()) if hasattr(module, "check")]
 
 
 def checks_of(kind: str) -> list[Check]:
@@ -38,5 +35,7 @@ def checks(program: Program) -> list[Check]:
     }
     found = [check for kind, documents in kinds.items() if documents for check in checks_of(kind)]
     if program.modules:
-        found += [one.part("checks").check for one in languages.table().values() if one.has_checks]
+        spoken = {linked.component.language.name for linked in program.components.values()}
+        asked = (one for one in languages.table().values() if one.name in spoken or one.warns_others)
+        found += [one.part("checks").check for one in asked if one.has_checks]
     return found

@@ -10,6 +10,8 @@ import click
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Group
 from robocomp_yaml.commands._deployment_argument import DocumentAnd
+from robocomp_yaml.deploy.engines import ENGINES
+from robocomp_yaml.emit.exports import forms
 
 _FORMATS = click.Choice(["text", "json"])
 
@@ -20,7 +22,7 @@ def _shared(function: Callable[..., Any]) -> Callable[..., Any]:
     return format_(_options.include(function))
 
 
-engine = click.option("--engine", type=click.Choice(["local", "icegrid"]),
+engine = click.option("--engine", type=click.Choice([*ENGINES]),
                       help="What runs it; local on one machine, icegrid on several.")  # fmt: skip
 names = click.argument("names", cls=DocumentAnd, metavar="[NAME]...")
 
@@ -162,7 +164,7 @@ def probe(ctx: click.Context, ddsl: str, host: tuple[str, ...], include: tuple[s
 @command.command(short_help="The network in the words of other tools.")
 @_shared
 @click.argument("nothing", cls=DocumentAnd, most=0, expose_value=False)
-@click.option("--as", "form", required=True, type=click.Choice(["icegrid", "rcmanager", "systemd", "compose"]),
+@click.option("--as", "form", required=True, type=click.Choice(forms()),
               help="Which tool.")
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR, not to "
               "standard output.")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import unicodedata
 
 import msgspec
@@ -16,6 +15,9 @@ from robocomp_yaml.legacy.formats import by_name, recognize
 from robocomp_yaml.legacy.grammar import Parsed, marked, parse, words
 from robocomp_yaml.legacy.reading import Source, read
 from robocomp_yaml.legacy.rules import Rules
+from robocomp_yaml.registry import Modules
+
+CONVERTERS = Modules("robocomp_yaml.legacy.converters", "converter")
 
 
 class Converted(msgspec.Struct, frozen=True):
@@ -54,7 +56,7 @@ def _draft(parsed: Parsed, source: Source, rules: Rules, said: list[Diagnostic])
     placed = comments.place(parsed.tree, parsed.comments, source, rules)
     said += placed.diagnostics
     reader = Reader(source, rules, parsed, placed)
-    converter = importlib.import_module(f"robocomp_yaml.legacy.converters.{rules.converter}")
+    converter = CONVERTERS.load(rules.converter)
     draft: FileDraft | None = converter.convert(reader)
     said += reader.diagnostics
     marks = directives.review(parsed.trivia, source, rules)

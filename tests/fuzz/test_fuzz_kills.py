@@ -17,11 +17,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from disk import tree
 from hypothesis import given
 from hypothesis import strategies as st
 
 from conftest import FUZZING, Tree
+from disk import tree
 from fuzzing import examples, run, standing_in
 
 pytestmark = pytest.mark.processes

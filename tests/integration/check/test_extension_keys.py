@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import write_tree
 
+from conftest import write_tree
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties

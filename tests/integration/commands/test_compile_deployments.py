@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 from click.testing import Result
+
 from conftest import write_tree
 from deployments import deployed
-
 from robocomp_yaml import pipeline
 
 TEXT = "components:\n  speech: {component: speech, config: flat}\n  mouth: {component: mouth}\n"

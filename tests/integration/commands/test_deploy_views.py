@@ -8,8 +8,8 @@ from collections.abc import Callable
 
 import pytest
 from click.testing import Result
-from networks import speaking
 
+from networks import speaking
 from robocomp_yaml.commands._deploy_views import status_lines
 from robocomp_yaml.commands._progress import Progress
 from robocomp_yaml.deploy.carry_out import STARTING, Event

@@ -9,9 +9,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from terminals import COMMAND, environment, foreign, on_terminal
 
 from conftest import write_tree
+from terminals import COMMAND, environment, foreign, on_terminal
 
 EVIL = "\x1b]0;pwned\x07\x1b[2J\u202e\u009b31m\u200b\x7f"
 """Text as values of documents have it: in YAML with escapes, and as it stands where that may be."""

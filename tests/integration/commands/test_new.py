@@ -9,6 +9,7 @@ import pytest
 from click.testing import Result
 
 from conftest import read_tree, write_tree
+from robocomp_yaml import languages
 
 Run = Callable[..., Result]
 WORKSPACE = {"rcyaml.yaml": "interfaces: [interfaces]\n", "interfaces": None}
@@ -37,7 +38,7 @@ def test_a_new_interface_checks_and_compiles(rcyaml: Run, workspace: Path, name:
     assert (workspace / ".rcyaml/schemas/idsl.schema.json").is_file()
 
 
-@pytest.mark.parametrize("language", ["python", "cpp"])
+@pytest.mark.parametrize("language", languages.table())
 def test_a_new_component_checks_and_compiles(rcyaml: Run, workspace: Path, language: str) -> None:
     uses = ("--implements", "Speech", "--publishes", "SpeechEvents", "--subscribes", "SpeechEvents")
     said = rcyaml("new", "component", "TalkComp", "--language", language, *uses)
@@ -182,7 +183,7 @@ def test_a_new_deployment_of_nothing_checks(rcyaml: Run, tmp_path: Path) -> None
         (["interface", "interface"], "a reserved word of Slice"),
         (["interface", "Speech"], "interfaces/Speech.idsl.yaml is there already"),
         (["component", "../../etc/passwd"], "cannot be a name"),
-        (["component", "Talk", "--language", "java"], "'java' is not one of"),
+        (["component", "Talk", "--language", "rust"], "'rust' is not one of"),
         (["component", "Talk", "--requires", "Spech"], "did you mean 'Speech'?"),
         (["component", "Talk", "--requires", "Qwerty"], "`rcyaml new interface NAME` writes one"),
         (["component", "Talk", "--requires", "Speech", "--requires", "Speech"], "--requires Speech stands twice"),

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from robocomp_yaml.source.schema_text import schema_text
 from conftest import write_tree
+from robocomp_yaml.source.schema_text import schema_text
 
 Run = Callable[..., Result]
 

@@ -9,9 +9,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from terminals import COMMAND, environment, on_terminal
 
 from conftest import read_tree, write_tree
+from terminals import COMMAND, environment, on_terminal
 
 # Stops where an event of Python's comes whose arguments hold a text, says so, and waits.
 STOPPER = """

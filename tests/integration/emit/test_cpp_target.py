@@ -13,9 +13,9 @@ from conftest import ROOT, write_tree
 from mouth import MOUTH
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.transactions.plan import ONCE
 from robocomp_yaml.languages.cpp import plan as cpp
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.transactions.plan import ONCE
 
 RUNTIME = ROOT / "robocomp_yaml" / "languages" / "cpp" / "templates" / "runtime"
 

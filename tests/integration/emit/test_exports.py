@@ -14,11 +14,11 @@ from xml.etree import ElementTree
 
 import pytest
 from msgspec.structs import replace
-from networks import large, speaking
-from rcmanager_facts import facts
 from ruamel.yaml import YAML
 
 from conftest import write_tree
+from networks import large, speaking
+from rcmanager_facts import facts
 from robocomp_yaml.emit.exports import export, forms
 from robocomp_yaml.emit.exports.icegrid import _DROP_LAST, _MAKE_FOLDERS
 from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Host, Network, Process

@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from networks import large, speaking
 
+from networks import large, speaking
 from robocomp_yaml.diag.codes.files import ALIASES, SYNTAX, WORKSPACE_SETTING, WRONG_SHAPE
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.span import Span

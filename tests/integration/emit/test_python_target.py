@@ -12,9 +12,9 @@ import pytest
 from conftest import ROOT, write_tree
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.transactions.plan import ONCE
 from robocomp_yaml.languages.python import plan as python
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.transactions.plan import ONCE
 
 RUNTIME = ROOT / "robocomp_yaml" / "languages" / "python" / "templates" / "runtime"
 SPEECH = {

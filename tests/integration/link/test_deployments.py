@@ -121,8 +121,8 @@ def test_includes_of_includes(link: Link) -> None:
     linked = link("include: {body: body.ddsl.yaml}\n", body=body, arm=ARM)
     assert list(linked.instances) == ["body.heart", "body.arm.elbow", "body.arm.hand"]
     assert linked.instances["body.heart"].after == (linked.instances["body.arm.hand"],)
-    assert linked.find("body.arm.elbow.Mouth", "") == ([linked.instances["body.arm.elbow"]], "Mouth")
-    assert linked.find("arm.elbow", "body.") == ([linked.instances["body.arm.elbow"]], "")
+    assert linked.find("body.arm.elbow.Mouth", "") == ((linked.instances["body.arm.elbow"],), "Mouth")
+    assert linked.find("arm.elbow", "body.") == ((linked.instances["body.arm.elbow"],), "")
 
 
 def test_the_one_host_is_everybodys(link: Link) -> None:

@@ -12,9 +12,9 @@ import jsonschema
 import jsonschema_rs
 import pytest
 
-from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source import tree
 from robocomp_yaml.source.schema import validate
+from robocomp_yaml.source.schema_text import schema_text
 
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")
 EDITOR = Path(__file__).resolve().parents[2] / "editor"

@@ -12,8 +12,8 @@ import time
 from pathlib import Path
 
 import pytest
-from disk import OWNER, Disk, always, carry_out, codes, commit, killed_in, once, plan, tree
 
+from disk import OWNER, Disk, always, carry_out, codes, commit, killed_in, once, plan, tree
 from robocomp_yaml.transactions import atomic, writer
 from robocomp_yaml.transactions.plan import RootPlan
 

@@ -8,10 +8,9 @@ import pytest
 
 import accessors
 from parameters import linked
-from spellings import CASES, DOCUMENT
-
 from robocomp_yaml.values.defaults import with_defaults
 from robocomp_yaml.values.read import properties_to_values
+from spellings import CASES, DOCUMENT
 
 PARAMETERS = linked(DOCUMENT).parameters
 
