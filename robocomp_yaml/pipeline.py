@@ -90,7 +90,7 @@ def analyse(
     found = discover(list(paths), disk)
     program = linker.link(found.documents)
     said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]
-    for run in checks(program):
+    for run in checks(program, [one.plugins for one in linker.workspaces.values()]):
         said += run(program)
     networks: dict[str, Network] = {}
     if program.deployments:
@@ -100,7 +100,7 @@ def analyse(
         said += more
     said += secrets.check(program, documents.read.values())
     analysis = Analysis(program, linker, found, [], disk, networks)
-    analysis.allowed = Allowed.of(disk.contents)
+    analysis.allowed = Allowed.of(disk.contents, program.plugins_of)
     analysis.diagnostics = in_order(analysis.told([*said, *analysis.allowed.said]))
     return analysis
 

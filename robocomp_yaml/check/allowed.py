@@ -8,8 +8,9 @@ import msgspec
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import files as codes
-from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.codes import row_of
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.allowances import OURS, Allowance, allowances
 from robocomp_yaml.source.spelled import Text, text_of
 
@@ -27,12 +28,12 @@ class Allowed(msgspec.Struct):
     errors: set[Allowance] = set()
 
     @classmethod
-    def of(cls, contents: Mapping[str, bytes]) -> Allowed:
-        """Those of the YAML documents among these files."""
+    def of(cls, contents: Mapping[str, bytes], plugins_of: Callable[[str], Plugins]) -> Allowed:
+        """Those of the YAML documents among these files; `plugins_of` says which plug-ins count for one."""
         made = cls()
         for path, raw in contents.items():
             if path.endswith(".yaml") and OURS.search(raw) and (text := text_of(path, raw)) is not None:
-                made.by_file[path], said = allowances(text)
+                made.by_file[path], said = allowances(text, plugins_of(path).codes)
                 made.texts[path] = text
                 made.said += said
         return made
@@ -57,7 +58,7 @@ class Allowed(msgspec.Struct):
         """The allowances in these files that a whole check found no use for."""
         for file in files:
             for one in self.by_file.get(file, ()):
-                if one not in self.used and one not in self.errors and _is_checked(table()[one.code], environment):
+                if one not in self.used and one not in self.errors and _is_checked(row_of(one.code), environment):
                     yield codes.ALLOW_UNUSED.at(
                         one.span, code=one.code, hint="remove it", fixes=[one.removal(self.texts[file])]
                     )

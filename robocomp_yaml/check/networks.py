@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from robocomp_yaml.check import modules_of
+from robocomp_yaml.check import modules_of, plugged, said_by
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.network.derive import derive
@@ -25,6 +25,9 @@ def networks_of(program: Program) -> tuple[dict[str, Network], list[Diagnostic]]
             diagnostics += found
             for check in checks:
                 diagnostics += check(networks[real])
+            for plugin in program.plugins_of(linked.deployment.path).active:
+                for name, check in plugged(plugin, {"ddsl": True}):
+                    diagnostics += said_by(plugin, name, check, networks[real])
     return networks, list(one_per_cause(diagnostics))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from robocomp_yaml.commands import _plugged
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.page import Files, Repeated
@@ -15,10 +16,9 @@ from robocomp_yaml.diag.page import Files, Repeated
 @click.pass_context
 def command(ctx: click.Context, code: str | None, format_: str) -> None:
     """Say what the diagnostic CODE means, such as RC2003; without a code, list them all."""
-    from robocomp_yaml.diag.codes import table
     from robocomp_yaml.diag.suggest import suggest
 
-    rows = table()
+    rows = _codes()
     if code is None:
         chosen = list(rows.values())
     elif (row := rows.get(code.upper())) is None:
@@ -30,6 +30,13 @@ def command(ctx: click.Context, code: str | None, format_: str) -> None:
         terminal.data(_as_json(chosen), json=True)
     else:
         terminal.say_text(_listed(chosen) if code is None else _explained(chosen[0]))
+
+
+def _codes() -> dict[str, Code]:
+    """All codes, with those of the plug-ins of this folder's workspace."""
+    from robocomp_yaml.diag.codes import table
+
+    return {**table(), **_plugged.codes()}
 
 
 def _listed(rows: list[Code]) -> str:

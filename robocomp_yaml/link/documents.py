@@ -13,10 +13,12 @@ import msgspec
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.model import build_interface
+from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import COMPONENT, text_at_top
+from robocomp_yaml.source.schema_text import MARKED
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, parse
 
@@ -60,10 +62,12 @@ class Document(msgspec.Struct):
 
 
 class Documents(msgspec.Struct):
-    """The documents of a run by real path, with all that is wrong with each by itself."""
+    """The documents of a run by real path, with all that is wrong with each by itself. `plugins_of` says which plug-ins
+    count for a document."""
 
     disk: Disk = msgspec.field(default_factory=Disk)
     on_read: Callable[[str], None] = lambda path: None
+    plugins_of: Callable[[str], Plugins] = lambda path: NONE
     read: dict[str, Document] = {}
     diagnostics: list[Diagnostic] = []
     _glanced: dict[str, tuple[Document, list[Diagnostic]]] = {}
@@ -109,7 +113,8 @@ class Documents(msgspec.Struct):
         document.module, document.component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
 
     def _fits(self, document: Document, tree: Node) -> list[Diagnostic]:
-        diagnostics = schema.validate(document.kind, tree)
+        more = self.plugins_of(document.path).languages if document.kind in MARKED else ()
+        diagnostics = schema.validate(document.kind, tree, more)
         if not diagnostics and document.kind == "idsl" and isinstance(tree, Mapping):
             diagnostics = list(_kinds_of_types(tree))
         return diagnostics

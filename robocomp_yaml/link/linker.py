@@ -39,6 +39,7 @@ class Linker(msgspec.Struct):
     def link(self, paths: Iterable[str]) -> Program:
         """The program of these documents and of all that they import."""
         self.program.disk = self.documents.disk
+        self.program.plugins_of = self.documents.plugins_of = lambda path: self.workspace_of(path).plugins
         todo = [self.documents.get(path) for path in paths]
         self.program.asked = {document.real for document in todo}
         components: list[tuple[Document, LinkedComponent]] = []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -15,6 +15,7 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
+from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source.disk import Disk
 
 if TYPE_CHECKING:
@@ -157,7 +158,7 @@ class LinkedComponent(msgspec.Struct, eq=False):
 
 class Program(msgspec.Struct):
     """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported).
-    Checks read other files through `disk`."""
+    Checks read other files through `disk`; `plugins_of` says which plug-ins count for a document."""
 
     modules: dict[str, LinkedModule] = {}
     components: dict[str, LinkedComponent] = {}
@@ -167,6 +168,7 @@ class Program(msgspec.Struct):
     asked: set[str] = set()
     documents: int = 0
     disk: Disk = msgspec.field(default_factory=Disk)
+    plugins_of: Callable[[str], Plugins] = lambda path: NONE
 
     def documents_of_components(self) -> dict[str, LinkedComponent | None]:
         """The documents of parameters and of values, each with its component."""

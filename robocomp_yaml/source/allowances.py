@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import msgspec
 
@@ -22,7 +22,7 @@ OURS = re.compile(rb"#[ \t]*rcyaml[ \t]*(?::|allow\b)")
 _COMMENT = re.compile(r"(?:(?<=[ \t])|(?<![^\r\n]))#[ \t]*rcyaml(?:[ \t]*:|(?=[ \t]*allow\b))[^\r\n]*")
 _PARTS = re.compile(r"#[ \t]*rcyaml(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?")
 _WORD = re.compile(r"[^\s,]+")
-_CODE = re.compile(r"RC\d{4}", re.IGNORECASE)
+_CODE = re.compile(r"(?i:RC\d{4})|[A-Z]{2,}\d{3,4}")
 _FORM = "write `# rcyaml: allow RC1234 -- reason`"
 _EMPTY_LINE = re.compile(r"[ \t]*(?:#.*|---[ \t]*(?:#.*)?|%.*)?")
 
@@ -57,8 +57,9 @@ class Allowance(msgspec.Struct, frozen=True):
         return Fix("remove it", (text.edit(start, gap.end(), ""),))
 
 
-def allowances(text: Text) -> tuple[list[Allowance], list[Diagnostic]]:
-    """What the comments of a document allow, and what is wrong with them; nothing where it is no YAML."""
+def allowances(text: Text, more: Collection[str] = ()) -> tuple[list[Allowance], list[Diagnostic]]:
+    """What the comments of a document allow, and what is wrong with them; nothing where it is no YAML. `more` are codes
+    of plug-ins."""
     found: list[Allowance] = []
     said: list[Diagnostic] = []
     if text.tree is None:
@@ -67,14 +68,16 @@ def allowances(text: Text) -> tuple[list[Allowance], list[Diagnostic]]:
     for comment in _COMMENT.finditer(text.text):
         if any(node.start <= comment.start() < node.end for node in texts if isinstance(node, Scalar)):
             continue
-        made, wrong = _read(text, comment)
+        made, wrong = _read(text, comment, more)
         first, last = _lines(text, comment, texts)
         found += [Allowance(word, span, first, last, text.span(*comment.span()), len(made) > 1) for word, span in made]
         said += wrong
     return found, said
 
 
-def _read(text: Text, comment: re.Match[str]) -> tuple[list[tuple[str, Span]], list[Diagnostic]]:
+def _read(
+    text: Text, comment: re.Match[str], more: Collection[str]
+) -> tuple[list[tuple[str, Span]], list[Diagnostic]]:
     """The codes that a comment names, each with its place, and what is wrong with it."""
     whole = text.span(*comment.span())
     parts = _PARTS.fullmatch(comment[0].rstrip())
@@ -95,15 +98,16 @@ def _read(text: Text, comment: re.Match[str]) -> tuple[list[tuple[str, Span]], l
     made = []
     for word in _WORD.finditer(parts["codes"]):
         place = [comment.start() + parts.start("codes") + at for at in word.span()]
-        if _CODE.fullmatch(word[0]) is None:
+        if _CODE.fullmatch(word[0]) is None and word[0].upper() not in more:
             before = Fix("put -- before it", (text.edit(place[0], place[0], "-- "),), True)
             said.append(codes.ALLOW_MALFORMED.at(
                 text.span(*place), problem=f"'{word[0]}' is no code", hint="a reason stands behind `--`",
                 fixes=[before] if made and parts["reason"] is None else [],
             ))
             return (made if parts["colon"] else []), said
-        if word[0].upper() not in table():
-            said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint=_meant(word[0])))
+        if word[0].upper() not in table() and word[0].upper() not in more:
+            hint = _meant(word[0], [*table(), *more])
+            said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint=hint))
         elif parts["colon"]:
             made.append((word[0].upper(), text.span(*place)))
     if not made and not said:
@@ -114,8 +118,8 @@ def _read(text: Text, comment: re.Match[str]) -> tuple[list[tuple[str, Span]], l
     return made, said
 
 
-def _meant(code: str) -> str:
-    meant = suggest(code.upper(), table())
+def _meant(code: str, known: Collection[str]) -> str:
+    meant = suggest(code.upper(), known)
     return f"did you mean '{meant}'? `rcyaml explain` lists them" if meant else "`rcyaml explain` lists them"
 
 

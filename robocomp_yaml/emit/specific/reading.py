@@ -34,4 +34,4 @@ def compiles(code: Code) -> bool:
 
 def _language(path: str) -> TargetLanguage | None:
     suffix = path.rpartition(".")[2]
-    return next((one for one in languages.table().values() if suffix in one.suffixes), None)
+    return next((one for one in languages.known().values() if suffix in one.suffixes), None)

@@ -6,16 +6,29 @@ import importlib
 import pkgutil
 from typing import TYPE_CHECKING
 
+from robocomp_yaml.plugins import GRAPHS, NONE, Plugins
+
 if TYPE_CHECKING:
     from robocomp_yaml.emit.graphs.picture import Picture
 
 
-def forms() -> list[str]:
-    """What `draw` can make."""
+def built_in() -> list[str]:
     return sorted(module.name for module in pkgutil.iter_modules(__path__))
 
 
-def draw(picture: Picture, form: str) -> str:
+def forms(plugins: Plugins = NONE) -> list[str]:
+    """What `draw` can make."""
+    return [*built_in(), *sorted(plugins.of(GRAPHS))]
+
+
+def draw(picture: Picture, form: str, plugins: Plugins = NONE) -> str:
     """The picture in a form, which is called as its module."""
+    if form in plugins.of(GRAPHS):
+        plugin, module = plugins.of(GRAPHS)[form]
+        with plugin.answering(f"picture '{form}'"):
+            drawn = module.draw(picture)
+            if not isinstance(drawn, str):
+                raise TypeError("it gives no text")
+        return drawn
     text: str = importlib.import_module(f"{__name__}.{form}").draw(picture)
     return text
