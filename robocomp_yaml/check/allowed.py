@@ -33,7 +33,8 @@ class Allowed(msgspec.Struct):
         made = cls()
         for path, raw in contents.items():
             if path.endswith(".yaml") and OURS.search(raw) and (text := text_of(path, raw)) is not None:
-                made.by_file[path], said = allowances(text, plugins_of(path).codes)
+                plugins = plugins_of(path)
+                made.by_file[path], said = allowances(text, plugins.codes, whole=plugins.whole)
                 made.texts[path] = text
                 made.said += said
         return made

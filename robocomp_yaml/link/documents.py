@@ -106,11 +106,19 @@ class Documents(msgspec.Struct):
         if tree is None:
             return
         document.tree = tree
-        yield from (diagnostics := self._fits(document, tree))
+        diagnostics = self._fits(document, tree)
+        yield from (one for one in diagnostics if not self._is_of_a_plugin(document, tree, one))
         if not has_errors(diagnostics):
             assert isinstance(tree, Mapping)
             document.model = builder(document.kind)(tree, document.path)
         document.module, document.component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
+
+    def _is_of_a_plugin(self, document: Document, tree: Node, said: Diagnostic) -> bool:
+        """Whether an unknown language may be that of a plug-in which cannot be had: that is told already."""
+        if document.kind not in MARKED or not isinstance(tree, Mapping) or self.plugins_of(document.path).whole:
+            return False
+        language = tree.get("language")
+        return said.code == codes.WRONG_SHAPE.id and language is not None and language.span.holds(said.span)
 
     def _fits(self, document: Document, tree: Node) -> list[Diagnostic]:
         more = self.plugins_of(document.path).languages if document.kind in MARKED else ()

@@ -57,9 +57,11 @@ class Allowance(msgspec.Struct, frozen=True):
         return Fix("remove it", (text.edit(start, gap.end(), ""),))
 
 
-def allowances(text: Text, more: Collection[str] = ()) -> tuple[list[Allowance], list[Diagnostic]]:
+def allowances(
+    text: Text, more: Collection[str] = (), *, whole: bool = True
+) -> tuple[list[Allowance], list[Diagnostic]]:
     """What the comments of a document allow, and what is wrong with them; nothing where it is no YAML. `more` are codes
-    of plug-ins."""
+    of plug-ins, `whole` says whether these are all that there could be."""
     found: list[Allowance] = []
     said: list[Diagnostic] = []
     if text.tree is None:
@@ -70,6 +72,8 @@ def allowances(text: Text, more: Collection[str] = ()) -> tuple[list[Allowance],
             continue
         made, wrong = _read(text, comment, more)
         first, last = _lines(text, comment, texts)
+        if not whole:
+            wrong = [one for one in wrong if one.code != codes.ALLOW_UNKNOWN.id]
         found += [Allowance(word, span, first, last, text.span(*comment.span()), len(made) > 1) for word, span in made]
         said += wrong
     return found, said
