@@ -95,7 +95,9 @@ def with_plugins(plugins: Plugins) -> Formats:
     found: list[Rules] = []
     for name, (plugin, module) in plugins.of(FORMATS).items():
         with plugin.answering(f"legacy format '{name}'"):
-            data = {**_read("RULES", module.RULES), "grammar": getattr(module, "GRAMMAR", "")}
+            data = _read("RULES", module.RULES)
+            if hasattr(module, "GRAMMAR"):
+                data["grammar"] = module.GRAMMAR
             found.append(_rules(name, _over_base(data), module.__name__, plugin))
     return _by_rank((*formats(), *found)) if found else formats()
 

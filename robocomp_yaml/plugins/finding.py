@@ -152,7 +152,7 @@ def _clash(kind: Kind, name: str, module: ModuleType, others: list[Plugin]) -> t
     if name in kind.built_in():
         return f"{kind.called} '{name}'", "rcyaml"
     for other in others:
-        if (kind.name, name) in other.pieces:
+        if kind.home and (kind.name, name) in other.pieces:
             return f"{kind.called} '{name}'", f"plug-in '{other.name}'"
     for code in codes_in(module):
         if _OURS.match(code.id):

@@ -10,9 +10,10 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from plugins.wheels import SAMPLES, Run, build, install
+from plugins.wheels import ROOT, SAMPLES, Run, build, install
 
 from conftest import read_tree, write_tree
+from robocomp_yaml.plugins.kinds import KINDS
 
 pytestmark = pytest.mark.slow
 
@@ -26,6 +27,22 @@ CLOCK = {
     "clock.cdsl.yaml": "component: ClockComp\nlanguage: shell\nperiod: 50 ms\n",
 }
 POSE = {"rcyaml.yaml": "plugins: [acme-rosmsg]\n", "old/Pose.msg": "# Where it is.\nfloat64 x  # metres\nuint8 kind\n"}
+
+
+PAGE = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8")
+SHOWN = re.findall(r"^<!-- sample: (\S+) -->\n(`{3,})\w+\n(.*?)^\2$", PAGE, re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize(("path", "text"), [(path, text) for path, _, text in SHOWN])
+def test_the_page_shows_what_is_tested(path: str, text: str) -> None:
+    assert (SAMPLES / path).read_text(encoding="utf-8") == text
+
+
+def test_the_page_shows_a_plugin_of_each_kind() -> None:
+    shown = "".join(text for _, _, text in SHOWN)
+    groups = {kind.group for kind in KINDS}
+    assert {*re.findall(r'entry-points\."(rcyaml\.\w+)"', shown)} == groups
+    assert {*re.findall(r"^\| `(rcyaml\.\w+)` \|", PAGE, re.MULTILINE)} == groups
 
 
 def codes(done: subprocess.CompletedProcess[str]) -> list[str]:
