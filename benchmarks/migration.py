@@ -21,7 +21,8 @@ STATES = ("converted", "warned", "refused", "skipped")
 def main() -> None:
     if not CORPUS.is_dir():
         sys.exit("there is no corpus beside the checkout")
-    print(f"{'format':<12}{'files':>6}{''.join(f'{state:>11}' for state in STATES)}{'lines lost':>12}{'seconds':>9}{'MiB':>6}")
+    states = "".join(f"{state:>11}" for state in STATES)
+    print(f"{'format':<12}{'files':>6}{states}{'lines lost':>12}{'seconds':>9}{'MiB':>6}")
     folders = sorted(path for path in CORPUS.iterdir() if path.is_dir())
     with tempfile.TemporaryDirectory() as name:
         for source in (*folders, CORPUS):

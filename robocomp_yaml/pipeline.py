@@ -1,7 +1,15 @@
 """The pipeline: paths to a linked program and everything that is wrong with it.
 
-discover → (read → tree → shape → model, each document once) → link → checks (with networks, where there are
-deployments). `check` is this and no more; `compile` goes on from the program that it gives.
+Each pass takes what the one before it gave, and nothing is changed once it is given:
+
+    discover   paths → which documents                                    source.discover
+    read       each document once: bytes → tree → shape → model           link.documents (source, schemas, model)
+    link       imports, names, parameters, values, deployments → program  link.linker
+    derive     deployments → networks                                     network.networks
+    check      what no schema can say, of documents and of networks       check
+    tell       what comments allow and `lint:` asks for, fixes spelled, secrets hidden
+
+`check` is this and no more; `compile` goes on from the program that it gives.
 """
 
 from __future__ import annotations
@@ -11,15 +19,19 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.check import checks, secrets
-from robocomp_yaml.check.allowed import Allowed
+from robocomp_yaml.check.allowed import Allowed, Judged
+from robocomp_yaml.check.networks import of_networks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.network.networks import Derived, networks_of
+from robocomp_yaml.source.allowances import Allowance
 from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.spelled import spelled
@@ -28,35 +40,45 @@ if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
 
-class Analysis(msgspec.Struct):
-    """A program with its diagnostics, sorted, and the disk that they were read from. `networks` are what the
-    deployments come to, by real path."""
+class Analysis(msgspec.Struct, frozen=True):
+    """A program with its diagnostics, sorted, the disk that they were read from, and its networks; `used` are the
+    comments that allow some of what was found."""
 
     program: Program
     linker: Linker
     found: Found
-    diagnostics: list[Diagnostic]
     disk: Disk
-    networks: dict[str, Network] = {}
-    allowed: Allowed = msgspec.field(default_factory=Allowed)
+    derived: Derived
+    allowed: Allowed
+    diagnostics: tuple[Diagnostic, ...] = ()
+    used: frozenset[Allowance] = frozenset()
+
+    @property
+    def networks(self) -> Mapping[str, Network]:
+        """What the deployments come to, by real path."""
+        return self.derived.networks
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-        """All diagnostics with some that were found elsewhere, at the severities that the workspaces ask for."""
-        return in_order([*self.diagnostics, *self.told(diagnostics)])
+        """All diagnostics with some that were found elsewhere, as users get them."""
+        return in_order([*self.diagnostics, *self.shown(self.judged(diagnostics).told)])
 
-    def told(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-        """Diagnostics as users get them: without those that comments allow, and without secrets, at the severities
-        that the workspaces ask for, with fixes that say what to write."""
-        told = list(self.allowed.told(diagnostics, lambda file: self.linker.workspace_of(file).lint))
-        told += self.allowed.of_errors()
-        return self.veiled(spelled(_with_lint(told, self.linker), self.disk.contents))
-
-    def allowed_in_vain(self, *, environment: bool = False) -> list[Diagnostic]:
-        """What comments allow that nobody said, of the documents asked for; known once all is checked that there is."""
-        read = self.linker.documents.read
+    def whole(self, diagnostics: Iterable[Diagnostic], *, environment: bool = False) -> list[Diagnostic]:
+        """The same, where these are all that there is: then it is known, too, which comments allow what nobody said, of
+        the documents asked for."""
+        more, read = self.judged(diagnostics), self.linker.documents.read
         asked = [read[real].path for real in self.program.asked if real in read]
         files = {*asked, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
-        return self.told(self.allowed.in_vain(sorted(files), environment=environment))
+        vain = self.judged(self.allowed.in_vain(sorted(files), self.used | more.used, environment=environment))
+        return in_order([*self.diagnostics, *self.shown((*more.told, *vain.told))])
+
+    def judged(self, diagnostics: Iterable[Diagnostic]) -> Judged:
+        """Diagnostics without those that comments allow."""
+        return self.allowed.judge(diagnostics, lambda file: self.linker.workspace_of(file).lint)
+
+    def shown(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+        """Diagnostics as users get them: at the severities that the workspaces ask for, with fixes that say what to
+        write, and without secrets."""
+        return self.veiled(spelled(_with_lint(diagnostics, self.linker), self.disk.contents))
 
     def veiled(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics without the secrets that the documents hold."""
@@ -85,24 +107,19 @@ def analyse(
     """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
     document that is read. `overlay` has contents, by path, that count instead of the disk's."""
     disk = Disk(overlay)
-    documents = Documents(disk, on_read)
-    linker = Linker(documents, Search(search_folders(extra), disk))
     found = discover(list(paths), disk)
+    linker = Linker(Documents(disk, on_read), Search(search_folders(extra), disk))
     program = linker.link(found.documents)
-    said = [*found.diagnostics, *documents.diagnostics, *linker.diagnostics]
-    for run in checks(program, [one.plugins for one in linker.workspaces.values()]):
-        said += run(program)
-    networks: dict[str, Network] = {}
-    if program.deployments:
-        from robocomp_yaml.check.networks import networks_of  # most programs have none
-
-        networks, more = networks_of(program)
-        said += more
-    said += secrets.check(program, documents.read.values())
-    analysis = Analysis(program, linker, found, [], disk, networks)
-    analysis.allowed = Allowed.of(disk.contents, program.plugins_of)
-    analysis.diagnostics = in_order(analysis.told([*said, *analysis.allowed.said]))
-    return analysis
+    derived = networks_of(program)
+    said = [*found.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
+    for check in checks(program, [one.plugins for one in linker.workspaces.values()]):
+        said += check(program)
+    said += of_networks(derived, program)
+    said += secrets.check(program, linker.documents.read.values())
+    allowed = Allowed.of(disk.contents, program.plugins_of)
+    analysis = Analysis(program, linker, found, disk, derived, allowed)
+    judged = analysis.judged([*said, *analysis.allowed.said])
+    return replace(analysis, diagnostics=tuple(in_order(analysis.shown(judged.told))), used=judged.used)
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

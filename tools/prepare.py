@@ -180,7 +180,8 @@ def can_compile() -> bool:
 
 def ice() -> None:
     if answers([PYTHON, "-c", "import Ice"]):
-        return show(f"{shown()} has Ice already")
+        show(f"{shown()} has Ice already")
+        return
     if not can_compile():
         raise Failed(
             f"{COMPILING}, not all of which are here. An administrator installs these:\n"

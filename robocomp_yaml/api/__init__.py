@@ -24,21 +24,23 @@ from robocomp_yaml.diag.span import Span
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.compiling import Compilation
+    from robocomp_yaml.api.fixing import Fixing
     from robocomp_yaml.api.migrating import Migration
     from robocomp_yaml.api.outcome import File, Outcome
-    from robocomp_yaml.api.values import Change, Value, Values
+    from robocomp_yaml.api.values import Change, Values
     from robocomp_yaml.api.workspace import Workspace
     from robocomp_yaml.network.network import Network
+    from robocomp_yaml.values.show import Value
 
 __all__ = [
-    "ERROR", "NOTE", "WARNING", "Change", "Compilation", "Diagnostic", "Faulty", "File", "Migration", "Network",
-    "Outcome", "Refused", "Related", "Span", "Value", "Values", "Workspace", "load", "migrate",
+    "ERROR", "NOTE", "WARNING", "Change", "Compilation", "Diagnostic", "Faulty", "File", "Fixing", "Migration",
+    "Network", "Outcome", "Refused", "Related", "Span", "Value", "Values", "Workspace", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {
-    "Change": "api.values", "Compilation": "api.compiling", "File": "api.outcome", "Migration": "api.migrating",
-    "Network": "network.network", "Outcome": "api.outcome", "Value": "api.values", "Values": "api.values",
-    "Workspace": "api.workspace",
+    "Change": "api.values", "Compilation": "api.compiling", "File": "api.outcome", "Fixing": "api.fixing",
+    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Value": "values.show",
+    "Values": "api.values", "Workspace": "api.workspace",
 }  # fmt: skip
 
 

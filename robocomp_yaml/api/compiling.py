@@ -36,7 +36,7 @@ class Compilation:
     """What compiling the documents of a workspace comes to. Nothing is written before `apply`.
 
     `diagnostics`, `files` (each with its `action`) and `dirty` (whether a file that a user sees would change) say what
-    `apply` would do now; it writes what the documents were when they were loaded.
+    `apply` would do; it writes what the documents were when they were loaded.
     """
 
     def __init__(
@@ -67,6 +67,11 @@ class Compilation:
     @property
     def dirty(self) -> bool:
         return self.outcome.dirty
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether a diagnostic is an error: documents without one are compiled all the same."""
+        return has_errors(self.diagnostics)
 
     def look(self, *, with_diff: bool = False) -> Outcome:
         """What `apply` would do now; each file with its unified diff where that is asked for."""
@@ -166,9 +171,12 @@ def _outcome_of(
     hidden = analysis.hidden() if with_diff else Hidden()
     files = (
         File(
-            root.root, change.path, change.action, change.orig,
+            root.root,
+            change.path,
+            change.action,
+            change.orig,
             hidden.without(change.diff(properties=is_settings(change.path))) if with_diff else "",
-        )  # fmt: skip
+        )
         for root in changes.roots
         for change in root.changes
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.fixing.files import Written, write
 from robocomp_yaml.fixing.rounds import MISSHAPEN, UNDERSTOOD, UNREADABLE, Done, Look, mend
 from robocomp_yaml.pipeline import Analysis
+from robocomp_yaml.source.discover import WORKSPACE_FILE
+from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.transactions.changes import unified
 
 if TYPE_CHECKING:
@@ -89,16 +92,22 @@ class Fixing:
         }
         # Whether a comment allows something in vain is known once all is checked.
         told = workspace.check(environment=self._environment) if analysis.allowed.by_file else analysis.diagnostics
-        return Look(told, analysis.disk.contents, levels)
+        return Look(list(told), analysis.disk.contents, levels)
 
 
 def _asked(analysis: Analysis) -> set[str]:
-    """The documents that the user named, or that are below the folders that were named, with their state machines."""
+    """The documents that the user named, or that are below the folders that were named, with their state machines and
+    workspaces."""
     program, read = analysis.program, analysis.linker.documents.read
     machines = {
         path for real, linked in program.components.items() if real in program.asked for path in linked.machine_files
     }
-    return {read[real].path for real in program.asked if real in read} | machines
+    settings = {
+        path for each in analysis.linker.workspaces.values()
+        if any(stays_inside(folder, os.path.abspath(each.root)) for folder in analysis.found.folders)
+        and (path := os.path.normpath(os.path.join(each.root, WORKSPACE_FILE))) in analysis.disk.contents
+    }  # fmt: skip
+    return {read[real].path for real in program.asked if real in read} | machines | settings
 
 
 def _text(content: bytes) -> str:

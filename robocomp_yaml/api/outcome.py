@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 
 if TYPE_CHECKING:
     from robocomp_yaml.transactions.changes import Changes
@@ -40,6 +40,10 @@ class Outcome(msgspec.Struct, frozen=True):
     asked: int
     left_out: dict[str, bool]
     planned: bool = False
+
+    @property
+    def has_errors(self) -> bool:
+        return has_errors(self.diagnostics)
 
     @property
     def dirty(self) -> bool:

@@ -21,8 +21,15 @@ if TYPE_CHECKING:
     from robocomp_yaml.emit.render import render
     from robocomp_yaml.languages.record import TargetLanguage
     from robocomp_yaml.legacy.document import List, Map, Notes, Raw
-    from robocomp_yaml.legacy.draft import ComponentDraft, DeploymentDraft, ModuleDraft, ModuleNames, ParametersDraft
-    from robocomp_yaml.legacy.draft import Reader, ValuesDraft
+    from robocomp_yaml.legacy.draft import (
+        ComponentDraft,
+        DeploymentDraft,
+        ModuleDraft,
+        ModuleNames,
+        ParametersDraft,
+        Reader,
+        ValuesDraft,
+    )
     from robocomp_yaml.legacy.grammar import token, trees
     from robocomp_yaml.link.program import LinkedComponent, Program
     from robocomp_yaml.network.network import Network

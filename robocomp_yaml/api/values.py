@@ -39,7 +39,7 @@ from robocomp_yaml.values.hidden import hidden
 from robocomp_yaml.values.judge import judge
 from robocomp_yaml.values.new import lines_above
 from robocomp_yaml.values.paths import Step
-from robocomp_yaml.values.show import Shown as Value
+from robocomp_yaml.values.show import Value
 
 # As `rcyaml config get` prints them; one that cannot be followed is refused, and no text that happens to look so.
 _REFERENCE = re.compile(r"\{ *(?:env|file) *:.*\}", re.DOTALL)

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.pipeline import Analysis, analyse
 
@@ -44,8 +44,7 @@ class Workspace:
         configurations, the programs of deployments), sorted by place. `environment` also looks for the libraries that
         components name, for programs on PATH and for hosts."""
         found = [*self._on_disk(environment), *(self._missing() if environment else ())]
-        told = self.analysis.with_more(found)
-        return in_order([*told, *self.analysis.allowed_in_vain(environment=environment)])
+        return self.analysis.whole(found, environment=environment)
 
     def compile(
         self, *, output: str | None = None, targets: Sequence[str] = (), adopt: bool = False, merge: bool = False
@@ -89,7 +88,8 @@ class Workspace:
         if found:
             names = ", ".join(sorted(self.analysis.linker.documents.read[real].path for real in wanted))
             raise Refused(f"there are several deployments, of which one is to be named: {names}")
-        if any(document.kind == "ddsl" for document in self.analysis.linker.documents.read.values()):
+        read = self.analysis.linker.documents.read
+        if any(document.kind == "ddsl" and (not path or real in wanted) for real, document in read.items()):
             raise Faulty(self.analysis.diagnostics, self.documents_read)
         raise Refused(f"there is no deployment at '{path}'" if path else "there is no deployment")
 
@@ -116,13 +116,14 @@ class Workspace:
                 from robocomp_yaml.api import made_already
 
                 told = None if self._overlay else made_already.told_of_code(self._paths, self._include)
-                if told is None:
-                    told = written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
-                yield from told
+                if told is not None:
+                    yield from told
+                else:
+                    yield from written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
         if analysis.networks:
             from robocomp_yaml.check.networks import of_environment
 
-            yield from of_environment(analysis.networks, analysis.program, environment=environment)
+            yield from of_environment(analysis.derived, environment=environment)
 
     def _missing(self) -> Iterator[Diagnostic]:
         from robocomp_yaml.emit.environment import missing

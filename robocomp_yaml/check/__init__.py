@@ -15,6 +15,7 @@ from typing import Any
 from robocomp_yaml import languages
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import Faulty
+from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.plugins import CHECKS, LANGUAGES, Plugin, Plugins
 
@@ -55,7 +56,15 @@ def plugged(plugin: Plugin, kinds: Mapping[str, object]) -> Iterator[tuple[str, 
         if kind == CHECKS and kinds.get(module.KIND):
             yield f"check '{name}'", module.check
         elif kind == LANGUAGES and module.LANGUAGE.has_checks and kinds.get("idsl"):
-            yield f"language '{name}'", lambda program, one=module.LANGUAGE: one.part("checks").check(program)
+            yield f"language '{name}'", _of_language(module.LANGUAGE)
+
+
+def _of_language(language: TargetLanguage) -> Check:
+    def check(program: Program) -> Iterator[Diagnostic]:
+        found: Iterator[Diagnostic] = language.part("checks").check(program)
+        return found
+
+    return check
 
 
 def said_by(plugin: Plugin, name: str, check: Callable[[Any], Iterator[Diagnostic]], about: Any) -> list[Diagnostic]:

@@ -17,58 +17,68 @@ from robocomp_yaml.source.spelled import Text, text_of
 _ABOUT_THEM = ("RC0060", "RC0061", "RC0062", "RC0063", "RC0064")
 
 
-class Allowed(msgspec.Struct):
-    """The allowances of a run's documents by their paths. `said` is what is wrong with the comments themselves; `used`
-    are those that allowed something, `errors` those that something was told at that cannot be allowed."""
+class Judged(msgspec.Struct, frozen=True):
+    """`told` is what no comment allows, and what is wrong with comments for that; `used` are the allowances that this
+    gave something to do."""
 
-    by_file: dict[str, list[Allowance]] = {}
-    said: list[Diagnostic] = []
-    texts: dict[str, Text] = {}
-    used: set[Allowance] = set()
-    errors: set[Allowance] = set()
+    told: tuple[Diagnostic, ...]
+    used: frozenset[Allowance]
+
+
+class Allowed(msgspec.Struct, frozen=True):
+    """The allowances of a run's documents by their paths; `said` is what is wrong with the comments themselves."""
+
+    by_file: Mapping[str, tuple[Allowance, ...]] = {}
+    said: tuple[Diagnostic, ...] = ()
+    texts: Mapping[str, Text] = {}
 
     @classmethod
     def of(cls, contents: Mapping[str, bytes], plugins_of: Callable[[str], Plugins]) -> Allowed:
         """Those of the YAML documents among these files; `plugins_of` says which plug-ins count for one."""
-        made = cls()
+        by_file, said, texts = {}, [], {}
         for path, raw in contents.items():
             if path.endswith(".yaml") and OURS.search(raw) and (text := text_of(path, raw)) is not None:
                 plugins = plugins_of(path)
-                made.by_file[path], said = allowances(text, plugins.codes, whole=plugins.whole)
-                made.texts[path] = text
-                made.said += said
-        return made
+                found, wrong = allowances(text, plugins.codes, whole=plugins.whole)
+                by_file[path], texts[path] = tuple(found), text
+                said += wrong
+        return cls(by_file, tuple(said), texts)
 
-    def told(
-        self, diagnostics: Iterable[Diagnostic], lint: Callable[[str], Mapping[str, str]]
-    ) -> Iterator[Diagnostic]:  # fmt: skip
-        """What no comment allows. `lint` gives the severities that a file's workspace asks for: an error that it makes
+    def judge(self, diagnostics: Iterable[Diagnostic], lint: Callable[[str], Mapping[str, str]]) -> Judged:
+        """Which of these are told. `lint` gives the severities that a file's workspace asks for: an error that it makes
         less than an error can be allowed, and so can a warning that it makes an error."""
+        told: list[Diagnostic] = []
+        used: set[Allowance] = set()
+        errors: set[Allowance] = set()
         for one in diagnostics:
             file = self.by_file.get(one.span.file, ())
             here = [each for each in file if each.code == one.code and each.covers(one.span)]
             if not here:
-                yield one
+                told.append(one)
             elif one.code in _ABOUT_THEM or ERROR == one.severity == lint(one.span.file).get(one.code, ERROR):
-                self.errors.update(here)
-                yield one
+                errors.update(here)
+                told.append(one)
             else:
-                self.used.add(here[0])
+                used.add(here[0])
+        return Judged((*told, *_of_errors(errors)), frozenset(used | errors))
 
-    def in_vain(self, files: Collection[str], *, environment: bool) -> Iterator[Diagnostic]:
-        """The allowances in these files that a whole check found no use for."""
+    def in_vain(
+        self, files: Iterable[str], used: Collection[Allowance], *, environment: bool
+    ) -> Iterator[Diagnostic]:  # fmt: skip
+        """The allowances in these files that are not among those that a whole check used."""
         for file in files:
             for one in self.by_file.get(file, ()):
-                if one not in self.used and one not in self.errors and _is_checked(row_of(one.code), environment):
+                if one not in used and _is_checked(row_of(one.code), environment):
                     yield codes.ALLOW_UNUSED.at(
                         one.span, code=one.code, hint="remove it", fixes=[one.removal(self.texts[file])]
                     )
 
-    def of_errors(self) -> Iterator[Diagnostic]:
-        """The allowances of what no comment can allow."""
-        for one in sorted(self.errors, key=lambda one: (one.span, one.code)):
-            why = "it is about such comments" if one.code in _ABOUT_THEM else "it is an error"
-            yield codes.ALLOW_ERROR.at(one.span, code=one.code, why=why, hint="mend what it says, and remove this")
+
+def _of_errors(errors: Iterable[Allowance]) -> Iterator[Diagnostic]:
+    """The allowances of what no comment can allow."""
+    for one in sorted(errors, key=lambda one: (one.span, one.code)):
+        why = "it is about such comments" if one.code in _ABOUT_THEM else "it is an error"
+        yield codes.ALLOW_ERROR.at(one.span, code=one.code, why=why, hint="mend what it says, and remove this")
 
 
 def _is_checked(row: Code, environment: bool) -> bool:

@@ -1,50 +1,41 @@
-"""The networks of a program's deployments, derived and checked."""
+"""What is wrong with networks: the checks of `ddsl/`, and what depends on this machine."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.check import modules_of, plugged, said_by
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.network.derive import derive
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.networks import Derived
 
 _FAMILY = "RC4"
 
 
-def networks_of(program: Program) -> tuple[dict[str, Network], list[Diagnostic]]:
-    """Every deployment's network by its real path, and what is wrong with them. A document that another one includes
-    is judged as part of that one."""
-    networks: dict[str, Network] = {}
-    diagnostics: list[Diagnostic] = []
-    checks: list[Callable[[Network], Iterator[Diagnostic]]] = [module.check for module in modules_of("ddsl")]
-    for real, linked in sorted(program.deployments.items(), key=lambda item: item[1].deployment.path):
-        networks[real], found = derive(linked, program.disk)
-        if not linked.is_included:
-            diagnostics += found
-            for check in checks:
-                diagnostics += check(networks[real])
-            for plugin in program.plugins_of(linked.deployment.path).active:
-                for name, check in plugged(plugin, {"ddsl": True}):
-                    diagnostics += said_by(plugin, name, check, networks[real])
-    return networks, list(one_per_cause(diagnostics))
+def of_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
+    """What deriving them said, and what the checks say."""
+    if not derived.networks:
+        return iter(())
+    checks = [module.check for module in modules_of("ddsl")]
+    found = [fault for real in derived.judged for check in checks for fault in check(derived.networks[real])]
+    for real in derived.judged:
+        for plugin in program.plugins_of(program.deployments[real].deployment.path).active:
+            for name, check in plugged(plugin, {"ddsl": True}):
+                found += said_by(plugin, name, check, derived.networks[real])
+    return one_per_cause([*derived.diagnostics, *found])
 
 
-def of_environment(
-    networks: dict[str, Network], program: Program, *, environment: bool
-) -> Iterator[Diagnostic]:
+def of_environment(derived: Derived, *, environment: bool) -> Iterator[Diagnostic]:
     """What depends on this machine: warnings about executables that are not there, and, where `environment` is asked
     for, about programs and addresses."""
     from robocomp_yaml.check.ddsl import files, hosts
 
-    def every(network: Network) -> Iterator[Diagnostic]:
-        yield from files.missing(network, environment=environment)
+    found: list[Diagnostic] = []
+    for real in derived.judged:
+        found += files.missing(derived.networks[real], environment=environment)
         if environment:
-            yield from hosts.unresolved(network)
-
-    found = [every(networks[real]) for real, linked in program.deployments.items() if not linked.is_included]
-    return one_per_cause(fault for faults in found for fault in faults)
+            found += hosts.unresolved(derived.networks[real])
+    return one_per_cause(found)
 
 
 def one_per_cause(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:

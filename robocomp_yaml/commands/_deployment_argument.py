@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from typing import Any
 
 import click
 
@@ -13,7 +14,7 @@ class DocumentAnd(click.Argument):
     """`[DDSL]` and the words behind it, as the parameters `ddsl` and this one. A first word that is neither a document
     nor a folder with one is a word already, about the only deployment below this folder."""
 
-    def __init__(self, declarations: list[str], most: int | None = None, metavar: str = "", **more: object) -> None:
+    def __init__(self, declarations: list[str], most: int | None = None, metavar: str = "", **more: Any) -> None:
         self._most = most
         super().__init__(declarations, nargs=-1, type=click.Path(), metavar=f"[DDSL] {metavar}".rstrip(), **more)
 

@@ -46,7 +46,7 @@ def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None]
         yield lambda path: None
         return
     with click.progressbar(length=total, label=label, file=sys.stderr, update_min_steps=50) as bar:
-        yield lambda path: bar.update(1, path)
+        yield lambda path: bar.update(1)
 
 
 async def ask(text: str, answers: tuple[str, ...]) -> str:
@@ -58,13 +58,17 @@ async def ask(text: str, answers: tuple[str, ...]) -> str:
     loop, first = asyncio.get_running_loop(), answers[0]
     answered: asyncio.Future[str] = loop.create_future()
 
+    def settle(answer: str) -> None:
+        if not answered.done():
+            answered.set_result(answer)
+
     def wait() -> None:
         try:
             answer: str = click.prompt(text, type=click.Choice(answers), default=first)
         except click.Abort:  # there is nobody to answer
             answer = first
         with suppress(RuntimeError):  # the question was withdrawn
-            loop.call_soon_threadsafe(lambda: answered.done() or answered.set_result(answer))
+            loop.call_soon_threadsafe(settle, answer)
 
     threading.Thread(target=wait, daemon=True).start()
     return await answered

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.shell_completion import CompletionItem
 
 if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
     from robocomp_yaml.diag.code import Code
     from robocomp_yaml.plugins import Plugins
 
@@ -21,7 +24,7 @@ def remember(ctx: click.Context, words: Sequence[str]) -> None:
     ctx.meta[_WORDS] = tuple(words)
 
 
-class Plugged(click.ParamType):
+class Plugged(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
     """One of what `known` gives for the plug-ins of the workspaces of the paths on the command line; where there is
     none, of that of the working folder. Nothing is looked for before somebody asks."""
 
@@ -43,11 +46,17 @@ class Plugged(click.ParamType):
         return list(dict.fromkeys(name for plugins in _plugins(ctx) for name in self._known(plugins)))
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        from click.shell_completion import CompletionItem
+
         return [CompletionItem(name) for name in self.choices(ctx) if name.startswith(incomplete)]
 
 
 def here(path: str = ".") -> Plugins:
     """The plug-ins of the workspace that a path is in. Raises Faulty where one of them cannot be had."""
+    from robocomp_yaml.plugins import NONE
+
+    if not _may_name_some(path):
+        return NONE
     from robocomp_yaml.diag.errors import Faulty
     from robocomp_yaml.link.workspace import above
 
@@ -63,9 +72,26 @@ def codes(ctx: click.Context | None = None) -> dict[str, Code]:
 
 
 def _plugins(ctx: click.Context | None) -> list[Plugins]:
+    from robocomp_yaml.plugins import NONE
+
+    paths = [path for path in _paths(ctx) if _may_name_some(path)]
+    if not paths:
+        return [NONE]
     from robocomp_yaml.link.workspace import above
 
-    return [above(path)[0].plugins for path in _paths(ctx)]
+    return [above(path)[0].plugins for path in paths]
+
+
+def _may_name_some(path: str) -> bool:
+    """Whether it is worth reading the workspace's settings, for which much is loaded."""
+    from robocomp_yaml.source.discover import WORKSPACE_FILE
+    from robocomp_yaml.source.regular import regular
+
+    here = os.path.abspath(path)
+    for folder in (here, *map(str, PurePath(here).parents)):
+        with suppress(OSError), open(os.path.join(folder, WORKSPACE_FILE), "rb", opener=regular) as file:
+            return b"plugins" in file.read()
+    return False
 
 
 def _paths(ctx: click.Context | None) -> list[str]:

@@ -30,7 +30,7 @@ engine = click.option("--engine", type=click.Choice([*ENGINES]),
 names = click.argument("names", cls=DocumentAnd, metavar="[NAME]...")
 
 
-class _Duration(click.ParamType):
+class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
     """A length of time with its unit, as in documents."""
 
     name = "time"

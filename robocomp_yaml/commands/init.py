@@ -35,5 +35,5 @@ def command(ctx: click.Context, folder: Path, bare: bool) -> None:
     except OSError as error:
         raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
-        there = "" if folder.resolve() == Path().resolve() else f"{terminal.typed('cd', str(folder))}, then "
+        there = "" if folder.resolve() == Path.cwd() else f"{terminal.typed('cd', str(folder))}, then "
         terminal.say(f"next: {there}rcyaml check, rcyaml compile, or rcyaml new interface NAME")

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 import msgspec
 
-from robocomp_yaml.diag import page
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related, as_facts
 from robocomp_yaml.diag.fix import Fix, Hint
-from robocomp_yaml.diag.page import Files
+from robocomp_yaml.diag.page import Entry, Files
+from robocomp_yaml.diag.page import page as read_page
 from robocomp_yaml.diag.span import Span
 
 
@@ -26,16 +26,16 @@ class Code(msgspec.Struct, frozen=True):
 
     @property
     def severity(self) -> str:
-        return page.page(self.page).severities[self.id]
+        return read_page(self.page).severities[self.id]
 
     @property
     def message(self) -> str:
         """A format string for the facts given to `at`."""
-        return page.page(self.page).messages[self.id]
+        return read_page(self.page).messages[self.id]
 
     @property
-    def entry(self) -> page.Entry:
-        return page.page(self.page).entry(self.id)
+    def entry(self) -> Entry:
+        return read_page(self.page).entry(self.id)
 
     @property
     def why(self) -> str:

@@ -64,6 +64,10 @@ class Diagnostic(msgspec.Struct, frozen=True):
 
         return message_of(self.code).format_map(dict(self.facts))
 
+    def __str__(self) -> str:
+        """`file:line:column: severity[CODE]: message`, in one line."""
+        return f"{self.span.file}:{self.span.line}:{self.span.column}: {self.severity}[{self.code}]: {self.message}"
+
     def fact(self, name: str) -> Fact:
         """The fact of this name, None where there is none."""
         return dict(self.facts).get(name)

@@ -6,7 +6,8 @@ import msgspec
 
 from robocomp_yaml.diag.span import Span
 
-WORD, VALUE, REMOVE, QUOTE, UNQUOTE, LIST = "word", "value", "remove", "quote", "unquote", "list"
+WORD, VALUE, REMOVE, QUOTE, UNQUOTE, LIST, UNTAG = "word", "value", "remove", "quote", "unquote", "list", "untag"
+IMPORT = "import"
 
 
 class Edit(msgspec.Struct, frozen=True):
@@ -16,6 +17,7 @@ class Edit(msgspec.Struct, frozen=True):
     (`source.spelled`). WORD: `word`, which stands at the place or in it, is to be `text`. VALUE: the value
     there is to be `text`, as YAML. REMOVE: the entry that begins
     there goes. QUOTE, UNQUOTE: the text that stands there gets quotes, or loses them. LIST: it becomes a list of one.
+    UNTAG: it loses its tag, and a text gets quotes instead. IMPORT: the document imports `text`.
     """
 
     span: Span
@@ -65,12 +67,13 @@ def changing(span: Span, value: str) -> Fix:
 
 class Hint(msgspec.Struct, frozen=True):
     """What may mend something, in words. Where these say which word should stand at the diagnostic's place, `meant` is
-    that word, and `word` the one that stands there."""
+    that word, and `word` the one that stands there. `imports` is what the document has to import."""
 
     text: str
     word: str = ""
     meant: str = ""
     safe: bool = False
+    imports: str = ""
 
     def __bool__(self) -> bool:
         return bool(self.text)
@@ -79,7 +82,11 @@ class Hint(msgspec.Struct, frozen=True):
         return self.text
 
     def fixes(self, span: Span) -> tuple[Fix, ...]:
-        return (replacing(span, self.word, self.meant, safe=self.safe),) if self.meant else ()
+        named = replacing(span, self.word, self.meant, safe=self.safe) if self.meant else None
+        if not self.imports:
+            return (named,) if named else ()
+        edits = (Edit(span, self.imports, IMPORT), *(named.edits if named else ()))
+        return (Fix(f"import '{self.imports}'" + (f", and {named.title}" if named else ""), edits, self.safe),)
 
 
 NO_HINT = Hint("")

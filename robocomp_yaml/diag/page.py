@@ -118,13 +118,13 @@ class _Absent:
     """Marks a file that does not stand beside an example."""
 
 
-def _files(text: str) -> dict[str, str | bytes | Repeated | None | _Absent]:
+def _files(text: str) -> dict[str, str | bytes | Repeated | _Absent | None]:
     return {
         path.strip('"').rstrip("/"): _content(path, rest, body) for _, path, rest, body in _FENCE.findall(text) if path
     }
 
 
-def _content(path: str, rest: str, body: str) -> str | bytes | Repeated | None | _Absent:
+def _content(path: str, rest: str, body: str) -> str | bytes | Repeated | _Absent | None:
     if path.endswith("/"):
         return None
     if rest.startswith("-> "):
@@ -148,7 +148,7 @@ def _content(path: str, rest: str, body: str) -> str | bytes | Repeated | None |
 
 
 def _tree(
-    own: dict[str, str | bytes | Repeated | None | _Absent], beside: dict[str, str | bytes | Repeated | None | _Absent]
+    own: dict[str, str | bytes | Repeated | _Absent | None], beside: dict[str, str | bytes | Repeated | _Absent | None]
 ) -> Files:
     """The files of an example, its own first."""
     files = {**own, **{path: content for path, content in beside.items() if path not in own}}

@@ -55,13 +55,17 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
         return options.output or _slice_folder(options.workspace_of(linked.module.path))
 
     asked = {program.modules[real]: real for real in program.asked & program.modules.keys()}
+
+    def beside(root: str) -> Callable[[LinkedModule], bool]:
+        return lambda other: other in asked and slice_root(other) == root
+
     for linked in sorted(asked, key=lambda linked: linked.module.path):
         if not options.wants("slice") or options.only:
             continue
         if _usable(linked.module, [linked], state, result):
             root = slice_root(linked)
             owner = os.path.relpath(linked.module.path, root)
-            needed = [linked, *_imports(linked, lambda other, root=root: other in asked and slice_root(other) == root)]
+            needed = [linked, *_imports(linked, beside(root))]
             result.plans.append(RootPlan(root, owner, tuple(slices(needed))))
         else:
             result.left_out.add(asked[linked])

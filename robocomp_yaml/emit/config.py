@@ -7,9 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.layout import CONFIG
-from robocomp_yaml.emit.ports import IceEndpoint, Ports, interface_key
+from robocomp_yaml.emit.ports import Ports, interface_key
 from robocomp_yaml.emit.specific.entries import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.network.port_numbers import default_port
+from robocomp_yaml.source.ice_endpoint import IceEndpoint
 from robocomp_yaml.source.properties import entry_line, read, unquoted
 from robocomp_yaml.source.regular import regular
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
@@ -112,7 +114,7 @@ def _needs(linked: LinkedComponent, table: Ports) -> Iterator[str]:
             endpoint = table.endpoint(other, adapter)
         else:
             yield "# No component of this workspace implements it: set host and port of the one that does."
-            endpoint = IceEndpoint(ports.default_port("", port.interface.name))
+            endpoint = IceEndpoint(default_port("", port.interface.name))
         where = f"{endpoint.protocol} -h {endpoint.host or 'localhost'} -p {endpoint.port}"
         yield entry_line(f"{port.name}Proxy", f"{identity}:{where}")
 

@@ -83,7 +83,8 @@ def _put(table: Table, key: list[str], literal: str) -> None:
     for part in key[:-1]:
         inner = table.setdefault(part, {})
         if not isinstance(inner, dict):
-            return _put(table, [".".join(key)], literal)
+            _put(table, [".".join(key)], literal)
+            return
         table = inner
     table[key[-1]] = literal
 

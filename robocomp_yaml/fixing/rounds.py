@@ -10,7 +10,7 @@ Nothing here touches the disk; documents are looked at as they would be.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -28,7 +28,7 @@ class Look(msgspec.Struct):
     """What a check finds: `contents` are the bytes of each document by its path, `levels` say how far each could be
     understood: UNREADABLE, MISSHAPEN or UNDERSTOOD."""
 
-    diagnostics: list[Diagnostic]
+    diagnostics: Sequence[Diagnostic]
     contents: Mapping[str, bytes]
     levels: Mapping[str, int] = {}
 
@@ -133,7 +133,7 @@ class _Rounds:
             if (fix.safe or self.unsafe) and fix.is_spelled and (_key(told), fix) not in self.refused
             and all(edit.span.file in self.may_change for edit in fix.edits)
         ]  # fmt: skip
-        yield from sorted(dict((_place(told), (told, fix)) for told, fix in reversed(found)).values(), key=_rank)
+        yield from sorted({_place(told): (told, fix) for told, fix in reversed(found)}.values(), key=_rank)
 
 
 def _place(told: Diagnostic) -> tuple[object, ...]:
@@ -203,19 +203,24 @@ def _verdict(before: Look, after: Look, batch: list[tuple[Diagnostic, Fix]]) -> 
     if any(step < 0 for step in steps):
         return _Verdict("the document could not be understood any more")
     were, are = Counter(map(_key, before.diagnostics)), Counter(map(_key, after.diagnostics))
-    wanted = Counter(_key(told) for told, _ in batch)
+    wanted = Counter(_key(told) for told, _ in batch if not _is_later(before, after, told))
     if any(are[key] > were[key] - count for key, count in wanted.items()):
         return _Verdict("it would not mend this")
     if len(batch) > 1:
         seen = {file for file, step in zip(files, steps, strict=True) if step > 0 and batch[0][1].safe}
         worse = [key for key in after.errors - before.errors if key[0] not in seen]
         return _Verdict("they do not go together" if worse else "")
-    if not (reason := _more(before, after)):
-        return _Verdict()
-    unreadable = any(before.levels.get(file) == UNREADABLE for file in files)
-    if not any(steps):
+    (_, fix), reason = batch[0], _more(before, after)
+    is_blind = any(before.levels.get(file) == UNREADABLE for file in files)  # only a first error was seen
+    if not reason or not any(steps):
         return _Verdict(reason)
-    return _Verdict(is_doubtful=not (batch[0][1].safe or unreadable))
+    return _Verdict(is_doubtful=not (fix.safe or is_blind))
+
+
+def _is_later(before: Look, after: Look, told: Diagnostic) -> bool:
+    """Whether a text that is no YAML, of which only the first fault is seen, has the same one further on."""
+    places = [one.span for one in after.diagnostics if _key(one) == _key(told)]
+    return before.levels.get(told.span.file) == UNREADABLE and bool(places) and min(places) > told.span
 
 
 def _more(before: Look, after: Look) -> str:

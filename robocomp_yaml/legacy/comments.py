@@ -191,7 +191,7 @@ def _above(comment: _Comment, target: _Place, notes: Notes, not_first: bool, rul
         doc = target.notes.doc
         doc += [*([""] if doc else []), *comment.lines]
         return
-    if comment.gap_before and (notes.head and notes.head[-1] or not notes.head and not_first):
+    if comment.gap_before and ((notes.head and notes.head[-1]) or (not notes.head and not_first)):
         notes.head.append("")
     notes.head += comment.as_head()
     if comment.gap_after:

@@ -15,7 +15,7 @@ class LineTree(Tree[Token]):
     `=`, comment and all."""
 
     def __init__(self, line: Line, start: int, rest: str) -> None:
-        meta = Meta()
+        meta = Meta()  # type: ignore[no-untyped-call]
         meta.empty, meta.start_pos, meta.end_pos = False, start, line.stop
         super().__init__("invalid" if line.entry is None else "entry", [], meta)
         self.entry: Entry | None = line.entry

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import msgspec
 from lark import Token, Tree
@@ -106,7 +107,7 @@ class Explainer:
         return self._say(max(end - 1, 0), end, f"the file ends where {expected} is expected")
 
     def _say(
-        self, start: int, end: int, problem: str, hint: str | Hint = "", related: Iterable[Related] = (), **facts: str
+        self, start: int, end: int, problem: str, hint: str | Hint = "", related: Iterable[Related] = (), **facts: Any
     ) -> Diagnostic:
         return codes.SYNTAX.at(self.source.span(start, end), problem=problem, hint=hint, related=related, **facts)
 

@@ -14,8 +14,9 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link import component_references as references
 from robocomp_yaml.link.component_references import References
 from robocomp_yaml.link.documents import Document, Documents
+from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.link.parameters import of_no_document, resolve
-from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Program
+from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Tables
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
@@ -30,7 +31,7 @@ class Attachments(msgspec.Struct):
     gives the folder below which a document's component may be."""
 
     documents: Documents
-    program: Program
+    tables: Tables
     root_of: Callable[[str], str]
     diagnostics: list[Diagnostic] = []
     _parameters_of: dict[str, list[tuple[str, Span]]] = {}  # component: its PDSLs
@@ -53,7 +54,7 @@ class Attachments(msgspec.Struct):
             yield from self._follow_component(document, model)
         elif isinstance(model, ParameterDocument | ValuesDocument):
             if isinstance(model, ValuesDocument):
-                self.program.values[document.real] = LinkedValues(model)
+                self.tables.values[document.real] = LinkedValues(model)
             yield from self._follow_reference(document, model)
             if isinstance(model, ValuesDocument):
                 yield from self._follow_layers(document, model)
@@ -63,14 +64,15 @@ class Attachments(msgspec.Struct):
 
     def _follow_component(self, document: Document, model: Component) -> Iterator[Document]:
         folder = os.path.dirname(document.path)
-        linked = self.program.components[document.real]
+        linked = self.tables.components[document.real]
         if model.parameters:
             path = os.path.normpath(os.path.join(folder, model.parameters))
             if not self._references.is_document(path, ("pdsl",)):
                 advice = self._references.advice(model.parameters, folder, "parameters", ("pdsl",))
                 told = codes.NO_PARAMETERS.at(model.parameters_span, name=model.parameters, hint=advice.hint)
                 self.diagnostics.append(told)
-                linked.parameters.broken = linked.broken = True
+                tie(linked.parameters, broken=True)
+                tie(linked, broken=True)
             else:
                 target = self.documents.get(path)
                 self._parameters_of.setdefault(document.real, []).insert(0, (target.real, model.parameters_span))
@@ -171,9 +173,9 @@ class Attachments(msgspec.Struct):
             path = os.path.normpath(os.path.join(os.path.dirname(document.path), str(layer.value)))
             if not (path.endswith(".yaml") and disk.has_file(path) and kind_of(path, disk) in ("config", None)):
                 folder = os.path.dirname(document.path)
-                advice = self._references.advice(str(layer.value), folder, "extends", ("config",))
+                advice = self._references.advice(str(layer.value), folder, "extends", ("config",), document.path)
                 self.diagnostics.append(value_codes.NO_LAYER.at(layer.span, name=layer.value, hint=advice.hint))
-                self.program.values[document.real].broken = True
+                tie(self.tables.values[document.real], broken=True)
                 continue
             target = self.documents.get(path, "config")
             self._extends.setdefault(document.real, []).append(target.real)
@@ -181,14 +183,14 @@ class Attachments(msgspec.Struct):
 
     def join(self) -> None:
         """After all documents are read: each component has its parameters, each values document its layers."""
-        for real, component in self.program.components.items():
+        for real, component in self.tables.components.items():
             self._join_component(real, component)
         self.diagnostics += self._elsewhere()
         for document in list(self.documents.read.values()):
-            if isinstance(document.model, ParameterDocument) and document.real not in self.program.parameters:
+            if isinstance(document.model, ParameterDocument) and document.real not in self.tables.parameters:
                 parameters, found = resolve(document.model)
                 self.diagnostics += found
-                self.program.parameters[document.real] = LinkedParameters(
+                self.tables.parameters[document.real] = LinkedParameters(
                     parameters, document.model, broken=_hides_types(found)
                 )
                 self.diagnostics += self._unclaimed(document.model)
@@ -196,7 +198,7 @@ class Attachments(msgspec.Struct):
 
     def _elsewhere(self) -> Iterator[Diagnostic]:
         """Parameters that name a component which would not find them by itself."""
-        for real, component in self.program.components.items():
+        for real, component in self.tables.components.items():
             for other, span in self._parameters_of.get(real, ()):
                 path, own = self.documents.read[other].path, component.component
                 is_beside = os.path.dirname(other) == os.path.dirname(real)
@@ -212,7 +214,7 @@ class Attachments(msgspec.Struct):
         """Parameters that name no component, beside one that names no parameters."""
         folder = os.path.dirname(document.path)
         beside = self._references.beside(folder, "cdsl")
-        component = self.program.components.get(os.path.realpath(beside[0])) if len(beside) == 1 else None
+        component = self.tables.components.get(os.path.realpath(beside[0])) if len(beside) == 1 else None
         if component is not None and not document.component and component.parameters.document is None:
             yield codes.UNCLAIMED.at(
                 document.span, component=component.component.name, hint=references.write(beside, folder, "component"),
@@ -232,55 +234,55 @@ class Attachments(msgspec.Struct):
         period = component.component.period
         document = self.documents.read[reals[0]].model if reals else None
         if reals and not isinstance(document, ParameterDocument):
-            component.parameters = LinkedParameters(of_no_document(period), component=component, broken=True)
-            component.broken = True
+            own = LinkedParameters(of_no_document(period), component=component, broken=True)
+            tie(component, parameters=own, broken=True)
         elif isinstance(document, ParameterDocument):
             parameters, found = resolve(document, period)
             self.diagnostics += found
             broken = _hides_types(found)
-            component.parameters = LinkedParameters(parameters, document, component, broken)
-            component.broken = component.broken or broken
-            self.program.parameters.setdefault(reals[0], component.parameters)
+            own = LinkedParameters(parameters, document, component, broken)
+            tie(component, parameters=own, broken=component.broken or broken)
+            self.tables.parameters.setdefault(reals[0], component.parameters)
         else:
             broken = component.parameters.broken
-            component.parameters = LinkedParameters(of_no_document(period), None, component, broken)
+            tie(component, parameters=LinkedParameters(of_no_document(period), None, component, broken))
 
     def _join_layers(self) -> None:
-        values = self.program.values
+        values = self.tables.values
         for real, linked in values.items():
             for other in self._extends.get(real, ()):
                 if other not in values:
-                    linked.broken = True  # the layer has errors of its own
+                    tie(linked, broken=True)  # the layer has errors of its own
                 elif self._reaches(other, real):
                     layer = next(x for x in linked.document.extends if leads_to(x, linked.document, other))
                     self.diagnostics.append(value_codes.LAYER_CYCLE.at(layer.span, name=layer.value))
-                    linked.broken = True
+                    tie(linked, broken=True)
                 else:
-                    linked.extends.append(values[other])
-                    values[other].is_extended = True
+                    grow(linked, "extends", values[other])
+                    tie(values[other], is_extended=True)
         for linked in values.values():
             home = self._references.components_of(linked.document.path)
-            here = [found for path in home if (found := self.program.components.get(os.path.realpath(path)))]
+            here = [found for path in home if (found := self.tables.components.get(os.path.realpath(path)))]
             for base in reversed(linked.layers()):  # its own component, else that of the nearest layer
                 target = self._component_of.get(os.path.realpath(base.document.path))
                 if target is not None:
-                    linked.parameters = self._parameters(target, here)
+                    tie(linked, parameters=self._parameters(target, here))
                     break
             else:
                 if len(home) == len(here) == 1:  # whose else could they be
-                    linked.parameters = here[0].parameters
+                    tie(linked, parameters=here[0].parameters)
             self.diagnostics += _misplaced(linked, home, here)
 
     def _parameters(self, real: str, here: Sequence[LinkedComponent]) -> LinkedParameters | None:
         """Those that a values document names; of a document that several components share, those of the component
         at hand."""
-        document = self.program.parameters[real].document if real in self.program.parameters else None
+        document = self.tables.parameters[real].document if real in self.tables.parameters else None
         for component in here:
             if document is not None and component.parameters.document is document:
                 return component.parameters
-        if real in self.program.components:
-            return self.program.components[real].parameters
-        return self.program.parameters.get(real)
+        if real in self.tables.components:
+            return self.tables.components[real].parameters
+        return self.tables.parameters.get(real)
 
     def _reaches(self, start: str, goal: str) -> bool:
         todo, seen = [start], set()

@@ -49,8 +49,9 @@ class References(msgspec.Struct, frozen=True):
             return []
         return self.beside(os.path.normpath(os.path.join(folder, os.pardir)), "cdsl")
 
-    def advice(self, text: str, folder: str, key: str, kinds: tuple[str, ...]) -> Advice:
-        """What to write behind a key where `text` stands, and leads to no document of these kinds from the folder."""
+    def advice(self, text: str, folder: str, key: str, kinds: tuple[str, ...], own: str = "") -> Advice:
+        """What to write behind a key where `text` stands, and leads to no document of these kinds from the folder;
+        never the `own` one, in which it stands."""
         path = os.path.normpath(os.path.join(folder, text))
         if meant := self._completed(path, kinds):
             return Advice(write([meant], folder, key, text, safe=True), is_known=True)
@@ -70,6 +71,7 @@ class References(msgspec.Struct, frozen=True):
         if not self.disk.has_folder(where or "."):
             return Advice(Hint(f"there is no folder '{where}'"))
         names = {os.path.basename(other): other for kind in kinds for other in self.beside(where, kind)}
+        names.pop(os.path.basename(own) if os.path.dirname(own) == where else "", None)
         near_by = suggest(os.path.basename(path), names)
         return Advice(meaning(text, os.path.relpath(names[near_by], folder or "."))) if near_by else Advice()
 

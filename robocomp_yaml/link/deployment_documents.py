@@ -18,7 +18,8 @@ from robocomp_yaml.link.deployment_sizes import too_large
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.expand_deployments import Expansion
-from robocomp_yaml.link.program import Program
+from robocomp_yaml.link.knot import tie
+from robocomp_yaml.link.program import Tables
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Text
 
 
@@ -26,7 +27,7 @@ class DeploymentDocuments(msgspec.Struct):
     """Follows what deployments name."""
 
     documents: Documents
-    program: Program
+    tables: Tables
     diagnostics: list[Diagnostic] = []
     _deployments: dict[str, Deployment] = {}
 
@@ -91,11 +92,11 @@ class DeploymentDocuments(msgspec.Struct):
             yield self.documents.get(found)
             return
         path = paths.joined(paths.folder_of(model), include.text)
-        hint = self._nearby(path, ".ddsl.yaml")
+        hint = self._nearby(path, ".ddsl.yaml", without=model.path)
         self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=hint))
 
-    def _nearby(self, path: str, *suffixes: str) -> Hint:
-        """What was probably meant: a name in the same folder."""
+    def _nearby(self, path: str, *suffixes: str, without: str = "") -> Hint:
+        """What was probably meant: a name in the same folder, but for one document."""
         folder, name = os.path.split(path)
         disk = self.documents.disk
         if not disk.has_folder(folder or "."):
@@ -103,7 +104,8 @@ class DeploymentDocuments(msgspec.Struct):
         names = disk.names(folder)
         if suffixes:
             names = [n for n in names if n.endswith(suffixes) or disk.has_folder(os.path.join(folder, n))]
-        return did_you_mean(name, names, open_=True)
+        own = os.path.basename(without) if os.path.dirname(without) == folder else ""
+        return did_you_mean(name, [n for n in names if n != own], open_=True)
 
     def join(self) -> None:
         """After all documents are linked: each deployment with what it includes."""
@@ -112,8 +114,8 @@ class DeploymentDocuments(msgspec.Struct):
         self.diagnostics += [found for found in large.values() if found is not None]
         usable = {real: model for real, model in self._deployments.items() if real not in large}
         for real, model in usable.items():
-            linked = self.program.deployments[real] = LinkedDeployment(model, real)
-            expansion = Expansion(linked, self.program, usable, disk)
+            linked = self.tables.deployments[real] = LinkedDeployment(model, real)
+            expansion = Expansion(linked, self.tables, usable, disk)
             expansion.run()
             names = Names(linked, expansion.placed, expansion.included)
             names.resolve()
@@ -122,7 +124,7 @@ class DeploymentDocuments(msgspec.Struct):
         for model in usable.values():
             for path in filter(None, (paths.include_at(model, include.text, disk) for include in _includes(model))):
                 if os.path.realpath(path) in usable:
-                    self.program.deployments[os.path.realpath(path)].is_included = True
+                    tie(self.tables.deployments[os.path.realpath(path)], is_included=True)
 
 
 def _includes(model: Deployment) -> Iterable[Text]:

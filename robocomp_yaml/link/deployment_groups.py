@@ -9,6 +9,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, Served, offers
 from robocomp_yaml.link.expand_deployments import Placed
+from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model.deployment import Exposed
 
@@ -24,7 +25,7 @@ def resolve(root: LinkedDeployment, placed: Iterable[Placed]) -> Iterator[Diagno
 
 def _group(root: LinkedDeployment, group: LinkedGroup) -> Iterator[Diagnostic]:
     if any(member.broken or (member.component and member.component.broken) for member in group.members):
-        group.broken = True
+        tie(group, broken=True)
     rules = {rule.name: rule for rule in group.group.exposed}
     facade = group.facade
     for wanted in facade.implements if facade else ():
@@ -49,7 +50,7 @@ def _by_interface(group: LinkedGroup, port: Port) -> Iterator[Diagnostic]:
     fitting = exact if len(exact) == 1 else fitting
     span = group.group.facade.span if group.group.facade else group.group.span
     if len(fitting) == 1:
-        group.serves.append(Served(port.name, fitting[0].instance, fitting[0].adapter, fitting[0].port))
+        grow(group, "serves", Served(port.name, fitting[0].instance, fitting[0].adapter, fitting[0].port))
     elif fitting:
         names = [_name(group, served.instance) for served in fitting]
         yield codes.SEVERAL_SERVE.at(
@@ -89,7 +90,7 @@ def _by_rule(root: LinkedDeployment, group: LinkedGroup, rule: Exposed, port: Po
         served = fitting[0]
         faults = list(_methods(rule, served))
         limit = rule if rule.has_rule and not faults else None
-        group.serves.append(Served(rule.name, served.instance, served.adapter, served.port, limit))
+        grow(group, "serves", Served(rule.name, served.instance, served.adapter, served.port, limit))
         yield from faults
     elif not group.broken:
         there = ", ".join(served.adapter for served in every)

@@ -14,6 +14,7 @@ from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.expand_deployments import Placed
+from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.model.deployment import CONFIG, INDEX, PROCESS, Entry, Number, Pair, Text
 
 
@@ -38,7 +39,7 @@ class Names(msgspec.Struct):
                 self._processes(here, instance)
                 for named in instance.entry.after:
                     for target in self._find(here, named, "`after:`", instance) or ():
-                        instance.after += target.members if isinstance(target, LinkedGroup) else [target]
+                        grow(instance, "after", *(target.members if isinstance(target, LinkedGroup) else [target]))
                 if here.is_own and not instance.number:  # what one instance says, all of them do
                     self.diagnostics += _ports(instance)
                     self.diagnostics += [*_patterns(instance.entry), *_programs(instance.entry)]
@@ -47,7 +48,7 @@ class Names(msgspec.Struct):
         for named in group.group.members:
             for target in self._find(here, named, f"the group '{group.group.name}'", group) or ():
                 if isinstance(target, LinkedStorm):
-                    self._unknown(here, named, f"the group '{group.group.name}'", "a service belongs to no group")
+                    self._unknown(here, named, f"the group '{group.group.name}'", Hint("a service belongs to no group"))
                 else:
                     yield target
         yield from self.included.get(group, ())
@@ -56,20 +57,24 @@ class Names(msgspec.Struct):
 
     def _fill(self, here: Placed, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
         """All instances in a group, those of its inner groups too."""
-        todo, seen = deque(inside[group]), {group}
+        todo = deque(inside[group])
+        seen: set[Target] = {group}
+        inner: list[LinkedGroup] = []
+        members: list[LinkedInstance] = []
         while todo:
             target = todo.popleft()
             if target is group:
                 if here.is_own and not any(other.broken for other in self.root.groups.values() if other in seen):
                     self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))
-                group.broken = True
+                tie(group, broken=True)
             elif target not in seen and isinstance(target, LinkedGroup):
-                group.inner.append(target)
+                inner.append(target)
                 todo += inside.get(target, ())
             elif target not in seen and isinstance(target, LinkedInstance):
-                group.members.append(target)
-                target.groups.append(group)
+                members.append(target)
+                grow(target, "groups", group)
             seen.add(target)
+        tie(group, members=tuple(members), inner=tuple(inner))
 
     def _processes(self, here: Placed, instance: LinkedInstance) -> None:
         if instance.entry.kind != PROCESS:
@@ -78,20 +83,20 @@ class Names(msgspec.Struct):
         found = self._find(here, named, "`process:`", instance)
         target = found[0] if found and len(found) == 1 else None
         if isinstance(target, LinkedInstance) and target.entry.kind != PROCESS:
-            instance.process, instance.host = target, target.host
+            tie(instance, process=target, host=target.host)
             return
-        instance.broken = True
+        tie(instance, broken=True)
         if found and here.is_own:
             self.diagnostics.append(codes.NOT_A_PROCESS.at(named.span, name=named.text, what=_what(found)))
 
     def _find(
         self, here: Placed, named: Text, where: str, source: LinkedInstance | LinkedGroup
-    ) -> list[Target] | None:
+    ) -> tuple[Target, ...] | None:
         """What a name means; None (told, where it is this document's fault) when it means nothing."""
         found, behind = self.root.find(named.text, here.scope)
         if found and not behind:
             return found
-        source.broken = True
+        tie(source, broken=True)
         hides = any(isinstance(target, LinkedGroup) and target.broken for target in found)
         if here.is_whole and not hides:
             self._unknown(here, named, where, self._hint(here, named.text, source.name))
@@ -111,7 +116,7 @@ class Names(msgspec.Struct):
         return did_you_mean(text, names)
 
 
-def _what(found: list[Target]) -> str:
+def _what(found: tuple[Target, ...]) -> str:
     if len(found) > 1:
         return "an entry with instances"
     if isinstance(found[0], LinkedGroup):

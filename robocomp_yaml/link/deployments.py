@@ -6,7 +6,7 @@ there once for each, with `{i}` filled in everywhere. Ports and connections are 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import msgspec
 
@@ -14,7 +14,7 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Port
 from robocomp_yaml.model.deployment import Deployment, Entry, Exposed, Group, Host, Storm
 
 
-class LinkedInstance(msgspec.Struct, eq=False):
+class LinkedInstance(msgspec.Struct, frozen=True, eq=False):
     """An instance of an entry of `components:`. `entry` has this instance's texts (only its ports are not counted up);
     `number` counts from 0, None for an entry without `instances:`. `scope` is what full names begin with where the
     entry stands: '' or `arm.`; `document` is where that is.
@@ -36,13 +36,13 @@ class LinkedInstance(msgspec.Struct, eq=False):
     folder: str = ""
     host: Host | None = None
     process: LinkedInstance | None = None
-    after: list[LinkedInstance | LinkedStorm] = []
-    groups: list[LinkedGroup] = []
+    after: tuple[LinkedInstance | LinkedStorm, ...] = ()
+    groups: tuple[LinkedGroup, ...] = ()
     broken: bool = False
     """Whether something about it has been reported, so that what depends on it is not judged."""
 
 
-class LinkedStorm(msgspec.Struct, eq=False):
+class LinkedStorm(msgspec.Struct, frozen=True, eq=False):
     """An entry of `services:` by its full name."""
 
     name: str
@@ -65,7 +65,7 @@ class Served(msgspec.Struct, frozen=True):
     rule: Exposed | None = None
 
 
-class LinkedGroup(msgspec.Struct, eq=False):
+class LinkedGroup(msgspec.Struct, frozen=True, eq=False):
     """A group by its full name. `members` are all instances in it, those of the groups `inner` too, which are all that
     it holds. `serves` is what a closed group offers; what an open one does is whatever its members implement."""
 
@@ -73,10 +73,10 @@ class LinkedGroup(msgspec.Struct, eq=False):
     group: Group
     document: Deployment
     scope: str = ""
-    members: list[LinkedInstance] = []
-    inner: list[LinkedGroup] = []
+    members: tuple[LinkedInstance, ...] = ()
+    inner: tuple[LinkedGroup, ...] = ()
     facade: LinkedComponent | None = None
-    serves: list[Served] = []
+    serves: tuple[Served, ...] = ()
     broken: bool = False
 
     @property
@@ -110,7 +110,7 @@ def offers(instance: LinkedInstance) -> Iterator[Served]:
 Target = LinkedInstance | LinkedStorm | LinkedGroup
 
 
-class LinkedDeployment(msgspec.Struct, eq=False):
+class LinkedDeployment(msgspec.Struct, frozen=True, eq=False):
     """One DDSL document with its includes, in the order of the documents. `real` is its real path. `hosts` is empty
     where everything runs on this machine. `names` are, by scope, the names that stand in it and what they mean: an
     entry with instances stands for all of them. `is_included` when another document builds on this one, so that what
@@ -118,16 +118,16 @@ class LinkedDeployment(msgspec.Struct, eq=False):
 
     deployment: Deployment
     real: str
-    hosts: dict[str, Host] = {}
-    instances: dict[str, LinkedInstance] = {}
-    storms: dict[str, LinkedStorm] = {}
-    groups: dict[str, LinkedGroup] = {}
-    names: dict[str, dict[str, list[Target]]] = {}
-    documents: list[Deployment] = []
+    hosts: Mapping[str, Host] = {}
+    instances: Mapping[str, LinkedInstance] = {}
+    storms: Mapping[str, LinkedStorm] = {}
+    groups: Mapping[str, LinkedGroup] = {}
+    names: Mapping[str, Mapping[str, tuple[Target, ...]]] = {}
+    documents: tuple[Deployment, ...] = ()
     is_included: bool = False
     broken: bool = False
 
-    def find(self, text: str, scope: str) -> tuple[list[Target], str]:
+    def find(self, text: str, scope: str) -> tuple[tuple[Target, ...], str]:
         """What a text such as `speech`, `speech.Speech` or `arm.elbow.Motor` means where names begin with `scope`: the
         targets of the longest name that is there, and what is left behind it (an interface, or '')."""
         name, behind = text, ""
@@ -138,12 +138,12 @@ class LinkedDeployment(msgspec.Struct, eq=False):
             name, _, last = name.rpartition(".")
             behind = f"{last}.{behind}" if behind else last
 
-    def _named(self, name: str, scope: str) -> list[Target]:
+    def _named(self, name: str, scope: str) -> tuple[Target, ...]:
         found = self.names.get(scope, {}).get(name)
         if found is None and "." in name:
             inner, _, last = name.rpartition(".")
             found = self.names.get(f"{scope}{inner}.", {}).get(last)
-        return found or []
+        return found or ()
 
     def closed_around(self, target: Target, source: LinkedInstance) -> list[LinkedGroup]:
         """The closed groups that hold the target but not `source`, the outermost first."""
@@ -162,7 +162,7 @@ class LinkedDeployment(msgspec.Struct, eq=False):
         return sorted(around, key=lambda storm: -len(storm.scope))
 
 
-def _instances(target: Target) -> list[LinkedInstance]:
+def _instances(target: Target) -> tuple[LinkedInstance, ...]:
     if isinstance(target, LinkedGroup):
         return target.members
-    return [target] if isinstance(target, LinkedInstance) else []
+    return (target,) if isinstance(target, LinkedInstance) else ()

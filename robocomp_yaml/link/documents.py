@@ -47,7 +47,7 @@ def builder(kind: str) -> Callable[[Mapping, str], Model]:
     return build
 
 
-class Document(msgspec.Struct):
+class Document(msgspec.Struct, frozen=True, eq=False):
     """A document as far as it could be read: `model` is None where it has errors of its own, `tree` where it is no
     YAML. `real` is its real path, `module` the name of the module it defines, as far as that can be told;
     `component` is what it says under `component:`, and None where it cannot be read at all."""
@@ -88,42 +88,44 @@ class Documents(msgspec.Struct):
         if document is not None:
             return document
         if real not in self._glanced:
-            document = Document(path, real, kind_of(path, self.disk) or kind or "idsl")
-            self._glanced[real] = document, list(self._load(document))
+            self._glanced[real] = self._load(path, real, kind_of(path, self.disk) or kind or "idsl")
         return self._glanced[real][0]
 
-    def _load(self, document: Document) -> Iterator[Diagnostic]:
-        raw, diagnostics = self.disk.read(document.path)
-        yield from diagnostics
+    def _load(self, path: str, real: str, kind: str) -> tuple[Document, list[Diagnostic]]:
+        """Bytes → text → tree → shape → model, as far as it goes."""
+        nothing = Document(path, real, kind)
+        raw, said = self.disk.read(path)
         if raw is None:
-            return
-        text, diagnostics = decode(document.path, raw)
-        yield from diagnostics
+            return nothing, said
+        text, more = decode(path, raw)
+        said = [*said, *more]
         if text is None:
-            return
-        tree, diagnostics = parse(document.path, text)
-        yield from diagnostics
+            return nothing, said
+        tree, more = parse(path, text)
+        said += more
         if tree is None:
-            return
-        document.tree = tree
-        diagnostics = self._fits(document, tree)
-        yield from (one for one in diagnostics if not self._is_of_a_plugin(document, tree, one))
-        if not has_errors(diagnostics):
+            return nothing, said
+        misfits = self._misfits(path, kind, tree)
+        model = None
+        if not has_errors(misfits):
             assert isinstance(tree, Mapping)
-            document.model = builder(document.kind)(tree, document.path)
-        document.module, document.component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
+            model = builder(kind)(tree, path)
+        module, component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
+        told = [one for one in misfits if not self._is_of_a_plugin(path, kind, tree, one)]
+        return Document(path, real, kind, model, module, component, tree), [*said, *told]
 
-    def _is_of_a_plugin(self, document: Document, tree: Node, said: Diagnostic) -> bool:
+    def _is_of_a_plugin(self, path: str, kind: str, tree: Node, said: Diagnostic) -> bool:
         """Whether an unknown language may be that of a plug-in which cannot be had: that is told already."""
-        if document.kind not in MARKED or not isinstance(tree, Mapping) or self.plugins_of(document.path).whole:
+        if kind not in MARKED or not isinstance(tree, Mapping) or self.plugins_of(path).whole:
             return False
         language = tree.get("language")
         return said.code == codes.WRONG_SHAPE.id and language is not None and language.span.holds(said.span)
 
-    def _fits(self, document: Document, tree: Node) -> list[Diagnostic]:
-        more = self.plugins_of(document.path).languages if document.kind in MARKED else ()
-        diagnostics = schema.validate(document.kind, tree, more)
-        if not diagnostics and document.kind == "idsl" and isinstance(tree, Mapping):
+    def _misfits(self, path: str, kind: str, tree: Node) -> list[Diagnostic]:
+        """What of a document's shape is not as its kind wants it."""
+        more = self.plugins_of(path).languages if kind in MARKED else ()
+        diagnostics = schema.validate(kind, tree, more)
+        if not diagnostics and kind == "idsl" and isinstance(tree, Mapping):
             diagnostics = list(_kinds_of_types(tree))
         return diagnostics
 

@@ -19,7 +19,8 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
-from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
+from robocomp_yaml.link.knot import tie
+from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Tables
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Host, Text
 from robocomp_yaml.model.instances import instance as instance_of
 from robocomp_yaml.source.disk import Disk
@@ -54,22 +55,29 @@ class Expansion(msgspec.Struct):
     that this one consists of, and `included` is what groups have from the documents that they include."""
 
     root: LinkedDeployment
-    program: Program
+    tables: Tables
     deployments: Mapping[str, Deployment]
     disk: Disk
     placed: list[Placed] = []
     included: dict[LinkedGroup, list[LinkedInstance]] = {}
     diagnostics: list[Diagnostic] = []
     _in_order: list[LinkedInstance] = []
+    _hosts: dict[str, Host] = {}
+    _storms: dict[str, LinkedStorm] = {}
+    _groups: dict[str, LinkedGroup] = {}
+    _names: dict[str, dict[str, tuple[Target, ...]]] = {}
 
     def run(self) -> None:
         self._place(Placed(self.root.deployment))
+        tie(
+            self.root, hosts=self._hosts, instances={one.name: one for one in self._in_order}, storms=self._storms,
+            groups=self._groups, names=self._names, documents=tuple(here.document for here in self.placed),
+        )
 
     def _place(self, here: Placed) -> None:
         document = here.document
         self.placed.append(here)
-        self.root.documents.append(document)
-        self.root.names.setdefault(here.scope, {})
+        self._names.setdefault(here.scope, {})
         for host in document.hosts:
             self._merge_host(host, here)
         if document.hosts:
@@ -78,9 +86,10 @@ class Expansion(msgspec.Struct):
             here.only = next(iter(here.hosts.values()))
         for storm in document.services:
             linked = LinkedStorm(here.scope + storm.name, storm, document, here.scope)
-            linked.host, linked.broken = self._host(here, storm.host, storm.name, storm.span)
+            place, is_unknown = self._host(here, storm.host, storm.name, storm.span)
+            tie(linked, host=place, broken=is_unknown)
             if self._name(here, storm.name, linked, storm.span):
-                self.root.storms[linked.name] = linked
+                self._storms[linked.name] = linked
         for entry in document.entries:
             self._place_entry(here, entry)
         for group in document.groups:
@@ -97,7 +106,7 @@ class Expansion(msgspec.Struct):
             else:
                 hint = f"call it '{entry.name}{INDEX}'"
                 self._say(here, codes.NO_INDEX, entry.instances_span, name=entry.name, hint=hint)
-            self.root.broken = True
+            tie(self.root, broken=True)
             here.is_whole = False  # what its instances are called is not known
             return
         every: list[Target] = []
@@ -106,14 +115,14 @@ class Expansion(msgspec.Struct):
             linked = LinkedInstance(here.scope + one.name, one, here.document, here.scope, number)
             if self._name(here, one.name, linked, entry.span):
                 every.append(linked)
-                self.root.instances[linked.name] = linked
                 self._in_order.append(linked)
                 here.instances.append(linked)
                 if entry.kind != PROCESS:
-                    linked.host, linked.broken = self._host(here, one.host, one.name, one.span)
+                    host, is_unknown = self._host(here, one.host, one.name, one.span)
+                    tie(linked, host=host, broken=is_unknown)
                 self._link(here, linked)
         if entry.instances is not None:
-            self.root.names[here.scope][entry.name] = every
+            self._names[here.scope][entry.name] = tuple(every)
 
     def _link(self, here: Placed, linked: LinkedInstance) -> None:
         """The instance's component and configuration; what is not there has been told where it was looked for."""
@@ -122,39 +131,41 @@ class Expansion(msgspec.Struct):
             found = paths.components_at(here.document, entry.target.text, self.disk)
             if len(found) == 1:
                 component = found[0]
-                linked.component = self.program.components.get(os.path.realpath(component))
-            linked.broken |= linked.component is None
-        linked.folder = paths.place_of(here.document, entry, component)
+                tie(linked, component=self.tables.components.get(os.path.realpath(component)))
+            tie(linked, broken=linked.broken or linked.component is None)
+        tie(linked, folder=paths.place_of(here.document, entry, component))
         config = self._config(here.document, linked)
         if config and linked.component is not None and paths.is_values(config):
             self._give_values(here, linked, linked.component, config)
         elif config:
-            linked.flat = config
+            tie(linked, flat=config)
 
     def _config(self, document: Deployment, linked: LinkedInstance) -> str:
         if linked.entry.config is None:
             usual = paths.joined(linked.folder, os.path.join("etc", "config.yaml"))
-            return usual if linked.component is not None and os.path.realpath(usual) in self.program.values else ""
+            return usual if linked.component is not None and os.path.realpath(usual) in self.tables.values else ""
         places = paths.configs_at(document, linked.folder, linked.entry.config.text)
         found = next((path for path in places if self.disk.has_file(path)), "")
-        linked.broken |= not found
+        tie(linked, broken=linked.broken or not found)
         return found
 
     def _give_values(self, here: Placed, linked: LinkedInstance, component: LinkedComponent, path: str) -> None:
-        values = self.program.values.get(os.path.realpath(path))
-        linked.values = values
+        values = self.tables.values.get(os.path.realpath(path))
+        tie(linked, values=values)
         if values is None:
-            linked.broken = True
+            tie(linked, broken=True)
             return
-        values.is_extended |= linked.entry.settings is not None  # `set:` completes what it lacks
+        if linked.entry.settings is not None:
+            tie(values, is_extended=True)  # `set:` completes what it lacks
         if values.parameters is None:  # a document that names no component is that of whoever takes it
-            values.parameters = component.parameters
+            tie(values, parameters=component.parameters)
         elif values.parameters is component.parameters:
             pass
         elif _is_for(values, component):
-            linked.values = LinkedValues(
+            own = LinkedValues(
                 values.document, values.extends, component.parameters, values.is_extended, values.broken
             )
+            tie(linked, values=own)
         else:
             config, other = linked.entry.config, values.parameters.component
             self._say(
@@ -162,24 +173,26 @@ class Expansion(msgspec.Struct):
                 other=other.component.name if other else "another component", component=component.component.name,
                 hint="each component has values of its own: see `component:` in this document",
             )
-            linked.values, linked.broken = None, True
+            tie(linked, values=None, broken=True)
 
     def _place_group(self, here: Placed, linked: LinkedGroup) -> None:
         group = linked.group
         if not self._name(here, group.name, linked, group.span):
             return
-        self.root.groups[linked.name] = linked
+        self._groups[linked.name] = linked
         here.groups.append(linked)
         host = here.only
         if group.host is not None:
-            host, linked.broken = self._host(here, group.host, group.name, group.span)
+            host, is_unknown = self._host(here, group.host, group.name, group.span)
+            tie(linked, broken=is_unknown)
         if group.facade is not None:
             found = paths.components_at(here.document, group.facade.text, self.disk)
-            linked.facade = self.program.components.get(os.path.realpath(found[0])) if len(found) == 1 else None
-            linked.broken |= linked.facade is None
+            facade = self.tables.components.get(os.path.realpath(found[0])) if len(found) == 1 else None
+            tie(linked, facade=facade, broken=linked.broken or facade is None)
         if group.include is not None:
             whole, before = here.is_whole, len(self._in_order)
-            linked.broken |= not self._place_include(here, group.include, f"{linked.name}.", host, set())
+            is_placed = self._place_include(here, group.include, f"{linked.name}.", host, set())
+            tie(linked, broken=linked.broken or not is_placed)
             here.is_whole = whole
             self.included[linked] = self._in_order[before:]
 
@@ -199,7 +212,7 @@ class Expansion(msgspec.Struct):
                 ))
             target = None
         if target is None:
-            self.root.broken = True
+            tie(self.root, broken=True)
             here.is_whole = False
             return ""
         if real in seen:
@@ -212,9 +225,9 @@ class Expansion(msgspec.Struct):
 
     def _name(self, here: Placed, name: str, target: Target, span: Span) -> bool:
         """Gives a name its meaning; whether it was free."""
-        known = self.root.names[here.scope].get(name)
+        known = self._names[here.scope].get(name)
         if known is None:
-            self.root.names[here.scope][name] = [target]
+            self._names[here.scope][name] = (target,)
             return True
         if here.is_own or any(other.document is not here.document for other in known):
             related = [Related("it stands here first", span_of(other)) for other in known[:1]]
@@ -222,7 +235,7 @@ class Expansion(msgspec.Struct):
         return False
 
     def _merge_host(self, host: Host, here: Placed) -> None:
-        known = self.root.hosts.setdefault(host.name, host)
+        known = self._hosts.setdefault(host.name, host)
         if (known.address.text, known.user) != (host.address.text, host.user) and here.span is not None:
             self.diagnostics.append(codes.HOST_DIFFERS.at(
                 host.address.span, name=host.name, address=host.address.text, other=known.address.text,

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable
 from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import msgspec
 
@@ -15,9 +16,11 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint, removal
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.documents import Document, Documents
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
+from robocomp_yaml.link.knot import tie
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program, Tables
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
 from robocomp_yaml.model.interface import Import, Module
+from robocomp_yaml.plugins import Plugins
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.attachments import Attachments
@@ -30,7 +33,7 @@ class Linker(msgspec.Struct):
 
     documents: Documents
     search: Search
-    program: Program = msgspec.field(default_factory=Program)
+    tables: Tables = msgspec.field(default_factory=Tables)
     workspaces: dict[str, Workspace] = {}
     diagnostics: list[Diagnostic] = []
     _by_folder: dict[str, Workspace] = {}
@@ -38,10 +41,9 @@ class Linker(msgspec.Struct):
 
     def link(self, paths: Iterable[str]) -> Program:
         """The program of these documents and of all that they import."""
-        self.program.disk = self.documents.disk
-        self.program.plugins_of = self.documents.plugins_of = lambda path: self.workspace_of(path).plugins
+        self.documents.plugins_of = self._plugins_of
         todo = [self.documents.get(path) for path in paths]
-        self.program.asked = {document.real for document in todo}
+        asked = frozenset(document.real for document in todo)
         components: list[tuple[Document, LinkedComponent]] = []
         attachments: Attachments | None = None
         deployments: DeploymentDocuments | None = None
@@ -52,19 +54,21 @@ class Linker(msgspec.Struct):
                 continue
             seen.add(document.real)
             if isinstance(document.model, Module):
-                linked = self.program.modules[document.real] = LinkedModule(document.model)
-                todo += self._imports(document, document.model.imports, linked.unresolved, idsl)
+                linked = self.tables.modules[document.real] = LinkedModule(document.model)
+                unresolved: set[str] = set()
+                todo += self._imports(document, document.model.imports, unresolved, idsl)
+                tie(linked, unresolved=frozenset(unresolved))
                 continue
             if document.kind == "ddsl" and document.model is not None:
                 deployments = deployments or self._deployments()
                 todo += deployments.follow(document)
                 continue
             if document.kind == "cdsl" and document.model is not None:
-                component = self.program.components[document.real] = self._expanded(document.model)
+                component = self.tables.components[document.real] = self._expanded(cast("Component", document.model))
                 components.append((document, component))
-                unresolved: set[str] = set()
+                unresolved = set()
                 todo += self._imports(document, component.component.imports, unresolved, cdsl)
-                component.broken = bool(unresolved)
+                tie(component, broken=bool(unresolved))
             attachments = attachments or self._attachments()
             todo += attachments.follow(document)
         self._join()
@@ -75,8 +79,14 @@ class Linker(msgspec.Struct):
             self._read_machine(component)
         if deployments is not None:
             deployments.join()
-        self.program.documents = len(self.documents.read)
-        return self.program
+        tables = self.tables
+        return Program(
+            tables.modules, tables.components, tables.parameters, tables.values, tables.deployments, asked,
+            len(self.documents.read), self.documents.disk, self._plugins_of,
+        )
+
+    def _plugins_of(self, path: str) -> Plugins:
+        return self.workspace_of(path).plugins
 
     def _expanded(self, component: Component) -> LinkedComponent:
         """A component with what its options add."""
@@ -96,7 +106,7 @@ class Linker(msgspec.Struct):
     def _attachments(self) -> Attachments:
         from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
 
-        return Attachments(self.documents, self.program, self._root_of, self.diagnostics)
+        return Attachments(self.documents, self.tables, self._root_of, self.diagnostics)
 
     def _root_of(self, path: str) -> str:
         """The folder that a document's workspace consists of; without a declared one, that of its component."""
@@ -107,7 +117,7 @@ class Linker(msgspec.Struct):
     def _deployments(self) -> DeploymentDocuments:
         from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
 
-        return DeploymentDocuments(self.documents, self.program, self.diagnostics)
+        return DeploymentDocuments(self.documents, self.tables, self.diagnostics)
 
     def workspace_of(self, path: str) -> Workspace:
         """The workspace that a document belongs to; without a declared one, its own folder."""
@@ -126,14 +136,15 @@ class Linker(msgspec.Struct):
 
     def _read_machine(self, linked: LinkedComponent) -> None:
         if linked.component.machine is not None or not linked.component.statemachine:
-            linked.machine = linked.component.machine
+            tie(linked, machine=linked.component.machine)
             return
         from robocomp_yaml.link.machines import MachineReader  # with XML, which few need
 
         reader = MachineReader(self.documents.disk)
-        linked.machine = reader.of(linked.component)
-        linked.machine_files = tuple(reader.files)
-        linked.broken |= linked.machine is None
+        machine = reader.of(linked.component)
+        tie(
+            linked, machine=machine, machine_files=tuple(reader.files), broken=linked.broken or machine is None
+        )  # fmt: skip
         self.diagnostics += reader.diagnostics
 
     def _imports(
@@ -182,19 +193,17 @@ class Linker(msgspec.Struct):
     def _join(self) -> None:
         """Modules point at the modules they import, but for imports in a circle, which are reported."""
         graph = {
-            real: [other for other in self._found.get(real, ()) if other in self.program.modules]
-            for real in self.program.modules
+            real: [other for other in self._found.get(real, ()) if other in self.tables.modules]
+            for real in self.tables.modules
         }
         in_circle = self._circles(graph)
-        for real, linked in self.program.modules.items():
-            for other in graph[real]:
-                if (real, other) in in_circle:
-                    imported = self.program.modules[other].module
-                    linked.unresolved.update((imported.name, imported.stem))
-                else:
-                    linked.imports.append(self.program.modules[other])
-        for real, component in self.program.components.items():
-            component.imports = [self.program.modules[other] for other in self._found.get(real, ())]
+        for real, linked in self.tables.modules.items():
+            circular = [self.tables.modules[other].module for other in graph[real] if (real, other) in in_circle]
+            direct = (self.tables.modules[other] for other in graph[real] if (real, other) not in in_circle)
+            names = {name for imported in circular for name in (imported.name, imported.stem)}
+            tie(linked, imports=tuple(direct), unresolved=linked.unresolved | names)
+        for real, component in self.tables.components.items():
+            tie(component, imports=tuple(self.tables.modules[other] for other in self._found.get(real, ())))
 
     def _circles(self, graph: dict[str, list[str]]) -> set[tuple[str, str]]:
         """The imports that lie on a circle, each circle reported once, at the first of its documents."""
@@ -205,18 +214,19 @@ class Linker(msgspec.Struct):
             import networkx  # slow to import, and wanted only to explain
 
         circles: set[tuple[str, str]] = set()
-        for members in networkx.strongly_connected_components(networkx.DiGraph(graph)):
+        whole: networkx.DiGraph[str] = networkx.DiGraph(graph)
+        for members in networkx.strongly_connected_components(whole):
             if len(members) < 2:
                 continue
             circles |= {(real, other) for real in members for other in graph[real] if other in members}
-            first = min(members, key=lambda real: self.program.modules[real].module.path)
-            circle = next(networkx.simple_cycles(networkx.DiGraph(graph).subgraph(members)))
+            first = min(members, key=lambda real: self.tables.modules[real].module.path)
+            circle = next(networkx.simple_cycles(whole.subgraph(members)))
             start = circle.index(first) if first in circle else 0
-            around = [self.program.modules[real].module for real in (*circle[start:], *circle[:start])]
+            around = [self.tables.modules[real].module for real in (*circle[start:], *circle[:start])]
             around.append(around[0])
             places = [
                 Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
-                for one, next_ in zip(around, around[1:], strict=False)
+                for one, next_ in pairwise(around)
             ]
             self.diagnostics.append(idsl.IMPORT_CYCLE.at(
                 places[0].span, cycle=" → ".join(module.stem for module in around), related=places[1:],
@@ -228,7 +238,7 @@ class Linker(msgspec.Struct):
         """Says which document to import for an interface that no import defines."""
 
         def importable(interface: str) -> str | None:
-            for linked in sorted(self.program.modules.values(), key=lambda m: m.module.path):
+            for linked in sorted(self.tables.modules.values(), key=lambda m: m.module.path):
                 if any(i.name == interface for i in linked.module.all_interfaces):
                     return linked.module.stem
             known = self.search.known(document.path, self.workspace_of(document.path))

@@ -9,7 +9,8 @@ LARGEST_INTEGER = 2**63  # and above: Slice's integer literals end here
 
 def as_float32(number: float) -> float:
     """The nearest number of 32 bits. Raises OverflowError where there is none."""
-    return struct.unpack("<f", struct.pack("<f", number))[0]
+    rounded: float = struct.unpack("<f", struct.pack("<f", number))[0]
+    return rounded
 
 
 def is_integer_literal(number: float) -> bool:

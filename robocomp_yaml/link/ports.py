@@ -8,6 +8,7 @@ from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import meaning, suggest
+from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import Use
 from robocomp_yaml.model.interface import Interface
@@ -36,8 +37,8 @@ def link_ports(linked: LinkedComponent, importable: Callable[[str], str | None])
                     use.span, component=component.name, verb=verb, name=use.interface,
                     hint=_hint(linked, use, importable, {other.interface for other in getattr(component, list_)}),
                 )
-            linked.broken = True
-        setattr(linked, list_, tuple(ports))
+            tie(linked, broken=True)
+        tie(linked, **{list_: tuple(ports)})
 
 
 def _lookup(linked: LinkedComponent, use: Use) -> Iterator[tuple[LinkedModule, Interface]]:
@@ -61,7 +62,7 @@ def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | N
     document = importable(name)
     imported = {scope.module.stem for scope in linked.imports}
     if document and document not in imported:
-        return Hint(f"add '{document}' to `imports`")
+        return Hint(f"add '{document}' to `imports`", imports=document)
     where = {i.name: scope.module.path for scope in linked.imports for i in scope.module.all_interfaces}
     meant = suggest(name, (one for one in where if one not in given))
     if meant:

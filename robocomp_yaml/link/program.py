@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Set
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 Definition = Constant | TypeDefinition | ExceptionType | Interface
 
 
-class LinkedModule(msgspec.Struct, eq=False):
+class LinkedModule(msgspec.Struct, frozen=True, eq=False):
     """A module with its direct imports, in the document's order. Compared by identity: two documents may define a
     module of the same name, and each importer sees the one that it imports.
 
@@ -37,8 +37,8 @@ class LinkedModule(msgspec.Struct, eq=False):
     """
 
     module: Module
-    imports: list[LinkedModule] = []
-    unresolved: set[str] = set()
+    imports: tuple[LinkedModule, ...] = ()
+    unresolved: frozenset[str] = frozenset()
     _own: dict[str, Definition] = {}
     _found: dict[str, tuple[LinkedModule, Definition] | None] = {}
 
@@ -94,7 +94,7 @@ class Port(msgspec.Struct, frozen=True):
         return self.use.name
 
 
-class LinkedParameters(msgspec.Struct, eq=False):
+class LinkedParameters(msgspec.Struct, frozen=True, eq=False):
     """A component's parameters with their document, if there is one; `broken` when some have no usable type (then
     values are not judged). `component` is None for a document that no component was found for. `compiled` is for what
     is made of them once and used often (validators)."""
@@ -112,13 +112,13 @@ def _only_the_period() -> LinkedParameters:
     return LinkedParameters(of_no_document(None))
 
 
-class LinkedValues(msgspec.Struct, eq=False):
+class LinkedValues(msgspec.Struct, frozen=True, eq=False):
     """A values document with the documents that it extends, the most general first. `parameters` is None where the
     component is not known; `is_extended` when another document builds on this one, so that it need not be complete;
     `broken` when a layer is missing."""
 
     document: ValuesDocument
-    extends: list[LinkedValues] = []
+    extends: tuple[LinkedValues, ...] = ()
     parameters: LinkedParameters | None = None
     is_extended: bool = False
     broken: bool = False
@@ -129,12 +129,12 @@ class LinkedValues(msgspec.Struct, eq=False):
         return list(dict.fromkeys([*below, self]))
 
 
-class LinkedComponent(msgspec.Struct, eq=False):
+class LinkedComponent(msgspec.Struct, frozen=True, eq=False):
     """A component whose names are resolved; `broken` when some could not be (then it cannot be compiled). `machine` is
     its state machine, from `machine_files` where it does not stand in the component's document."""
 
     component: Component
-    imports: list[LinkedModule] = []
+    imports: tuple[LinkedModule, ...] = ()
     implements: tuple[Port, ...] = ()
     requires: tuple[Port, ...] = ()
     publishes: tuple[Port, ...] = ()
@@ -156,16 +156,26 @@ class LinkedComponent(msgspec.Struct, eq=False):
         return list(dict.fromkeys(needed for scope in self.imports for needed in scope.closure()))
 
 
-class Program(msgspec.Struct):
-    """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported).
-    Checks read other files through `disk`; `plugins_of` says which plug-ins count for a document."""
+class Tables(msgspec.Struct):
+    """A program while it is linked; keys are real paths."""
 
     modules: dict[str, LinkedModule] = {}
     components: dict[str, LinkedComponent] = {}
     parameters: dict[str, LinkedParameters] = {}
     values: dict[str, LinkedValues] = {}
     deployments: dict[str, LinkedDeployment] = {}
-    asked: set[str] = set()
+
+
+class Program(msgspec.Struct, frozen=True):
+    """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported).
+    Checks read other files through `disk`; `plugins_of` says which plug-ins count for a document."""
+
+    modules: Mapping[str, LinkedModule] = {}
+    components: Mapping[str, LinkedComponent] = {}
+    parameters: Mapping[str, LinkedParameters] = {}
+    values: Mapping[str, LinkedValues] = {}
+    deployments: Mapping[str, LinkedDeployment] = {}
+    asked: Set[str] = frozenset()
     documents: int = 0
     disk: Disk = msgspec.field(default_factory=Disk)
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
@@ -186,7 +196,7 @@ class Program(msgspec.Struct):
             for instance in self.deployments[real].instances.values()
         }
         named = {real for real, linked in self.components.items() if linked in wanted}
-        return (self.asked & self.components.keys()) | named
+        return {*(self.asked & self.components.keys()), *named}
 
     def parameter_documents(self) -> Iterator[LinkedParameters]:
         """Every document of parameters, once for each component that has it."""

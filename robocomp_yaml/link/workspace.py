@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from collections.abc import Mapping as Map
 
 import msgspec
 
@@ -20,7 +21,7 @@ from robocomp_yaml.source.tree import Mapping, Scalar, parse
 SUFFIX = ".idsl.yaml"
 
 
-class Workspace(msgspec.Struct):
+class Workspace(msgspec.Struct, frozen=True):
     """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
     look for imports in, `slice_folder` is where Slice goes (both joined with the root), `lint` a severity (or
     'off') by code; `plugins` are those that it names."""
@@ -29,7 +30,7 @@ class Workspace(msgspec.Struct):
     declared: bool = False
     interfaces: tuple[str, ...] = ()
     slice_folder: str = ""
-    lint: dict[str, str] = {}
+    lint: Map[str, str] = {}
     plugins: Plugins = NONE
 
 
@@ -61,20 +62,24 @@ def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnosti
     diagnostics = schema.validate("workspace", tree)
     if diagnostics or not isinstance(tree, Mapping):
         return workspace, diagnostics
-    workspace.interfaces = tuple(
-        os.path.normpath(os.path.join(root, node.lexeme))
-        for node in items(tree, "interfaces")
-        if isinstance(node, Scalar)
-    )
+    named = (node.lexeme for node in items(tree, "interfaces") if isinstance(node, Scalar))
     slice_folder = text(tree.get("output"), "slice")
-    workspace.slice_folder = os.path.normpath(os.path.join(root, slice_folder)) if slice_folder else ""
-    workspace.lint = {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None}
-    said: list[Diagnostic] = []
-    if named := [(node.lexeme, node.span) for node in items(tree, "plugins") if isinstance(node, Scalar)]:
-        from robocomp_yaml.plugins import finding  # most workspaces name none
-
-        workspace.plugins, said = finding.found(named)
+    plugins, said = _plugins(tree)
+    workspace = Workspace(
+        root, True, tuple(os.path.normpath(os.path.join(root, folder)) for folder in named),
+        os.path.normpath(os.path.join(root, slice_folder)) if slice_folder else "",
+        {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None}, plugins,
+    )
     return workspace, [*said, *_idle_settings(tree, workspace, disk)]
+
+
+def _plugins(tree: Mapping) -> tuple[Plugins, list[Diagnostic]]:
+    named = [(node.lexeme, node.span) for node in items(tree, "plugins") if isinstance(node, Scalar)]
+    if not named:
+        return NONE, []
+    from robocomp_yaml.plugins import finding  # most workspaces name none
+
+    return finding.found(named)
 
 
 def above(path: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnostic]]:

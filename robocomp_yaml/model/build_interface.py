@@ -124,10 +124,10 @@ def _enum(key: Scalar, node: Mapping) -> Enum:
         enumerators = [Enumerator(n.lexeme, span=n.span) for n in listed.items if isinstance(n, Scalar)]
     elif isinstance(listed, Mapping):
         for name, value in entries(node, "enum"):
-            number = value.data if isinstance(value, Scalar) else value.data.get("value")  # type: ignore[attr-defined]
-            enumerators.append(
-                Enumerator(name.lexeme, None if number is None else int(number), doc(value), span=name.span)
-            )
+            number = value.get("value") if isinstance(value, Mapping) else value
+            given = number.data if number is not None else None
+            whole = int(given) if isinstance(given, int | float) else None
+            enumerators.append(Enumerator(name.lexeme, whole, doc(value), span=name.span))
     return Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span, list_span=_key_span(node, "enum"))
 
 

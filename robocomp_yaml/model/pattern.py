@@ -163,7 +163,7 @@ class _Parser(msgspec.Struct):
             return _CONTROLS[char]
         if not char:
             raise self.fail("a backslash stands at the end", start)
-        if char.isalnum() or char.isspace() and char != " ":
+        if char.isalnum() or (char.isspace() and char != " "):
             raise self.fail(f"'\\{char}' does not mean the same to every engine", start)
         return char
 

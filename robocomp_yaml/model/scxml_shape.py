@@ -115,8 +115,10 @@ def _misshapen(element: Element) -> Iterator[Diagnostic]:
     for child in ours(element):
         if child.name not in allowed:
             close = suggest(child.name, allowed)
-            hint = f"did you mean <{close}>?" if close else f"it holds {', '.join(allowed)}" if allowed else ""
-            yield codes.UNKNOWN_ELEMENT.at(child.span, name=child.name, parent=element.name, hint=hint)
+            holds = f"it holds {', '.join(allowed)}" if allowed else ""
+            yield codes.UNKNOWN_ELEMENT.at(
+                child.span, name=child.name, parent=element.name, hint=f"did you mean <{close}>?" if close else holds
+            )
         else:
             yield from _misshapen(child)
     if stray := element.text.strip():

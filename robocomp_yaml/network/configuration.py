@@ -10,6 +10,7 @@ import os
 from collections.abc import Iterator
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -69,11 +70,11 @@ class Configuration(msgspec.Struct):
 
     def _on_values(self, linked: LinkedParameters) -> list[Section] | None:
         base = self.base.values
-        layer = LinkedValues(ValuesDocument(self._file, mapping_at(self.draft.span, {})), parameters=linked)
-        layer.extends, layer.broken = ([base], base.broken) if base is not None else ([], False)
-        if linked.broken or layer.broken:
+        if linked.broken or (base is not None and base.broken):
             return None
-        layer.document = ValuesDocument(self._file, self._layer(linked, layer))
+        empty = ValuesDocument(self._file, mapping_at(self.draft.span, {}))
+        below = LinkedValues(empty, (base,) if base is not None else (), linked)
+        layer = replace(below, document=ValuesDocument(self._file, self._layer(linked, below)))
         values, found = effective(layer)
         self.diagnostics += found
         if values is None:

@@ -46,7 +46,7 @@ class Gates(msgspec.Struct):
                 enabled=any(owner.instance.entry.enabled for _, owner in ruled), span=group.group.span,
             )
             instance = LinkedInstance(
-                name, entry, group.document, group.scope, folder=first.instance.folder, groups=[group]
+                name, entry, group.document, group.scope, folder=first.instance.folder, groups=(group,)
             )
             draft = self._of[group] = self.drafts.drafts[instance] = Draft(instance, first.host)
             for served, owner in ruled:

@@ -29,9 +29,8 @@ def length_faults(linked: LinkedDeployment, drafts: Drafts, network: Network) ->
             if is_too_long(unit):
                 yield _too_long("entry", name, unit, process.span)
     for draft in drafts.drafts.values():
-        process = network.processes.get(draft.name)
-        if process is not None:
-            yield from _paths(draft, process)
+        if draft.name in network.processes:
+            yield from _paths(draft, network.processes[draft.name])
     if fault := path_fault(network.folder):
         yield codes.PATH_TOO_LONG.at(deployment.span, path=shortened(network.folder), problem=fault)
 

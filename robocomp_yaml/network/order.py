@@ -85,7 +85,7 @@ def _broken(
     for need in needs:
         pair = need.source, need.target
         cost[pair] = max(cost.get(pair, 0), _cost(need))
-    graph = networkx.DiGraph({name: list(targets) for name, targets in after.items()})
+    graph: networkx.DiGraph[str] = networkx.DiGraph({name: list(targets) for name, targets in after.items()})
     dropped: set[tuple[str, str]] = set()
     diagnostics = []
     for knot in networkx.strongly_connected_components(graph):

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model import deployment as model
+from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
 from robocomp_yaml.network.network import (
     COMPONENT,
-    CONFIG,
     ICESTORM,
     PROGRAM,
     ConfigFile,

@@ -108,7 +108,7 @@ def _add(plugin: Plugin, entry: metadata.EntryPoint, others: list[Plugin]) -> It
     what = f"{kind.called} '{entry.name}'"
     try:
         module = entry.load()
-    except (Exception, SystemExit) as error:
+    except (Exception, SystemExit) as error:  # noqa: BLE001  # whatever somebody's module does when it is imported
         hint = _why_not(error, plugin.name)
         yield codes.PLUGIN_BROKEN.at(plugin.span, name=plugin.name, what=what, reason=reason_of(error), hint=hint)
         return

@@ -12,7 +12,6 @@ from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Edit, Fix, Hint
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.source.spelled import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -45,10 +44,10 @@ class Allowance(msgspec.Struct, frozen=True):
         """Without it; the last code takes the comment with it."""
         if not self.others:
             start, end = (text.index(self.whole.line, at) for at in (self.whole.column, self.whole.end_column))
-            before = text.text[:start].rstrip(" \t")
-            is_alone = not before or before[-1] in "\r\n"
+            line = text.text[:start].rstrip(" \t")
+            is_alone = not line or line[-1] in "\r\n"
             line_end = re.compile(r"\r\n|\r|\n|\Z").match(text.text, end) if is_alone else None
-            return Fix("remove it", (text.edit(len(before), line_end.end() if line_end else end, ""),))
+            return Fix("remove it", (text.edit(len(line), line_end.end() if line_end else end, ""),))
         start, end = (text.index(self.span.line, at) for at in (self.span.column, self.span.end_column))
         gap = re.compile(r"[ \t]*,[ \t]*|[ \t]+(?!--)").match(text.text, end)
         if gap is None:  # it is the last one
@@ -99,7 +98,7 @@ def _read(
         fixes = [Fix("write 'allow'", (Edit(verb, "allow"),))] if isinstance(hint, Hint) else []
         problem = f"`rcyaml: {parts['verb']}` means nothing" if parts["verb"] else "this comment says nothing to rcyaml"
         return [], [*said, codes.ALLOW_MALFORMED.at(whole, problem=problem, hint=_FORM, fixes=fixes)]
-    made = []
+    made: list[tuple[str, Span]] = []
     for word in _WORD.finditer(parts["codes"]):
         place = [comment.start() + parts.start("codes") + at for at in word.span()]
         if _CODE.fullmatch(word[0]) is None and word[0].upper() not in more:
@@ -110,8 +109,7 @@ def _read(
             ))
             return (made if parts["colon"] else []), said
         if word[0].upper() not in table() and word[0].upper() not in more:
-            hint = _meant(word[0], [*table(), *more])
-            said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint=hint))
+            said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint="`rcyaml explain` lists them"))
         elif parts["colon"]:
             made.append((word[0].upper(), text.span(*place)))
     if not made and not said:
@@ -120,11 +118,6 @@ def _read(
         listed = ", ".join(code for code, _ in made)
         said.append(codes.ALLOW_NO_REASON.at(whole, codes=listed, hint="write it behind `--`"))
     return made, said
-
-
-def _meant(code: str, known: Collection[str]) -> str:
-    meant = suggest(code.upper(), known)
-    return f"did you mean '{meant}'? `rcyaml explain` lists them" if meant else "`rcyaml explain` lists them"
 
 
 def _lines(text: Text, comment: re.Match[str], texts: list[Node]) -> tuple[int, int]:

@@ -45,34 +45,36 @@ def _is_ours(path: str, disk: Disk) -> bool:
     return _MODELINE.match(disk.peek(path, 1 << 12)) is not None
 
 
-class Found(msgspec.Struct):
+class Found(msgspec.Struct, frozen=True):
     """Documents in the order of their paths; `folders` are those that were asked for, `roots` the folders below them
     into which something was compiled."""
 
-    documents: list[str] = []
-    folders: list[str] = []
-    roots: list[str] = []
-    diagnostics: list[Diagnostic] = []
+    documents: tuple[str, ...] = ()
+    folders: tuple[str, ...] = ()
+    roots: tuple[str, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Found:
     """The documents named, and all below the folders named; hidden and generated folders are passed over."""
     disk = disk or Disk()
-    found = Found()
-    seen: set[str] = set()
+    documents: dict[str, None] = {}
+    folders: list[str] = []
+    roots: list[str] = []
+    said: list[Diagnostic] = []
     for path in paths:
         if disk.has_folder(path):
-            found.folders.append(path)
+            folders.append(path)
             closed: list[OSError] = []
-            below = list(documents_below(path, found.roots, closed.append, disk))
-            found.diagnostics += [
+            below = list(documents_below(path, roots, closed.append, disk))
+            said += [
                 codes.UNREADABLE.at(
                     Span(os.path.normpath(error.filename)), reason=(error.strerror or str(error)).lower()
                 )
                 for error in closed
             ]
             if not below and not closed:
-                found.diagnostics.append(codes.NOTHING_FOUND.at(
+                said.append(codes.NOTHING_FOUND.at(
                     Span(path), hint="`rcyaml new interface NAME` writes a first one, "
                     f"`{typed('rcyaml', 'migrate', path)}` carries over what you have",
                 ))
@@ -80,17 +82,14 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Fo
             expected = " or ".join(f".{kind}.yaml" for kind in KINDS)
             migrate = f"`{typed('rcyaml', 'migrate', path)}` carries legacy files over"
             hint = migrate if not path.endswith(".yaml") else ""
-            found.diagnostics.append(codes.UNKNOWN_KIND.at(
+            said.append(codes.UNKNOWN_KIND.at(
                 Span(path), name=os.path.basename(path), kinds=expected, hint=hint
             ))
             continue
         else:
             below = [os.path.normpath(path)]
-        for document in below:
-            if document not in seen:
-                seen.add(document)
-                found.documents.append(document)
-    return found
+        documents.update(dict.fromkeys(below))
+    return Found(tuple(documents), tuple(folders), tuple(roots), tuple(said))
 
 
 def documents_below(

@@ -41,7 +41,7 @@ class Disk:
         said: list[Diagnostic] = []
         raw = self._unsaved(path)
         if raw is None:
-            raw, said = read_bytes(path, limit)
+            raw, said = read_bytes(self._on_disk(path), limit)
         if raw is not None:
             self.contents[path] = raw
         else:
@@ -54,7 +54,7 @@ class Disk:
         if raw is not None:
             return raw[:size]
         try:
-            with open(path, "rb", opener=regular) as file:
+            with open(self._on_disk(path), "rb", opener=regular) as file:
                 return file.read(size)
         except OSError:
             return b""
@@ -66,7 +66,7 @@ class Disk:
         elif self._overlay and real in self._folders:
             found = FOLDER
         else:
-            found = state_of(path)
+            found = state_of(self._on_disk(path))
         self.states[path] = found
         return found
 
@@ -88,7 +88,7 @@ class Disk:
         return self.seen[folder]
 
     def _names(self, folder: str) -> set[str]:
-        names = set(names_in(folder))
+        names = set(names_in(self._on_disk(folder)))
         if self._overlay:
             real = os.path.realpath(folder)
             names |= {*_inside(real, self._folders), *_inside(real, self._overlay)}
@@ -117,6 +117,13 @@ class Disk:
             yield here, folders, names
             below = (os.path.join(here, name) for name in reversed(folders))
             todo += [path for path in below if not os.path.islink(path)]
+
+    def _on_disk(self, path: str) -> str:
+        """A path that the system can follow: it cannot go up from a folder that only the overlay has."""
+        if not self._overlay or os.path.lexists(path):
+            return path
+        real = os.path.realpath(path)
+        return real if os.path.lexists(real) else path
 
     def _unsaved(self, path: str) -> bytes | None:
         return self._overlay.get(os.path.realpath(path)) if self._overlay else None

@@ -122,16 +122,20 @@ def _explain(
             problem = message or _in_words(kind.name, facts, node, place)
             span = key.span if forbidden and key else _span(node, key)
             yield codes.WRONG_SHAPE.at(
-                span, problem=problem, hint=_nearest(facts.get("options"), node), fixes=_fixes(kind.name, facts, node)
+                span, problem=problem, key=_key_of(place), rule=kind.name, hint=_nearest(facts.get("options"), node),
+                fixes=_fixes(kind.name, facts, node, _subschema(whole, path[:-1])),
             )
 
 
-def _fixes(keyword: str, facts: dict[str, Any], node: Node) -> Iterable[Fix]:
+def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iterable[Fix]:
     """Quotes too many or too few, a single value for a list, and the second of two equal entries."""
     if keyword == "type" and isinstance(node, Scalar):
+        if isinstance(around, dict) and "pattern" in around and not re.search(around["pattern"], node.lexeme):
+            return ()  # it would be text, and the wrong one
         return retyped([type_ for type_ in facts["types"] if type_ != "null"], node.lexeme, node.data, node.span)
     if keyword == "uniqueItems" and isinstance(node, Sequence):
-        return [removal(item.span) for at, item in enumerate(node.items) if item.data in node.data[:at]][:1]
+        data = [item.data for item in node.items]
+        return [removal(item.span) for at, item in enumerate(node.items) if item.data in data[:at]][:1]
     return ()
 
 
@@ -139,11 +143,10 @@ def _impossible(pattern: str, node: Scalar, place: Path[str | int], *, span: Spa
     """A text with a character that it cannot hold."""
     found = _NEVER[pattern].search(node.lexeme)
     assert found is not None
-    names = [step for step in place if isinstance(step, str)]
     is_at_end = found[0] == "\n" and found.end() == len(node.lexeme)
     hint = "it is one line of text" + (_AT_END if is_at_end else "") if found[0] in _ENDS_A_LINE else "leave it out"
     return codes.IMPOSSIBLE.at(
-        span, key=names[-1] if names else "the document", what=_CALLED.get(found[0], "a control character"),
+        span, key=_key_of(place), what=_CALLED.get(found[0], "a control character"),
         character=f"U+{ord(found[0]):04X}", hint=hint,
     )
 
@@ -212,6 +215,11 @@ def _own_message(whole: dict[str, Any], path: list[str | int]) -> str:
         if not (isinstance(step, int) or str(step).isdigit() or step in _APPLICATORS):
             return ""
     return ""
+
+
+def _key_of(place: Path[str | int]) -> str:
+    """The nearest key above a place."""
+    return next((step for step in reversed(place) if isinstance(step, str)), "the document")
 
 
 def _head(node: Node, key: Scalar | None) -> Span:

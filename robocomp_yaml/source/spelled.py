@@ -14,10 +14,11 @@ from functools import cached_property
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.fix import LIST, QUOTE, UNQUOTE, VALUE, WORD, Edit, Fix
+from robocomp_yaml.diag.fix import IMPORT, LIST, QUOTE, UNQUOTE, UNTAG, VALUE, WORD, Edit, Fix
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as MappingNode
-from robocomp_yaml.source.tree import Node, Scalar, parse
+from robocomp_yaml.source.tree import Node, Scalar, end_of, parse
 from robocomp_yaml.source.tree import Sequence as SequenceNode
 
 _LINE_END = re.compile("\r\n|\r|\n")
@@ -44,11 +45,9 @@ def spelled(diagnostics: Iterable[Diagnostic], contents: Mapping[str, bytes]) ->
 
 
 def text_of(file: str, raw: bytes | None) -> Text | None:
-    """The text of a document's bytes; None where there is none."""
-    try:
-        return Text(file, raw.decode("utf-8-sig")) if raw is not None else None
-    except UnicodeDecodeError:
-        return None
+    """The text of a document's bytes; None where they are none."""
+    text = decode(file, raw)[0] if raw is not None else None
+    return Text(file, text) if text is not None else None
 
 
 def _spelled(fix: Fix, known: Mapping[str, Text | None]) -> Fix | None:
@@ -108,7 +107,11 @@ class Text:
         if edit.how == VALUE:
             node = self._scalar(start)
             return [self.edit(*self._inner(node), edit.text)] if node is not None else []
-        return self._unquoted(start) if edit.how == UNQUOTE else self._without(start)
+        if edit.how == UNTAG:
+            return self._untagged(start, end)
+        if edit.how == IMPORT:
+            return self._importing(edit.text)
+        return self._unquoted(start) if edit.how == UNQUOTE else self._without(start, end)
 
     def _word(self, start: int, end: int, word: str, meant: str) -> list[Edit]:
         node = self._scalar(start)
@@ -154,9 +157,20 @@ class Text:
             return []
         return [self.edit(*self._inner(node), node.lexeme.strip())]
 
-    def _without(self, start: int) -> list[Edit]:
+    def _untagged(self, start: int, end: int) -> list[Edit]:
+        found = re.compile(r"(?:&\S+[ \t]+)?(!\S+)[ \t]+").match(self.text, start)
+        if found is None:
+            return []
+        tag = self.edit(found.start(1), found.end(), "")
+        is_bare_text = found[1] == "!!str" and self.text[found.end() : found.end() + 1] not in ("'", '"', "|", ">")
+        quotes = self._around(found.end(), end, QUOTE) if is_bare_text else []
+        return [tag, *quotes] if quotes or not is_bare_text else []
+
+    def _without(self, start: int, end: int) -> list[Edit]:
         """Without the entry that begins there; a comment behind it stays."""
         found = _entry(self.tree, start)
+        if found is None and self.tree is None and not self.text[start : start + 1].isspace():
+            return self._without_entry(start, end)
         if found is None or self.text[start : start + 1] in "&*!":
             return []
         at, nodes, is_flow = found
@@ -167,6 +181,44 @@ class Text:
                 return [self.edit(nodes[at - 1].end, end, "")]
             comma = re.compile(r"[ \t]*,[ \t]*").match(self.text, end)
             return [self.edit(start, comma.end() if comma else end, "")]
+        return without_lines(self, start, end)
+
+    def _importing(self, name: str) -> list[Edit]:
+        """With one import more, behind the last one; without any, behind what the document says of itself."""
+        root = self.tree
+        if not isinstance(root, MappingNode) or root.is_flow or not root.entries:
+            return []
+        new = name if _is_text(name) else _quoted(name)
+        if (found := root.entries.get("imports")) is None:
+            head = root.entries.get("language") or next(iter(root.entries.values()))
+            at = self._end_of_line(max(end_of(head[1]), head[0].end + 1))
+            return [self.edit(at, at, f"{self._line_end}imports: [{new}]")]
+        value = found[1]
+        if isinstance(value, SequenceNode) and value.is_flow:
+            at = value.items[-1].end if value.items else value.start + 1
+            return [self.edit(at, at, f", {new}" if value.items else new)]
+        if isinstance(value, SequenceNode):
+            last = value.items[-1]
+            line = self.index(last.span.line, 1)
+            at = self._end_of_line(end_of(last))
+            is_plain = _ITEM.fullmatch(self.text[line : last.start]) and isinstance(last, Scalar)
+            return [self.edit(at, at, f"{self._line_end}{self.text[line:last.start]}{new}")] if is_plain else []
+        return []
+
+    @property
+    def _line_end(self) -> str:
+        found = _LINE_END.search(self.text)
+        return found[0] if found else "\n"
+
+    def _end_of_line(self, index: int) -> int:
+        rest = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?=[\r\n]|\Z)").match(self.text, index)
+        return rest.end() if rest else index
+
+    def _without_entry(self, start: int, end: int) -> list[Edit]:
+        """Without an entry of a mapping."""
+        before = self.text[:start].rstrip(" \t")
+        if before.endswith(","):
+            return [self.edit(len(before) - 1, end, "")]
         return without_lines(self, start, end)
 
     def _scalar(self, index: int) -> Scalar | None:

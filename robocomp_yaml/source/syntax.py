@@ -12,7 +12,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ruamel.yaml.cyaml import CParser
+from ruamel.yaml.cyaml import CParser  # type: ignore[attr-defined]  # from C, without types
 from ruamel.yaml.error import MarkedYAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode
 from ruamel.yaml.tag import Tag
@@ -89,8 +89,10 @@ def compose(path: str, text: str) -> Node | None:
         return _composed_with_stand_ins(path, text)
     if _may_be_deep(text) and _depth(text) > MAX_DEPTH:
         raise Refused(codes.TOO_DEEP.at(_deep_place(path, text), limit=MAX_DEPTH))
+    root: Node | None
     try:
-        return _Composer(text).get_single_node()
+        root = _Composer(text).get_single_node()
+        return root
     except MarkedYAMLError as error:
         fault = error
     try:
@@ -132,7 +134,7 @@ def _nodes(root: Node | None) -> Iterator[Node]:
 def _compose_as_1_2(text: str) -> Node | None:
     from ruamel.yaml import YAML
 
-    root = YAML(typ="safe", pure=True).compose(text)
+    root: Node | None = YAML(typ="safe", pure=True).compose(text)
     for node in _nodes(root):
         if not _has_explicit_tag(text, node.start_mark.index):
             node.ctag = UNTAGGED
@@ -195,7 +197,7 @@ def _deep_place(path: str, text: str) -> Span:
 def _diagnostic(path: str, text: str, error: MarkedYAMLError) -> Diagnostic:
     problem = " ".join(str(part) for part in (error.context, error.problem) if part)
     # Where a key or a quoted text begins says more than where the parser gave up on it.
-    begins = "expected ':'" in problem or "quoted scalar" in problem and "escape" not in problem
+    begins = "expected ':'" in problem or ("quoted scalar" in problem and "escape" not in problem)
     mark = (begins and error.context_mark) or error.problem_mark or error.context_mark
     line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
     span = Span(path, line, column, line, column + 1)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from typing import Any, cast
 
 import msgspec
 from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
@@ -17,27 +18,28 @@ from ruamel.yaml.nodes import Node as YamlNode
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.fix import Edit, Fix, quoting
+from robocomp_yaml.diag.fix import UNTAG, Edit, Fix, quoting, removal
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.source import syntax
-from robocomp_yaml.source.text import MAX_SCALAR, size_in_words
+from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
 
 MAX_ALIASED = 100_000  # nodes that aliases may add, all together
 
 _INT = re.compile(r"[-+]?[0-9]+\Z")
 _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?\Z")
-_NAMED = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
+_NAMED: dict[str, bool | float | None] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
 _NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
 _NAMED |= {sign + dot: float(sign + "inf") for sign in ("", "+", "-") for dot in (".inf", ".Inf", ".INF")}
 _NAMED |= {word: float("nan") for word in (".nan", ".NaN", ".NAN")}
 _SURROGATE = re.compile("[\ud800-\udfff]")
+_PLAIN_TAGS = ("!!str", "!!int", "!!float", "!!bool", "!!null", "!!map", "!!seq")  # which YAML sees without them
 _CORE_START = frozenset("0123456789+-.~nNtTfF")  # no other first character can begin a core scalar
 
 
 class Node:
     """A value with its place. `data` is the same value as plain Python data, all the way down."""
 
-    __slots__ = ("file", "_start", "_end", "data")
+    __slots__ = ("_end", "_start", "data", "file")
 
     def __init__(self, file: str, node: YamlNode, data: object) -> None:
         self.file, self._start, self._end, self.data = file, node.start_mark, node.end_mark, data
@@ -88,12 +90,31 @@ class Mapping(Node):
 
 
 class Sequence(Node):
-    __slots__ = ("items", "is_flow")
+    __slots__ = ("is_flow", "items")
 
-    def __init__(self, file: str, node: YamlNode, items: list[Node]) -> None:
+    def __init__(self, file: str, node: SequenceNode, items: list[Node]) -> None:
         super().__init__(file, node, [item.data for item in items])
         self.items = items
         self.is_flow = bool(node.flow_style)
+
+
+def last_end(node: Mapping) -> int | None:
+    """Where the last entry of a mapping ends."""
+    end = None
+    for key, value in node.entries.values():
+        end = max(key.end, end_of(value))
+        if isinstance(value, Scalar) and value.start == value.end:
+            end = max(end, key.end + 1)  # the colon
+    return end
+
+
+def end_of(node: Node) -> int:
+    """Where a node's own text ends: libyaml ends block collections only where the next thing starts."""
+    if isinstance(node, Mapping) and node.entries and not node.is_flow:
+        return last_end(node) or node.end
+    if isinstance(node, Sequence) and node.items and not node.is_flow:
+        return end_of(node.items[-1])
+    return node.end
 
 
 class _Mark(msgspec.Struct, frozen=True):
@@ -168,7 +189,7 @@ class _Builder:
         else:
             self.open.add(id(node))
             built = self._mapping(node) if isinstance(node, MappingNode) else Sequence(
-                self.path, node, [self.build(item) for item in node.value]
+                self.path, cast("SequenceNode", node), [self.build(item) for item in node.value]
             )
             self.open.discard(id(node))
         if self.last is not None and built._end.line > self.last.line:
@@ -245,7 +266,7 @@ class _Builder:
                 self._say(
                     codes.DUPLICATE_KEY, key_node, key=key.lexeme,
                     related=[Related("it stands here first", first.span)],
-                    fixes=self._without_second(key_node, value_node, value, entries[key.lexeme][1]),
+                    fixes=self._without_second(first, entries[key.lexeme][1], key, value),
                 )
                 continue
             entries[key.lexeme] = (key, value)
@@ -261,32 +282,34 @@ class _Builder:
             missing_value = value.data is None and isinstance(value, Scalar) and not value.lexeme
             if node.value.endswith(":") or missing_value:
                 head, _, tail = node.value.partition(":")
-                at = node.start_mark.index + len(head) + 1
-                is_plain = tail.strip(":") and self.text[node.start_mark.index : at] == f"{head}:"
+                span = self._span(node).inside(node.value, len(head) + 1, len(head) + 2)
+                behind = Span(span.file, span.line, span.column, span.line, span.column)
+                is_plain = tail.strip(":") and not tail.startswith(":") and span.column != node.start_mark.column + 1
                 self._say(
                     codes.KEY_COLON, node, key=node.value, hint=f"write '{head}: {tail.lstrip(':')}'".rstrip(),
-                    fixes=[Fix("put a blank behind the colon", (self._insertion(at, " "),), True)] if is_plain else [],
+                    fixes=[Fix("put a blank behind the colon", (Edit(behind, " "),), True)] if is_plain else [],
                 )
         return self._quoted(node)
 
     def _explicit_tag(self, node: YamlNode) -> None:
         tag = str(node.tag).replace("tag:yaml.org,2002:", "!!")
-        self._say(codes.TAG, node, tag=tag, hint="leave the tag out" + (", and use quotes" if tag == "!!str" else ""))
+        self._say(
+            codes.TAG, node, tag=tag, hint="leave the tag out" + (", and use quotes" if tag == "!!str" else ""),
+            fixes=[Fix("leave the tag out", (Edit(self._span(node), how=UNTAG),), True)] if tag in _PLAIN_TAGS else [],
+        )
 
-    def _without_second(self, key: YamlNode, node: YamlNode, value: Node, first: Node) -> list[Fix]:
-        """An entry that says the same as the first of its name can go, where it has its line for itself."""
-        start, end = key.start_mark.index, node.end_mark.index
-        if key.start_mark.line != node.end_mark.line or value.data != first.data or node.start_mark.index < start:
+    def _without_second(self, key: Scalar, value: Node, again: Scalar, other: Node) -> list[Fix]:
+        """An entry that is spelled as the first of its name can go."""
+        spelled, same = (
+            self.text[at.end : max(end_of(what), at.end)].rstrip() for at, what in ((key, value), (again, other))
+        )
+        if spelled != same or other.start < again.end or "&" in spelled:
             return []
-        from robocomp_yaml.source.spelled import Text, without_lines
-
-        edits = without_lines(Text(self.path, self.text), start, end)
-        return [Fix("remove it", tuple(edits), True)] if edits else []
-
-    def _insertion(self, index: int, text: str) -> Edit:
-        from robocomp_yaml.source.spelled import Text
-
-        return Text(self.path, self.text).edit(index, index, text)
+        end = max(end_of(other), again.end + 1)
+        end = len(self.text[:end].rstrip())
+        line, column = position(self.text, end)
+        span = again.span
+        return [removal(Span(self.path, span.line, span.column, line, column))]
 
     def _span(self, node: YamlNode) -> Span:
         start, end = node.start_mark, node.end_mark
@@ -294,6 +317,6 @@ class _Builder:
         return Span(self.path, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
 
     def _say(self, code: Code, node: YamlNode, *, hint: str = "", related: list[Related] | None = None,
-             fixes: Iterable[Fix] = (), **facts: object) -> None:
+             fixes: Iterable[Fix] = (), **facts: Any) -> None:
         self.diagnostics.append(code.at(self._span(node), hint=hint, related=related or (), fixes=fixes, **facts))
 

@@ -123,7 +123,7 @@ class _Reader:
         element.start = self.parser.CurrentByteIndex
         if attributes:
             written = [place for name, place in self._places() if name != "xmlns" and not name.startswith("xmlns:")]
-            element.places = dict(zip(attributes, written))  # both in the document's order
+            element.places = dict(zip(attributes, written, strict=False))  # both in the document's order
         if self._open:
             self._open[-1].content.append(element)
         else:

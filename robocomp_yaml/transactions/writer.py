@@ -106,7 +106,7 @@ class _Root:
         for path in sorted({*self.wanted.files, *self.old.files}):
             wanted, entry = self.wanted.files.get(path), self.old.files.get(path)
             if wanted is None:
-                self._unwanted(path, entry)
+                self._unwanted(path, self.old.files[path])
             elif wanted.plan.policy == ONCE:
                 self._once(wanted.plan, entry)
             else:
@@ -177,7 +177,8 @@ class _Root:
         found = self.root.look(plan.path)
         text = plan.text.encode()
         if found.problem:
-            return self._refuse(plan.path, found)
+            self._refuse(plan.path, found)
+            return
         if not found.exists:
             self._write(plan, found, changes.CREATE)
         elif found.data == text:

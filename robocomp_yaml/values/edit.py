@@ -14,7 +14,7 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, end_of, last_end, parse
 from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import quoted, scalar, single_quoted
 
@@ -151,7 +151,7 @@ def _insert(text: str, node: Node, key: Scalar | None, steps: list[Step], new: s
         raise NotEditable(f"there is no {what} here to add to", node)
     if key is not None and node.start < key.end:
         raise NotEditable("the mapping is an alias of another one", key)
-    last = _last(node)
+    last = last_end(node)
     if text[node.start : node.start + 1] == "{":
         entry = _flow(steps, new)
         at = node.start + 1 if last is None else last
@@ -178,7 +178,7 @@ def _behind_comments(text: str, at: int, indent: int) -> int:
 
 def _left_out(text: str, node: Node, key: Scalar | None, step: Step, above: Collection[str]) -> re.Match[str] | None:
     """The line of an entry that a first document leaves out, below the key of the mapping that it belongs to."""
-    is_block = isinstance(node, Mapping) and not node.is_flow or isinstance(node, Scalar) and node.data is None
+    is_block = (isinstance(node, Mapping) and not node.is_flow) or (isinstance(node, Scalar) and node.data is None)
     if key is None or not above or not is_block:
         return None
     outer = key.span.column - 1
@@ -216,30 +216,11 @@ def _append(text: str, node: Sequence, key: Scalar | None, steps: list[Step], ne
     if text[node.start : node.start + 1] == "[":
         at = node.items[-1].end if node.items else node.start + 1
         return Change(text[:at] + (f", {entry}" if node.items else entry) + text[at:], "")
-    last = _end(node)
+    last = end_of(node)
     if node.items[-1].data is None or text[:last].endswith("\n"):
         raise NotEditable("the last entry is empty, or a text of several lines", node)
     at, indent = _end_of_line(text, last), " " * (node.span.column - 1)
     return Change(f"{text[:at]}{_line_end(text)}{indent}- {entry}{text[at:]}", "")
-
-
-def _last(node: Mapping) -> int | None:
-    """Where the last entry ends."""
-    end = None
-    for key, value in node.entries.values():
-        end = max(key.end, _end(value))
-        if isinstance(value, Scalar) and value.start == value.end:
-            end = max(end, key.end + 1)  # the colon
-    return end
-
-
-def _end(node: Node) -> int:
-    """Where a node's own text ends: libyaml ends block collections only where the next thing starts."""
-    if isinstance(node, Mapping) and node.entries and not node.is_flow:
-        return _last(node) or node.end
-    if isinstance(node, Sequence) and node.items and not node.is_flow:
-        return _end(node.items[-1])
-    return node.end
 
 
 def _end_of_line(text: str, at: int) -> int:

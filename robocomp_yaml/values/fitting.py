@@ -255,7 +255,7 @@ class _Search:
             return [reference("_".join(map(str, place.steps[named:])))]
         found = [*place.first, *islice(simplest(type_), _VALUES)]
         if isinstance(type_, BasicType) and type_.is_number:
-            near = list(simplest(type_))
+            near = [each for each in simplest(type_) if isinstance(each, int | float)]
             whole = sorted((each for each in near if float(each).is_integer()), key=abs)
             found = [*place.first, *near[:1], *whole[:_VALUES], *near[-4:]]
             for number in self.numbers:

@@ -9,8 +9,8 @@ from math import isfinite
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, hint_for_key
 from robocomp_yaml.model.parameters import (
     LIMITS,
@@ -84,9 +84,10 @@ def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diag
         pass  # a hint would say it
     elif isinstance(node, Scalar) and isinstance(node.data, str) and isinstance(type_, BasicType):
         bare = node.lexeme.strip()
-        if node.quoted and (type_.is_number and re.fullmatch(r"[-+]?[0-9.]+", bare) or (
-            type_.name == "bool" and bare in ("true", "false", "True", "False")
-        )):
+        if node.quoted and (
+            (type_.is_number and re.fullmatch(r"[-+]?[0-9.]+", bare))
+            or (type_.name == "bool" and bare in ("true", "false", "True", "False"))
+        ):
             hint = f"without quotes: {bare}"
         elif type_.name == "bool" and (meant := TRUTHS.get(bare.lower())):
             hint = f"write {meant}"
@@ -172,7 +173,7 @@ def _basic(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Iter
             yield _at(codes.NO_MATCH, node, key, path=in_words(path), value=said, pattern=type_.pattern.text)
     elif isinstance(value, bool) or not isinstance(value, int | float):
         yield _wrong_type(type_, node, path, key)
-    elif not isfinite(value) if isinstance(value, float) else False:
+    elif isinstance(value, float) and not isfinite(value):
         yield _wrong_type(type_, node, path, key)
     elif type_.is_integer and value != int(value):
         yield _wrong_type(type_, node, path, key)

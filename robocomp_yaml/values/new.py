@@ -11,7 +11,6 @@ from robocomp_yaml.values.json_schema import in_words
 from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import comment, flow, scalar
 
-
 Sections = list[tuple[str, list[tuple[str, str]]]]
 
 _NO_EXAMPLE = "# no example was found that fits the constraints: {}"

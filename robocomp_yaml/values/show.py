@@ -28,7 +28,7 @@ from robocomp_yaml.values.spell_yaml import flow
 from robocomp_yaml.values.write import Path, Where, node_of, step
 
 
-class Shown(msgspec.Struct, frozen=True):
+class Value(msgspec.Struct, frozen=True):
     """A plain value, or an empty list or map. `node` is where it is given; None for a default, whose node (if a
     document wrote it) is `default`. `overrode` are the nodes of earlier layers, the latest first."""
 
@@ -49,7 +49,7 @@ class Shown(msgspec.Struct, frozen=True):
         return data if self.reveal else _hidden(self.type, self.steps, data)
 
 
-def shown(effective: Effective, *, reveal: bool) -> Iterator[Shown]:
+def shown(effective: Effective, *, reveal: bool) -> Iterator[Value]:
     """Secrets are hidden unless `reveal` says otherwise."""
     for row in _record(effective.parameters.root, effective.data, effective.place, None, (), False):
         data = row.data if reveal else _hidden(row.type, row.steps, row.data)
@@ -85,7 +85,7 @@ def hidden_text(root: RecordType, steps: list[str], text: str) -> str:
 
 def _record(
     type_: RecordType, data: dict[str, Any], where: Where, default: Node | None, path: Path, editable: bool
-) -> Iterator[Shown]:
+) -> Iterator[Value]:
     for member in type_.members:
         if member.name in data:
             given = step(where, member.name)
@@ -99,7 +99,7 @@ def _record(
 
 def _value(
     type_: Type, data: Any, where: Where, default: Node | None, path: Path, editable: bool
-) -> Iterator[Shown]:
+) -> Iterator[Value]:
     if isinstance(type_, RecordType) and isinstance(data, dict):
         yield from _record(type_, data, where, default, path, editable)
     elif isinstance(type_, ListType | MapType) and data:
@@ -113,7 +113,7 @@ def _value(
         as_spelled = isinstance(spelled, Scalar) and spelled.data == data and not isinstance(data, str)
         text = spelled.lexeme if as_spelled else flow(data)  # type: ignore[union-attr]
         overrode = tuple(where.overrode) if isinstance(where, Place) else ()
-        yield Shown(in_words(path), data, text, unit_of(type_), editable, node, default, overrode, type_, path)
+        yield Value(in_words(path), data, text, unit_of(type_), editable, node, default, overrode, type_, path)
 
 
 def _below(where: Where, name: Step) -> Where:

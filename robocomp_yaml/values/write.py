@@ -155,8 +155,8 @@ class Writer(msgspec.Struct):
             if any(char in data for char in "\r\n\0"):
                 self.fault(where, path, "it holds a line end")
                 return None
-            if references.read(data):
-                what = "a file" if references.FILE in references.read(data) else "the environment"
+            if reference := references.read(data):
+                what = "a file" if references.FILE in reference else "the environment"
                 self.fault(where, path, f"it would be read as a reference to {what}")
                 return None
             if (self.quote or self.unquotes) and unquoted(data) != data:

@@ -77,7 +77,7 @@ def test_ices_own_files_keep_their_checksums(tmp_path: Path) -> None:
             expected = checksums([path], DEBIAN)[path.name]
             assert got is not None and expected is not None
             missing = expected.keys() - got.keys()  # of an include that is refused, and of which nothing is used
-            assert got == {name: sum for name, sum in expected.items() if name not in missing}, path
+            assert got == {name: digest for name, digest in expected.items() if name not in missing}, path
             assert not missing or "#include" not in own[0].read_text(encoding="utf-8"), path
             seen.append(path.name)
     assert {"PropertiesAdmin.ice", "SliceChecksumDict.ice", "UserAccountMapper.ice", "Version.ice"} <= set(seen)

@@ -11,7 +11,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from datetime import datetime, timedelta, timezone
+from datetime import datetime, timedelta, UTC
 from pathlib import Path
 from typing import Any
 
@@ -95,7 +95,7 @@ def test_the_clock_is_shifted(tmp_path: Path) -> None:
     environment = {**os.environ, **clock.environment, "LC_ALL": "C"}
     command = ["bash", "-c", script, sys.executable]
     said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
-    now = datetime.now(timezone.utc).timestamp()
+    now = datetime.now(UTC).timestamp()
     assert [round((now - float(line)) / 3600, 1) for line in said.stdout.split()] == [7.0] * 4
 
 
@@ -106,7 +106,7 @@ def test_what_runs_goes_on(robot: Robot, hours: int) -> None:
     followed = robot.begin("logs", "-f", "-t", "-n", "0")
     until(lambda: numbers(followed.output, "tick"), lambda: followed.output)
     robot.clock.set(hours)
-    then = datetime.now(timezone.utc) + timedelta(hours=hours)
+    then = datetime.now(UTC) + timedelta(hours=hours)
     minutes = "|".join(f"{then + timedelta(minutes=minute):%Y-%m-%dT%H:%M}" for minute in range(3))
     until(lambda: re.search(f"^(?:{minutes}):.* tick", followed.output, re.MULTILINE), lambda: followed.output)
 
@@ -147,10 +147,10 @@ def test_a_crash_loop_ends_all_the_same(robot: Robot) -> None:
     robot.deploy("up")
     for count in (1, 2, 3):
         (robot.folder / "fail").touch()
-        until(lambda: robot.deploy("logs").count("ended") == count, lambda: robot.deploy("logs"))
+        until(lambda count=count: robot.deploy("logs").count("ended") == count, lambda: robot.deploy("logs"))
         robot.clock.set((5, -7)[count % 2])
         if count < 3:
-            until(lambda: robot.status()["one"]["restarts"] == count, lambda: robot.deploy("logs"))
+            until(lambda count=count: robot.status()["one"]["restarts"] == count, lambda: robot.deploy("logs"))
     assert "given up: it ended 3 times within 600 s" in robot.deploy("logs")
     assert robot.status()["one"]["state"] == "given up"
     robot.deploy("down")
@@ -204,7 +204,7 @@ def test_a_rule_for_restarts_that_is_newer_by_no_clock(robot: Robot) -> None:
 @pytest.mark.parametrize("year", [1970, 2100])
 def test_a_clock_that_is_wrong_from_the_beginning(robot: Robot, year: int) -> None:
     """As on a machine without a battery for it."""
-    wrong = datetime(year, 1, 2, 12, tzinfo=timezone.utc) - datetime.now(timezone.utc)
+    wrong = datetime(year, 1, 2, 12, tzinfo=UTC) - datetime.now(UTC)
     robot.clock.set(wrong.total_seconds() / 3600)
     robot.deploy("up")
     assert robot.deploy("logs", "-t", "-n", "1").startswith(f"{year}-01-02T")

@@ -9,7 +9,7 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -37,8 +37,8 @@ Rcyaml = Callable[..., Result]
 
 
 @pytest.fixture
-def robot(place: Place, tmp_path: Path, rcyaml: Rcyaml) -> Iterator[Path]:
-    yield write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT})
+def robot(place: Place, tmp_path: Path, rcyaml: Rcyaml) -> Path:
+    return write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT})
 
 
 def deploy(rcyaml: Rcyaml, what: str, *args: str) -> Result:

@@ -231,7 +231,7 @@ def marked(editor: Workbench) -> dict[tuple[str, str], list[str]]:
     return {
         (kind, text): messages
         for kind, rows in TABLES.items()
-        for (text, _), messages in zip(rows, editor.messages(kind, [text + "\n" for text, _ in rows]))
+        for (text, _), messages in zip(rows, editor.messages(kind, [text + "\n" for text, _ in rows]), strict=True)
     }
 
 

@@ -66,7 +66,7 @@ class Workbench:
         All are opened at once, since the server waits a while before it looks at a document.
         """
         paths = [self._document(kind) for _ in texts]
-        return self.marked((path, self._with_modeline(kind, path, text)) for path, text in zip(paths, texts))
+        return self.marked((path, self._with_modeline(kind, path, text)) for path, text in zip(paths, texts, strict=True))
 
     def marked(self, documents: Iterable[tuple[Path, str]]) -> list[list[str]]:
         """The same for whole documents, first line and all."""

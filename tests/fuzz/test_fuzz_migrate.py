@@ -39,7 +39,7 @@ def migrates(files: Tree, *options: str) -> None:
         # documents of an older form, and what rcyaml remembers, are brought up to date
         before = {path: path.read_bytes() for path in folder.rglob("*")
                   if path.is_file() and path.suffix != ".yaml" and path.parent.name != ".rcyaml"}  # fmt: skip
-        result, said = told("migrate", ".", "--report", "report.json", *options)
+        result, _ = told("migrate", ".", "--report", "report.json", *options)
         if result.exit_code == 2:
             return
         assert {path: path.read_bytes() for path in before} == before, "what was there is as it was"

@@ -84,7 +84,7 @@ def artefacts(texts: Texts) -> tuple[dict[str, str] | None, list[dict[str, Any]]
         if errors:
             run("compile")
             return None, errors, written
-        result, more = told("compile")
+        _, more = told("compile")
         errors = [each for each in more if each["severity"] == "error"]
         if errors:
             return None, errors, written

@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import time
+from itertools import pairwise
 from pathlib import Path
 
 _BEFORE_A_PATH = ("-o", "-c", "-I", "-isystem", "-MF", "-MT", "-MQ")
@@ -53,7 +54,7 @@ def _preprocess(command: list[str]) -> list[str]:
 def _identity(command: list[str]) -> bytes:
     compiler = os.stat(os.path.realpath(shutil.which(command[0]) or command[0]))
     words = [
-        word for before, word in zip(command, command[1:])
+        word for before, word in pairwise(command)
         if before not in _BEFORE_A_PATH and word not in _BEFORE_A_PATH and not word.startswith(_WITH_A_PATH)
     ]  # fmt: skip
     return repr((compiler.st_size, compiler.st_mtime_ns, words)).encode()

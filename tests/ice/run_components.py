@@ -71,7 +71,7 @@ def run(root: Path) -> tuple[list[str], int]:
         stage = Stage(COMPONENT, Settings([root / "etc" / "config"], []), Stopping(), only_check=False)
         code = Application(COMPONENT, Caller, (TABLE, Parameters), stage).run()
         wrong += [f"exit code {code}"] if code else []
-    except BaseException:
+    except BaseException:  # noqa: BLE001 - whatever it is, it is what went wrong
         wrong.append(traceback.format_exc())
     return wrong, len(calls)
 
@@ -90,7 +90,10 @@ class Listener(logging.Handler):
 
 def call_all(worker: Any, component: Any) -> Iterator[str]:
     """Calls every method and publishes every event; their names."""
-    pairs = [*zip(component.requires, component.implements), *zip(component.publishes, component.subscribes)]
+    pairs = [
+        *zip(component.requires, component.implements, strict=False),
+        *zip(component.publishes, component.subscribes, strict=False),
+    ]
     for port, served in pairs:
         proxy = getattr(worker, port.accessor)
         for method in served.methods:

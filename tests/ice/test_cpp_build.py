@@ -85,7 +85,7 @@ def test_the_golden_component(tmp_path: Path, standard: int) -> None:
     root = build(MOUTH, tmp_path)["MouthComp"].root
     for name in ("generated/genericworker.cpp", "src/specificworker.cpp"):
         assert (root / name).read_text() == (golden / name).read_text()
-    sources = sorted((root / "generated").rglob("*.cpp")) + [root / "src" / "specificworker.cpp"]
+    sources = [*sorted((root / "generated").rglob("*.cpp")), root / "src" / "specificworker.cpp"]
     (root / "all.cpp").write_text("".join(f'#include "{source.relative_to(root)}"\n' for source in sources))
     command = [*SYNTAX, f"-std=c++{standard}", *slices(root), "all.cpp"]
     done = subprocess.run(command, cwd=root, capture_output=True, text=True)

@@ -54,7 +54,7 @@ def test_values_arrive_as_they_were_written(tmp_path: Path) -> None:
     )
     (tmp_path / "Values.idsl.yaml").write_text(document, encoding="utf-8")
     analysis = pipeline.analyse([str(tmp_path)])
-    assert analysis.diagnostics == []
+    assert not analysis.diagnostics
     (tmp_path / "Values.ice").write_text(target.text(next(iter(analysis.program.modules.values()))), encoding="utf-8")
     assert complaints(tmp_path, ["Values.ice"]) == {}
     show = (

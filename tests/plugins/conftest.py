@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from plugins.wheels import ROOT, SAMPLES, Run, build, install
 
 

@@ -7,9 +7,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from plugins.wheels import Run
 
 from conftest import write_tree
+from plugins.wheels import Run
 
 COMPONENT = {"clock.cdsl.yaml": "component: ClockComp\nlanguage: python\n"}
 NETWORK = {"net.ddsl.yaml": "deployment: net\ncomponents:\n  ping: {program: /bin/sleep}\n"}

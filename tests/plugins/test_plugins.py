@@ -10,9 +10,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from plugins.wheels import ROOT, SAMPLES, Run, build, install
 
 from conftest import read_tree, write_tree
+from plugins.wheels import ROOT, SAMPLES, Run, build, install
 from robocomp_yaml.plugins.kinds import KINDS
 
 pytestmark = pytest.mark.slow

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
-from conftest import CORPUS, needs_corpus
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from conftest import CORPUS, needs_corpus
 from robocomp_yaml.legacy import flat, reading
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.source import properties
@@ -62,5 +64,5 @@ def _places(tree: flat.Tree, comments: list[flat.Token]) -> list[tuple[int, int]
     spans = [(line.meta.start_pos, line.meta.end_pos) for line in flat.lines(tree)]
     spans += [(token.start_pos or 0, token.end_pos or 0) for token in comments]
     spans.sort()
-    assert all(end <= start for (_, end), (start, _) in zip(spans, spans[1:], strict=False)), "nothing is there twice"
+    assert all(end <= start for (_, end), (start, _) in pairwise(spans)), "nothing is there twice"
     return spans

@@ -68,7 +68,7 @@ def compile_(root: Path, files: list[FilePlan], owners: set[str], *, adopt: bool
         with killed_in(kill):
             carry_out(*planned, adopt=adopt)
         # A run that was killed is followed by one that is not.
-    changes, said = carry_out(*planned, adopt=adopt)
+    _, said = carry_out(*planned, adopt=adopt)
     if has_errors(said):
         assert not adopt
         return
@@ -93,4 +93,4 @@ def test_nothing_of_the_user_is_lost(sequence: list[tuple]) -> None:
             else:
                 user.delete(*facts)
             assert not user.lost()
-            assert not [path for path in root.rglob(".rcyaml-*")]
+            assert not list(root.rglob(".rcyaml-*"))

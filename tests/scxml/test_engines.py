@@ -11,7 +11,7 @@ from pathlib import Path
 
 import engines
 import pytest
-from cpp_traces import in_cpp  # noqa: F401 (the fixture)
+from cpp_traces import in_cpp  # noqa: F401 - the fixture
 from engines import Trace
 from random_machines import Maker, odd_machines, read
 

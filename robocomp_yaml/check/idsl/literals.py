@@ -37,11 +37,11 @@ def _fits(linked: LinkedModule, type_: TypeRef, value: Literal, *, default: bool
         found = linked.find(type_)
         if found is None:
             return  # said of the type
-        enum = found[1]
-        if not isinstance(enum, Enum):
+        if not isinstance(found[1], Enum):
             code, span = (codes.DEFAULT_TYPE, value.span) if default else (codes.CONSTANT_TYPE, type_.span)
             yield code.at(span, type=type_.text, hint="only basic types and enums have values that can be written")
             return
+        enum = found[1]
     reason, hint = _of_enum(enum, value) if enum else _of_basic(type_.text, value)
     if reason:
         yield codes.MISFIT.at(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterator
+from typing import Any
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
@@ -26,7 +27,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
     importers: dict[Importer, list[Importer]] = defaultdict(list)
     by_name: dict[str, list[LinkedModule]] = defaultdict(list)
     by_file: dict[str, list[LinkedModule]] = defaultdict(list)
-    for importer in (*program.modules.values(), *program.components.values()):
+    everybody: list[Importer] = [*program.modules.values(), *program.components.values()]
+    for importer in everybody:
         for imported in importer.imports:
             importers[imported].append(importer)
     for linked in sorted(program.modules.values(), key=lambda linked: linked.module.path):
@@ -71,7 +73,7 @@ def _together(importer: Importer, one: LinkedModule, other: LinkedModule) -> Ite
     related = [Related(f"{linked.module.stem} stands here", linked.module.span) for linked in (one, other)]
     first, second = one.module, other.module
 
-    def at(code: Code, hint: str, **facts: str) -> Diagnostic:
+    def at(code: Code, hint: str, **facts: Any) -> Diagnostic:
         span = _import_of(importer, other) or _import_of(importer, one) or _span(importer)
         return code.at(span, hint=hint, related=related, one=first.path, two=second.path, **facts)
 

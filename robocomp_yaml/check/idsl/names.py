@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
+from typing import Any
 
 import msgspec
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.references import Name, groups, kind_of
 from robocomp_yaml.model.interface import Module
@@ -31,8 +33,8 @@ class Fault(msgspec.Struct, frozen=True):
     """Why Slice does not take a word; `facts` fill the code's message beside the word and its kind."""
 
     code: Code
-    hint: str = "choose another name"
-    facts: Mapping[str, str] = {}
+    hint: str | Hint = "choose another name"
+    facts: Mapping[str, Any] = {}
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -79,7 +81,8 @@ def fault_of(word: str) -> Fault | None:
     if "_".join(parts) != word:
         reason = "underscores stand alone, between other characters"
         better = "_".join(parts) if parts and not parts[0][0].isdigit() else ""
-        return Fault(codes.ILLEGAL_NAME, f"write '{better}'" if better else "choose another name", {"reason": reason})
+        hint = Hint(f"write '{better}'", word, better) if better else "choose another name"
+        return Fault(codes.ILLEGAL_NAME, hint, {"reason": reason})
     if word[:3].lower() == "ice":
         return Fault(codes.ILLEGAL_NAME, facts={"reason": f"names that start with '{word[:3]}' are Ice's own"})
     if word.endswith(RESERVED_SUFFIXES):

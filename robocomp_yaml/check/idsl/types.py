@@ -110,7 +110,10 @@ def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | 
             )
     if definers:
         full = f"{definers[0].stem}.{ref.name}"
-        return Hint(f"add {definers[0].stem} to `imports`" + (f", and write '{full}'" if full != ref.text else ""))
+        said = f"add {definers[0].stem} to `imports`"
+        if full == ref.text:
+            return Hint(said, imports=definers[0].stem)
+        return Hint(f"{said}, and write '{full}'", ref.text, full, imports=definers[0].stem)
     meant = index.meant(ref.text, _known(linked, exception), thrown or ())
     return meant or Hint("define it, or import the module that does")
 

@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterator
 
 from robocomp_yaml import languages
-from robocomp_yaml.check.pdsl.expressions import is_sound
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
+from robocomp_yaml.model.expression_types import is_sound
 from robocomp_yaml.model.names import is_identifier
 from robocomp_yaml.model.parameters import Member, Parameters, RecordType
 from robocomp_yaml.source.tree import Mapping, Node, Sequence

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.codes.files import BAD_ICE_TEXT
@@ -53,11 +53,12 @@ def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
     """Endpoints and proxies that Ice would refuse."""
     root = linked.document.root
     manager = root.get("topics")
+    texts: list[tuple[str, Node | None, Callable[[str], object]]]
     texts = [("endpoint", node, parse_endpoints) for node in _own(root.get("endpoints"))]
     texts += [("proxy", node, parse_proxy) for node in _own(root.get("proxies"))]
     texts += [("proxy", manager.get("manager"), parse_proxy)] if isinstance(manager, Mapping) else []
-    for what, node, parse in texts:
-        node = node.get("proxy") if isinstance(node, Mapping) else node
+    for what, given, parse in texts:
+        node = given.get("proxy") if isinstance(given, Mapping) else given
         if not isinstance(node, Scalar) or node.data is None:
             continue
         text = unquoted(node.lexeme)

@@ -180,7 +180,7 @@ def in_words(error: Exception) -> str:
     return " ".join(reason.split()).rstrip(".") or type(error).__name__
 
 
-class _Silent(Ice.Logger):
+class _Silent(Ice.Logger):  # type: ignore[misc]
     """Connections that fail are told as diagnostics."""
 
     def print(self, message: str) -> None:

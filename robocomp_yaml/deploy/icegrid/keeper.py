@@ -29,7 +29,7 @@ _PERIOD = 2.0  # seconds between two looks without an event
 _SHORTEST, _LONGEST = 0.1, 10.0  # seconds between two tries to start a process
 
 
-class Nodes(IceGrid.NodeObserver):
+class Nodes(IceGrid.NodeObserver):  # type: ignore[misc]
     """Notes that something changed."""
 
     def __init__(self, changed: threading.Event) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.deploy import folder as own_folder
@@ -123,10 +124,8 @@ def ended(grid: Grid, places: Places, application: str) -> None:
     """Ends what the engine runs: its servers, the nodes that it started, and the registry."""
     from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
-    try:
+    with suppress(GridFailed):  # a node that does not answer: its servers are gone, or end when it comes back
         grid.remove(application)
-    except GridFailed:
-        pass  # a node that does not answer: its servers are gone, or end when it comes back
     nodes = places.nodes()
     for host, is_ours in nodes.items():
         if is_ours:

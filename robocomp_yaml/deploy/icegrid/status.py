@@ -104,7 +104,7 @@ def _seen(
         return Running(name, spec, host, RUNNING, runner)  # it has just been started
     if last is None:
         return Running(name, spec, host, WAITING if is_wanted else STOPPED)
-    if state in _ALIVE or last.state in _FINAL and is_wanted:
+    if state in _ALIVE or (last.state in _FINAL and is_wanted):
         now = last.state
     else:  # its runner or its node was killed, and the keeper will start it
         now = WAITING if is_wanted else STOPPED

@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from contextlib import suppress
 
 from robocomp_yaml.deploy.local import kernel, procfs, record
 
@@ -34,10 +35,8 @@ def main() -> None:
 
 
 def _pass_on(supervisor: int, number: int) -> None:
-    try:
+    with suppress(ProcessLookupError):
         os.kill(supervisor, number)
-    except ProcessLookupError:
-        pass
 
 
 def _wait_for(supervisor: int) -> int:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from robocomp_yaml.network.network import CONFIG, Network, Process
+from robocomp_yaml.model.deployment import CONFIG
+from robocomp_yaml.network.network import Network, Process
 
 
 def without_config(process: Process) -> tuple[str, ...]:

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
-from robocomp_yaml.check.pdsl.expressions import Scope, type_of
 from robocomp_yaml.model.expression import (
     Attribute,
     Binary,
@@ -21,6 +20,7 @@ from robocomp_yaml.model.expression import (
     Name,
     Unary,
 )
+from robocomp_yaml.model.expression_types import Scope, type_of
 from robocomp_yaml.model.parameters import ListType, MapType, RecordType
 
 _FUNCTIONS = {"len": "size", "abs": "absolute", "min": "least", "max": "most"}

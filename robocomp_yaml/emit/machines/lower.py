@@ -149,8 +149,8 @@ class _Lowering:
                 return [tables.Action("if", branches=tuple(lowered))]
             case model.Foreach(array=array, item=item, index=index, actions=inner):
                 body = tables.Branch(tables.Condition(), self._actions(inner))
-                value = tables.Value("expr", array.text)
-                return [tables.Action("foreach", item.text, value, _name(index), branches=(body,))]
+                over = tables.Value("expr", array.text)
+                return [tables.Action("foreach", item.text, over, _name(index), branches=(body,))]
 
 
 def _name(text: model.Text | None) -> str:

@@ -72,8 +72,8 @@ def _by_git(base: str, yours: str, new: str) -> str | None:
 def _by_library(base: str, yours: str, new: str) -> str:
     from merge3 import Merge3
 
-    sides = [text.splitlines(keepends=True) for text in (base, yours, new)]
-    merged = Merge3(*sides).merge_lines(
+    old, mine, theirs = (text.splitlines(keepends=True) for text in (base, yours, new))
+    merged = Merge3(old, mine, theirs).merge_lines(
         name_a=YOURS, name_b=NEW, name_base=BASE, base_marker=_OLD, start_marker=_OPEN, mid_marker=_MIDDLE,
         end_marker=_CLOSE,
     )  # fmt: skip
@@ -86,6 +86,7 @@ def _read(marked: str, yours: str) -> Merged:
     kept: list[str] = []
     conflicts: list[Conflict] = []
     block: list[str] = []
+    ours: list[str] = []
     side, at = "", 0
     for line in marked.splitlines(keepends=True):
         word = line.rstrip("\r\n")

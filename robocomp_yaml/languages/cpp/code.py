@@ -134,7 +134,7 @@ def _type(parameter: Node) -> str:
     todo = [parameter]
     while todo:
         node = todo.pop()
-        if node.type in ("comment", "=") or node == name or node == default:
+        if node.type in ("comment", "=") or node in (name, default):
             continue
         if node.child_count == 0:
             words.append(text(node))

@@ -7,7 +7,6 @@ from collections.abc import Iterable
 
 import msgspec
 
-from robocomp_yaml.check.pdsl.expressions import Scope, find_member, type_of
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import literal
 from robocomp_yaml.model.expression import (
@@ -24,6 +23,7 @@ from robocomp_yaml.model.expression import (
     Name,
     Unary,
 )
+from robocomp_yaml.model.expression_types import Scope, find_member, type_of
 from robocomp_yaml.model.parameters import ListType, MapType, RecordType
 
 _OURS = ("unique", "keys", "values")  # the functions that are not Python's

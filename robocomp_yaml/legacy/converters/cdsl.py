@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 
 from lark import Token, Tree
@@ -66,10 +65,12 @@ class _Converter:
         """Whether the user's code beside the file was written against what RoboComp's own tool generates."""
         folder = Path(self.reader.source.path).parent
         for name, pattern in self.reader.rules.code.items():
-            with suppress(OSError):  # it is not there, or it is none of our business
+            try:
                 with open(folder / name, encoding="utf-8", errors="replace", opener=regular) as file:
                     if re.search(pattern, file.read()):
                         return True
+            except OSError:
+                continue  # it is not there, or it is none of our business
         return False
 
     def _once(self, clause: Tree[Token]) -> None:

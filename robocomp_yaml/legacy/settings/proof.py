@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.check import checks_of
 from robocomp_yaml.diag.codes import migration as codes
@@ -22,6 +23,7 @@ from robocomp_yaml.legacy.settings.values_document import Links, values_document
 from robocomp_yaml.link.parameters import resolve
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model import build_parameters
+from robocomp_yaml.model.pdsl import ValuesDocument
 from robocomp_yaml.source import schema, tree
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as Mapping_
@@ -57,7 +59,6 @@ class _Draft:
     def __init__(self, plans: Sequence[Plan], configs: Sequence[Config], links: Mapping[str, Links]) -> None:
         self.trees: dict[str, Node | None] = {}
         self.said: list[Diagnostic] = []
-        program = Program()
         root = self._tree("", "pdsl", pdsl_document("component", plans))
         if root is None:
             return
@@ -65,17 +66,19 @@ class _Draft:
         parameters, found = resolve(made)
         self.said += found
         linked = LinkedParameters(parameters, made, broken=has_errors(found))
-        program.parameters[""] = linked
+        documents: dict[str, ValuesDocument] = {}
         for config in configs:
             node = self._tree(config.name, "config", values_document(config, plans, links[config.name], exact=False))
             if node is not None:
-                values = LinkedValues(build_parameters.build_values(node, config.name), parameters=linked)
-                program.values[config.name] = values
-        for name, values in program.values.items():
-            base = program.values.get(first_half(name)) if links[name].after else None
-            if base is not None:
-                values.extends.append(base)
-                base.is_extended = True
+                documents[config.name] = build_parameters.build_values(node, config.name)
+        bases = {name: first_half(name) for name in documents if links[name].after and first_half(name) in documents}
+        first = {
+            name: LinkedValues(document, parameters=linked, is_extended=name in bases.values())
+            for name, document in documents.items()
+        }
+        values = {name: replace(one, extends=(first[bases[name]],)) if name in bases else one
+                  for name, one in first.items()}  # fmt: skip
+        program = Program(parameters={"": linked}, values=values)
         for check in checks_of("pdsl"):
             self.said += check(program)
 

@@ -20,7 +20,7 @@ def check(folder: Path, form: bytes | None, base: str = "QWidget") -> list[Diagn
     if form is not None:
         (folder / "src").mkdir()
         (folder / "src" / "mainUI.ui").write_bytes(form)
-    return pipeline.analyse([str(folder)]).diagnostics
+    return list(pipeline.analyse([str(folder)]).diagnostics)
 
 
 @pytest.mark.parametrize("base", BASES)

@@ -19,7 +19,7 @@ SPEECH = (
     "module: RoboCompSpeech\ntypes: {Mood: {enum: [calm, angry]}}\ninterfaces:\n  Speech:\n    methods:\n"
     "      say: {in: {text: string}}\n"
 )
-LASER = "module: RoboCompLaser\n"
+LASER = "module: RoboCompLaser\ntypes: {Scan: {sequence: float}}\n"
 HEAD = "component: SpeechComp\nlanguage: python\n"
 PDSL = (
     "component: speech.cdsl.yaml\nparameters:\n  speed: {type: float, default: 1}\n  name: {type: string, default: a}\n"
@@ -56,6 +56,16 @@ SAFE = {
     "a key's case, quoted": (IDSL, "'MODULE': M\n", "'module': M\n"),
     "a language's case": (CDSL, "component: A\nlanguage: Python\n", "component: A\nlanguage: python\n"),
     "an entry said twice": (IDSL, "module: M\ndoc: x\ndoc: x # y\n", "module: M\ndoc: x\n# y\n"),
+    "a block said twice": (
+        IDSL, "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n  A:\n    struct:\n      x: int\n# end\n",
+        "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n# end\n",
+    ),
+    "in brackets": (IDSL, "module: M\nx-a: {b: 1, c: [2], b: 1}\n", "module: M\nx-a: {b: 1, c: [2]}\n"),
+    "without a value": (IDSL, "module: M\ntypes:\ntypes:\n", "module: M\ntypes:\n"),
+    "tags": (
+        IDSL, "module: !!str M\ndoc: !!str 5  # five\nx-a: !!map {b: &c !!int 5}\n",
+        'module: "M"\ndoc: "5"  # five\nx-a: {b: &c 5}\n',
+    ),
     "what every component does": (
         CDSL, HEAD + "imports: [CommonBehavior]\nimplements: [CommonBehavior]\n",
         HEAD + "imports: [CommonBehavior]\nimplements: []\n",
@@ -115,6 +125,21 @@ UNSAFE = {
     "with its module": (
         CDSL, HEAD + "imports: [Speech]\nrequires: [Speech.Speach]\n",
         HEAD + "imports: [Speech]\nrequires: [Speech.Speech]\n",
+    ),
+    "an import that is missing": (
+        CDSL, HEAD + "implements: [Speech]\n", HEAD + "imports: [Speech]\nimplements: [Speech]\n",
+    ),
+    "behind others": (
+        CDSL, HEAD.replace("python", "python  # ours") + "imports: [ Laser ]\nimplements: [Speech]\n",
+        HEAD.replace("python", "python  # ours") + "imports: [ Laser, Speech ]\nimplements: [Speech]\n",
+    ),
+    "on a line": (
+        CDSL, HEAD + "imports:\n- Laser  # first\n# then\nimplements: [Speech]\n",
+        HEAD + "imports:\n- Laser  # first\n- Speech\n# then\nimplements: [Speech]\n",
+    ),
+    "with a name": (
+        IDSL, "# M.\r\nmodule: M # m\r\ntypes: {A: {sequence: Scan}, B: {sequence: Laser.Scan}}",
+        "# M.\r\nmodule: M # m\r\nimports: [Laser]\r\ntypes: {A: {sequence: Laser.Scan}, B: {sequence: Laser.Scan}}",
     ),
     "an import": (CDSL, HEAD + "imports: [Speach]\n", HEAD + "imports: [Speech]\n"),
     "a key": (IDSL, "modul: M\n", "module: M\n"),
@@ -191,6 +216,41 @@ def test_a_guess_that_shows_more_than_can_be_mended_is_not_made(rcyaml: Run, tmp
     mendable = text.replace("Quux", "strng").replace("Zork", "flot")
     (tmp_path / IDSL).write_text(mendable)
     assert rcyaml("check", "--unsafe-fixes").exit_code == 0
+
+
+def test_one_error_hides_another(rcyaml: Run, tmp_path: Path) -> None:
+    """Of a text that is no YAML, only the first fault is seen."""
+    text = "module: M\ndoc: @home\nx-more: {a: 1}\nimports: [Laser, Laser]\nx-own: @there\nx-last:\n  - a\n  - `b`\n"
+    after = text.replace("@home", '"@home"').replace("@there", '"@there"').replace("`b`", '"`b`"')
+    files = {"Laser.idsl.yaml": LASER, IDSL: text}
+    assert fixed(rcyaml, tmp_path, files, IDSL) == after.replace("Laser, Laser", "Laser")
+
+
+def test_a_number_in_quotes_is_no_name(rcyaml: Run, tmp_path: Path) -> None:
+    text = "module: 42\ntypes: {A: {enum: [1]}}\n"
+    assert fixed(rcyaml, tmp_path, {IDSL: text}, IDSL, "--unsafe-fixes") == text
+
+
+def test_a_document_is_not_what_it_lacks_itself(rcyaml: Run, tmp_path: Path) -> None:
+    files = {
+        **BESIDE, "speech.pdsl.yaml": PDSL, "a.config.yaml": "component: speech.cdsl.yaml\nextends: [b.config.yaml]\n",
+        "robot.ddsl.yaml": "deployment: R\ngroups: {g: {include: robots.ddsl.yaml}}\n",
+    }
+    write_tree(tmp_path, files)
+    assert "did you mean" not in rcyaml("check").stdout
+
+
+def test_the_workspace_s_own_document(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = {"rcyaml.yaml": "Lint: {RC1104: off}\ninterface: [a]  # here\n", "a/Laser.idsl.yaml": LASER}
+    write_tree(tmp_path, files)
+    monkeypatch.chdir(tmp_path / "a")
+    rcyaml("check", "--unsafe-fixes", ".")
+    assert (tmp_path / "rcyaml.yaml").read_text() == files["rcyaml.yaml"]  # it was not asked for
+    monkeypatch.chdir(tmp_path)
+    rcyaml("check", "--fix")
+    assert (tmp_path / "rcyaml.yaml").read_text() == "lint: {RC1104: off}\ninterface: [a]  # here\n"
+    rcyaml("check", "--unsafe-fixes")
+    assert (tmp_path / "rcyaml.yaml").read_text() == "lint: {RC1104: off}\ninterfaces: [a]  # here\n"
 
 
 def test_a_guess_that_makes_errors_is_not_made(rcyaml: Run, tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ class Slow:
 
 
 def watch(engine: Slow) -> Watch:
-    return Watch(cast(Engine, engine))
+    return Watch(cast("Engine", engine))
 
 
 def test_one_look_is_for_all() -> None:

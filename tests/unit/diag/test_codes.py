@@ -18,6 +18,7 @@ from conftest import write_tree
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.codes.files import NOTHING_FOUND, UNKNOWN_KIND
+from robocomp_yaml.diag.codes.machines import UNKNOWN_ELEMENT
 from robocomp_yaml.diag.page import Files, Repeated
 from robocomp_yaml.source.discover import KINDS
 
@@ -55,6 +56,25 @@ def test_the_wrong_example_gives_the_code(row: Code, rcyaml: Callable[..., Resul
     assert row.id in [d["code"] for d in said]
     assert {d["code"] for d in said if d["severity"] == "error"} <= {row.id}
     assert {d["severity"] for d in said if d["code"] == row.id} == {row.severity}
+    if row.command.startswith("check"):
+        _can_be_fixed(said, rcyaml)
+
+
+def _can_be_fixed(said: list[dict[str, object]], rcyaml: Callable[..., Result]) -> None:
+    """What a hint says was meant is an edit, too, but in XML, whose elements have two names; and what can be fixed is,
+    once, and leaves no more errors."""
+    for told in said:
+        if "did you mean" in str(told["hint"]) and told["code"] != UNKNOWN_ELEMENT.id:
+            assert told["fixes"], told
+            assert str(told["facts"]["meant"]) in str(told["hint"])  # type: ignore[index]
+    if any(told["fixes"] for told in said):
+        fixed, again = (json.loads(rcyaml("check", "--unsafe-fixes", "--format", "json").stdout) for _ in range(2))
+        assert fixed["fixed"] and not again["fixed"]
+        assert _errors(fixed["diagnostics"]) <= _errors(said)
+
+
+def _errors(said: list[dict[str, object]]) -> int:
+    return sum(told["severity"] == "error" for told in said)
 
 
 @pytest.mark.parametrize("row", [row for row in ROWS if row.says], ids=lambda row: row.id)

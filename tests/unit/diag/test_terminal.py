@@ -137,7 +137,7 @@ def test_data_is_escaped_for_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None
 def test_json_is_json_on_a_terminal_too(monkeypatch: pytest.MonkeyPatch) -> None:
     out = Stream(True)
     monkeypatch.setattr(sys, "stdout", out)
-    held = {"text": "".join(c for c in (*INVISIBLE, *NO_CHARACTERS) if not unicodedata.category(c) == "Cs") + "世🤖"}
+    held = {"text": "".join(c for c in (*INVISIBLE, *NO_CHARACTERS) if unicodedata.category(c) != "Cs") + "世🤖"}
     terminal.data(json.dumps(held, ensure_ascii=False, indent=2) + "\n", json=True)
     seen = out.written.decode()
     assert json.loads(seen) == held

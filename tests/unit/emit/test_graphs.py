@@ -155,8 +155,8 @@ def check(made: Geometry) -> None:
             assert x1 == x2 or y1 == y2
             segment = Block(min(x1, x2), min(y1, y2), abs(x1 - x2), abs(y1 - y2))
             assert not any(overlap(segment, node, 0.5) for node in nodes)
-            assert 0 <= segment.x and segment.x + segment.width <= made.width
-            assert 0 <= segment.y and segment.y + segment.height <= made.height
+            assert segment.x >= 0 and segment.x + segment.width <= made.width
+            assert segment.y >= 0 and segment.y + segment.height <= made.height
             key, span = (("x", x1), (y1, y2)) if x1 == x2 else (("y", y1), (x1, x2))
             used.setdefault(key, []).append((min(span), max(span), way.net))
     for runs in used.values():

@@ -32,7 +32,7 @@ def test_the_hash_is_the_same_for_ever() -> None:
 
 def test_the_range_keeps_clear_of_icestorm_and_the_ephemeral_ports() -> None:
     found = [ports.default_port(f"Comp{number}", "CommonBehavior") for number in range(5000)]
-    assert 10000 <= min(found) and max(found) < 32768
+    assert min(found) >= 10000 and max(found) < 32768
     assert len(set(found)) > 4000
 
 

@@ -83,7 +83,7 @@ topics:
 def texts(folder: Path, files: Tree) -> Mapping[str, str]:
     """The Slice of the modules of a tree that has no errors."""
     analysis = pipeline.analyse([str(write_tree(folder, files))])
-    assert analysis.diagnostics == []
+    assert not analysis.diagnostics
     return {target.file_name(linked): target.text(linked) for linked in analysis.program.modules.values()}
 
 
@@ -99,7 +99,7 @@ def test_everything(golden: Callable[[str, Mapping[str, str]], None], tmp_path: 
 
 def test_the_text_does_not_depend_on_the_order_of_files(tmp_path: Path) -> None:
     names = ["Everything.idsl.yaml", "Types.idsl.yaml", "Third.idsl.yaml"]
-    write_tree(tmp_path, dict(zip(names, [EVERYTHING, TYPES, "module: RoboCompThird\nimports: [Everything]\n"])))
+    write_tree(tmp_path, dict(zip(names, [EVERYTHING, TYPES, "module: RoboCompThird\nimports: [Everything]\n"], strict=True)))
     seen = []
     for order in itertools.permutations(names):
         program = pipeline.analyse([str(tmp_path / name) for name in order]).program

@@ -40,7 +40,7 @@ PLAIN = "component: Door\nlanguage: LANGUAGE\n"
 def planned(folder: Path, document: str, language: str, **others: str) -> dict[str, FilePlan]:
     write_tree(folder, {"door.cdsl.yaml": document.replace("LANGUAGE", language), **others})
     analysis = analyse([str(folder)])
-    assert analysis.diagnostics == []
+    assert not analysis.diagnostics
     [component] = analysis.program.components.values()
     return {file.path: file for file in target(language).part("plan").plan(component)}
 

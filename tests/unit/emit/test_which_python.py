@@ -308,7 +308,7 @@ def old_python(place: Place) -> None:
     runtime = place.root / "generated" / "runtime"
     runtime.mkdir(parents=True)
     (place.root / "interpreter.py").rename(runtime / "interpreter.py")
-    (runtime / "__init__.py").write_text(resources.text("templates/python/runtime/__init__.py"))
+    (runtime / "__init__.py").write_text(language("python").text("runtime/__init__.py"))
     (runtime / "main.py").write_text("import sys\ndef main():\n    print(sys.executable, *sys.argv[1:])\n")
 
 
@@ -328,7 +328,7 @@ def test_or_says_which_one_is_wanted(place: Place) -> None:
 
 @pytest.mark.parametrize("name", ["__init__.py", "interpreter.py"])
 def test_it_is_spelled_for_old_pythons(name: str) -> None:
-    text = resources.text(f"templates/python/runtime/{name}")
+    text = language("python").text(f"runtime/{name}")
     tree = ast.parse(text, feature_version=(3, 5))
     assert not [node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr | ast.AnnAssign | ast.NamedExpr)]
     hints = [node.annotation for node in ast.walk(tree) if isinstance(node, ast.arg)]

@@ -92,7 +92,7 @@ def test_instances_are_counted_out_in_every_text(link: Link) -> None:
     assert (last.number, last.entry.args[0].text, last.entry.env[0].value) == (2, "--n=2", "2")
     assert last.entry.settings is not None and last.entry.settings.data == {"number": 2, "id": "2", "lips[0]": 2}
     assert last.entry.ready is not None and last.entry.ready.log == "mouth 2 ready"
-    assert linked.instances["speech1"].after == [linked.instances["mouth1"]]
+    assert linked.instances["speech1"].after == (linked.instances["mouth1"],)
     assert linked.instances["speech1"].entry.connect[0].text == "mouth1"
     assert [member.name for member in linked.groups["mouths"].members] == ["mouth0", "mouth1", "mouth2"]
 
@@ -120,7 +120,7 @@ def test_includes_of_includes(link: Link) -> None:
     body = "deployment: Body\ninclude: {arm: arm.ddsl.yaml}\ncomponents: {heart: {program: beat, after: [arm.hand]}}\n"
     linked = link("include: {body: body.ddsl.yaml}\n", body=body, arm=ARM)
     assert list(linked.instances) == ["body.heart", "body.arm.elbow", "body.arm.hand"]
-    assert linked.instances["body.heart"].after == [linked.instances["body.arm.hand"]]
+    assert linked.instances["body.heart"].after == (linked.instances["body.arm.hand"],)
     assert linked.find("body.arm.elbow.Mouth", "") == ([linked.instances["body.arm.elbow"]], "Mouth")
     assert linked.find("arm.elbow", "body.") == ([linked.instances["body.arm.elbow"]], "")
 

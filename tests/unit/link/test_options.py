@@ -46,7 +46,7 @@ def ports(component: LinkedComponent) -> dict[str, list[str]]:
 def test_an_agm_agent(linked: Callable[..., tuple[Analysis, LinkedComponent]], spelling: str) -> None:
     text = f"component: Agent\nlanguage: cpp\nimports: [Arm]\nrequires: [Arm]\noptions: [{spelling}]\n"
     analysis, component = linked(text)
-    assert analysis.diagnostics == []
+    assert not analysis.diagnostics
     assert ports(component) == {
         "implements": ["AGMCommonBehavior"], "requires": ["Arm", "AGMExecutive"], "publishes": [],
         "subscribes": ["AGMExecutiveTopic"],
@@ -62,7 +62,7 @@ def test_what_the_document_says_is_not_added_again(linked: Callable[..., tuple[A
         "requires: [AGMExecutive.AGMExecutive]\nsubscribes: [{Plans: AGMExecutiveTopic}]\noptions: [agmagent]\n"
     )
     analysis, component = linked(text)
-    assert analysis.diagnostics == []
+    assert not analysis.diagnostics
     assert ports(component)["requires"] == ["AGMExecutive"] and ports(component)["subscribes"] == ["Plans"]
 
 

@@ -64,7 +64,7 @@ def machine_of(folder: Path, statemachine: str, scxml: str = "") -> StateMachine
     document = f"component: C\nlanguage: python\nstatemachine:{statemachine}"
     write_tree(folder, {"c/c.cdsl.yaml": document, "c/c.scxml": scxml or "<a/>"})
     analysis = analyse([str(folder)])
-    assert analysis.diagnostics == []
+    assert not analysis.diagnostics
     [component] = analysis.program.components.values()
     assert component.machine is not None
     return component.machine

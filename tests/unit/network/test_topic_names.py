@@ -35,7 +35,7 @@ CASES: tuple[tuple[str, list[NamedEnd], list[str]], ...] = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("ends, names", [case[1:] for case in CASES], ids=[case[0] for case in CASES])
+@pytest.mark.parametrize(("ends", "names"), [case[1:] for case in CASES], ids=[case[0] for case in CASES])
 def test_full_names(ends: list[NamedEnd], names: list[str]) -> None:
     assert full_names(ends, SCOPES) == names
 

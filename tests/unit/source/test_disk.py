@@ -47,7 +47,7 @@ def test_a_tree_that_is_nowhere_saved_says_the_same(
     saved = write_tree(tmp_path / "saved", texts)
     monkeypatch.chdir(saved)
     expected = _facts(analyse(paths))
-    for before in ({}, {name: b"\xff: [" for name in texts}):
+    for before in ({}, dict.fromkeys(texts, b"\xff: [")):
         other = tmp_path / f"other{len(before)}"
         other.mkdir()
         monkeypatch.chdir(write_tree(other, before))
@@ -69,6 +69,14 @@ def test_what_was_read_and_missed_is_remembered(tmp_path: Path) -> None:
     assert disk.listed == {str(tmp_path): ["x.yaml"], d: [], str(tmp_path / "e"): ["y.YAML"]}
     assert disk.state(str(tmp_path / "link")) == OTHER and disk.state(str(tmp_path / "new")) == FOLDER
     assert disk.has_folder(str(tmp_path / "new")) and not disk.has_folder(str(tmp_path / "old"))
+
+
+def test_the_way_up_from_a_folder_that_is_not_saved(tmp_path: Path) -> None:
+    write_tree(tmp_path, {"a": "1", "x.yaml": ""})
+    disk = Disk({str(tmp_path / "new/c"): b"4"})
+    above = str(tmp_path / "new" / "..")
+    assert disk.has_file(f"{above}/a") and disk.read(f"{above}/a")[0] == b"1" and disk.peek(f"{above}/a", 1) == b"1"
+    assert disk.documents(above) == ["x.yaml"] and not disk.has_file(f"{above}/b")
 
 
 def test_a_walk_is_sorted_and_can_be_cut(tmp_path: Path) -> None:

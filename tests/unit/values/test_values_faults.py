@@ -127,7 +127,7 @@ def test_layers_merge_replace_and_return_to_defaults(tmp_path: Path) -> None:
         "x.config.yaml": GOOD.replace("parameters:\n", top),
     })
     analysis = analyse([str(tmp_path / "x.config.yaml")])
-    assert analysis.diagnostics == []
+    assert not analysis.diagnostics
     found, _ = effective(analysis.program.values[str(tmp_path / "x.config.yaml")])
     assert found is not None
     data = found.data

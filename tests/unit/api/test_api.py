@@ -1,0 +1,143 @@
+"""The front door: what it promises, and that the command line says nothing else."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import ROOT, Tree, read_tree, write_tree
+from robocomp_yaml import api
+
+Rcyaml = Callable[..., Result]
+
+SPEECH = "module: RoboCompSpeech\ninterfaces: {Speech: {methods: {say: {in: {text: string}}}}}\n"
+TREE: Tree = {
+    "rcyaml.yaml": "interfaces: [interfaces]\n",
+    "interfaces/Speech.idsl.yaml": SPEECH,
+    "speech/speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n",
+    "speech/speech.pdsl.yaml": "component: speech.cdsl.yaml\nparameters:\n  volume: {type: int, default: 3, range: [0, 9]}\n",
+    "speech/etc/config.yaml": "component: ../speech.cdsl.yaml\nparameters: {volume: 4}\n",
+    "robot.ddsl.yaml": "deployment: Robot\ncomponents: {speech: {component: speech}}\n",
+}
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(write_tree(tmp_path, TREE))
+    return tmp_path
+
+
+def test_all_that_is_promised_is_there() -> None:
+    assert sorted(api.__all__) == sorted(set(api.__all__))
+    for name in api.__all__:
+        assert getattr(api, name) is not None
+    with pytest.raises(AttributeError):
+        api.nothing  # noqa: B018
+
+
+def test_the_door_itself_is_light() -> None:
+    code = "import sys, robocomp_yaml.api; print(*(m for m in sys.modules if m.startswith('robocomp_yaml.')))"
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT).stdout
+    assert {name.split(".")[1] for name in out.split()} <= {"api", "diag"}
+
+
+def test_check_says_what_the_command_says(place: Path, rcyaml: Rcyaml) -> None:
+    write_tree(place, {"interfaces/Bad.idsl.yaml": "module: RoboCompBad\nimports: [Speach]\n"})
+    told = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
+    found = api.load().check()
+    assert [(one.code, one.message, one.span.file, one.span.line) for one in found] == [
+        (one["code"], one["message"], one["file"], one["line"]) for one in told
+    ]
+    assert str(found[0]) == (
+        "interfaces/Bad.idsl.yaml:2:11: error[RC1101]: there is no interface document called 'Speach'"
+    )
+
+
+def test_an_overlay_counts_everywhere(place: Path) -> None:
+    texts = {
+        "interfaces/Speech.idsl.yaml": SPEECH.replace("say:", "stop: {}, say:"),
+        "mouth/mouth.cdsl.yaml": "component: MouthComp\nlanguage: cpp\nimports: [Speech]\nrequires: [Speech]\n",
+        "speech/etc/config.yaml": "component: ../speech.cdsl.yaml\nparameters: {volume: 7}\n",
+        "robot.ddsl.yaml": "deployment: Robot\ncomponents: {a: {component: speech}, b: {component: mouth}}\n",
+    }
+    before = read_tree(place)
+    workspace = api.load(overlay=texts)
+    assert "mouth/mouth.cdsl.yaml" in workspace.documents
+    assert {one.code for one in workspace.check()} == {"RC4403"}  # the documents are right; nothing is compiled yet
+    assert sorted(workspace.network().processes) == ["a", "b"]
+    assert workspace.values("speech/etc/config.yaml").get("volume") == 7
+    paths = {file.path for file in workspace.compile().files}
+    assert {"mouth/CMakeLists.txt", "speech/bin/SpeechComp"} <= paths
+    assert read_tree(place) == before
+
+
+def test_compiling_is_a_plan_first(place: Path, rcyaml: Rcyaml) -> None:
+    before = read_tree(place)
+    plan = api.load().compile()
+    assert plan.dirty and not plan.has_errors and read_tree(place) == before
+    diff = next(file.diff for file in plan.look(with_diff=True).files if file.path == "slice/Speech.ice")
+    assert "+module RoboCompSpeech" in diff
+    done = plan.apply()
+    assert [(file.path, file.action) for file in done.files] == [(file.path, file.action) for file in plan.files]
+    assert rcyaml("compile", "--check").exit_code == 0
+    assert not api.load().compile().dirty
+
+
+def test_a_plan_is_carried_out_on_the_disk_as_it_is_then(place: Path) -> None:
+    plan = api.load().compile()
+    write_tree(place, {"slice/Speech.ice": "// mine\n"})
+    done = plan.apply()
+    assert {one.code for one in done.diagnostics if one.severity == api.ERROR} == {"RC6001"}
+    assert (place / "slice/Speech.ice").read_text() == "// mine\n"
+    assert not (place / "slice/CommonBehavior.ice").exists()
+
+
+def test_which_network(place: Path) -> None:
+    assert api.load().network("robot.ddsl.yaml").name == "Robot"
+    write_tree(place, {"arm.ddsl.yaml": "deployment: Arm\ncomponents: {x: {program: /bin/true}}\n"})
+    workspace = api.load()
+    assert sorted(workspace.networks) == ["arm.ddsl.yaml", "robot.ddsl.yaml"]
+    with pytest.raises(api.Refused, match="arm.ddsl.yaml, robot.ddsl.yaml"):
+        workspace.network()
+    with pytest.raises(api.Refused, match="no deployment at 'leg.ddsl.yaml'"):
+        workspace.network("leg.ddsl.yaml")
+    write_tree(place, {"arm.ddsl.yaml": "deployment: [\n"})
+    with pytest.raises(api.Faulty) as faulty:
+        api.load().network("arm.ddsl.yaml")
+    assert {one.span.file for one in faulty.value.diagnostics} == {"arm.ddsl.yaml"}
+    with pytest.raises(api.Refused, match="no deployment"):
+        api.load("interfaces").network()
+
+
+def test_values(place: Path) -> None:
+    values = api.load().values("SpeechComp")
+    assert values.file == "speech/etc/config.yaml" and not values.diagnostics
+    row = values.rows()[0]
+    assert (row.path, row.data, row.node is not None) == ("volume", 4, True)
+    with pytest.raises(api.Refused, match="did you mean 'volume'"):
+        values.get("volumee")
+    with pytest.raises(api.Faulty, match="0 to 9"):
+        values.set("volume", "10")
+    change = values.set("volume", "9")
+    assert (change.value, change.was) == ("9", "4") and "+parameters: {volume: 9}" in change.diff()
+    assert values.get("volume") == 4
+    change.apply()
+    assert api.load().values("speech").get("volume") == 9
+    assert "volume=9" in api.load().values("speech").export()
+
+
+def test_migrating_is_a_plan_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_tree(tmp_path, {"old/Mouth.idsl": "module RoboCompMouth { interface Mouth { void close(); }; };\n"})
+    migration = api.migrate("old")
+    assert ("old/Mouth.idsl.yaml", "create") in [(file.path, file.action) for file in migration.files]
+    assert not (tmp_path / "old/Mouth.idsl.yaml").exists() and not migration.has_errors and migration.lost == 0
+    migration.apply()
+    assert api.load("old").check() == []
+    assert {file.action for file in api.migrate("old").files} == {"unchanged"}
