@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-from robocomp_yaml.emit.plan import FilePlan
+from robocomp_yaml.transactions.plan import FilePlan
 
 from conftest import write_tree
 from fuzz.hostile import STRINGS
