@@ -12,20 +12,23 @@ FUZZ_MINUTES ?= 10
 demo_NEEDS := python3-venv python3-zeroc-ice
 test_NEEDS := $(demo_NEEDS) \
   zeroc-ice-compilers libzeroc-ice-dev zeroc-ice-slice zeroc-icebox libzeroc-icestorm3.7 zeroc-icegrid zeroc-ice-utils \
-  qt6-base-dev cmake g++ make ninja-build nodejs npm git openssl iproute2
+  qt6-base-dev cmake g++ make ninja-build nodejs npm git openssl iproute2 \
+  openjdk-17-jdk-headless libzeroc-ice3.7-java
 # More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server, and systemd.
 MORE ?=
 
-.PHONY: help demo test fast fuzz lint macros bench ice clean system-demo system-test
+.PHONY: help demo test fast unit fuzz lint format macros bench ice clean system-demo system-test
 .NOTPARALLEL:
 
 help:
 	@echo "make demo   install into $(VENV), and run the example: migrate, check, compile, deploy, call"
 	@echo "make test   install what the tests need, and run them all"
+	@echo "make unit   the tests of parts by themselves: some 20 seconds"
 	@echo "make fast   the tests that need neither C++ builds nor an editor"
 	@echo "make fuzz   look for new failing examples, for FUZZ_MINUTES=10 minutes"
 	@echo "make bench  the benchmarks, as ratios"
-	@echo "make lint   the layers of the modules"
+	@echo "make lint   the code by itself: rules, types, layers"
+	@echo "make format the order of imports, and the format, of all code"
 	@echo "make macros the names that C++ takes, from this machine's compiler and headers"
 	@echo "make ice    compile Ice into $(VENV), where Debian's python3-zeroc-ice cannot be installed: minutes"
 	@echo "make clean  remove $(VENV) and what the demo made"
@@ -48,11 +51,14 @@ ice: $(VENV)/rcyaml
 	@$(PYTHON) tools/prepare.py ice
 
 test: system-test $(VENV)/tests
-	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q --reruns 2 --reruns-delay 1
+	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q
 
 # The names that C++ takes, as this machine's compiler and headers have them; it only adds.
 macros: $(VENV)/tests
 	@$(VENV)/bin/python tests/ice/cpp_macros.py
+
+unit: $(VENV)/tests
+	@$(VENV)/bin/python -m pytest -q -m unit
 
 fast: $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) -q -m 'not slow' --ignore tests/editor --ignore tests/ice
@@ -61,7 +67,10 @@ fuzz: $(VENV)/tests
 	@$(VENV)/bin/python tests/fuzz/run.py --minutes $(FUZZ_MINUTES) --jobs $(JOBS)
 
 lint: $(VENV)/tests
-	@$(VENV)/bin/lint-imports
+	@$(VENV)/bin/python tools/lint.py
+
+format: $(VENV)/tests
+	@$(VENV)/bin/python tools/lint.py --fix
 
 bench: $(VENV)/rcyaml
 	@$(VENV)/bin/python benchmarks/run.py

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,7 +11,6 @@ from typing import Any
 
 from conftest import ROOT
 from parameters import Data
-
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.cpp import parameters as cpp_parameters
 from robocomp_yaml.model.parameters import Parameters
@@ -31,7 +31,7 @@ class Program:
         command = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", f"-I{folder}", "-o", str(folder / "driver")]
         done = subprocess.run([*command, str(folder / "all.cpp")], capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
-        self.path = folder / "driver"
+        self.command = [str(folder / "driver")]
 
     def judge(self, asked: list[tuple[str, Any]]) -> Iterator[list[str]]:
         """What is wrong with data for members, but for what is about the environment."""
@@ -51,7 +51,7 @@ class Program:
 
     def ask(self, lines: list[str]) -> Iterator[list[str]]:
         """The words of each answer."""
-        done = subprocess.run([self.path], input="\n".join(lines) + "\n", capture_output=True, text=True, env={})
+        done = subprocess.run(self.command, input="\n".join(lines) + "\n", capture_output=True, text=True, env={"PATH": os.environ["PATH"]})
         assert done.returncode == 0, done.stderr
         answers = done.stdout.splitlines()
         assert len(answers) == len(lines)

@@ -6,7 +6,6 @@ import os
 from pathlib import Path
 
 from conftest import Tree, write_tree
-
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Network, Process
 from robocomp_yaml.pipeline import Analysis, analyse

@@ -13,12 +13,15 @@ import pytest
 from robocomp_yaml.deploy.local import procfs
 
 
-def only(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of all that listens, only what this process started is seen, or a deployment in this folder."""
+def only(folder: Path | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of all that listens, only what this process started is seen, or a deployment in this folder; without one,
+    nothing is, and nobody looks."""
     listeners, connect = procfs.listeners, asyncio.open_connection
-    here = os.path.realpath(folder)
+    here = os.path.realpath(folder or "")
 
     def own_listeners(ports: Collection[int]) -> dict[int, list[int]]:
+        if folder is None:
+            return {}
         found = listeners(ports)
         alive = procfs.table() if found else {}
         deployed = [pid for pid in alive if procfs.mark_of(pid).startswith(here)]

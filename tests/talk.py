@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from conftest import write_tree
-
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.pipeline import analyse

@@ -15,13 +15,13 @@ from typing import Any
 import jsonschema
 import jsonschema_rs
 
+import accessors
+from parameters import tree
 from robocomp_yaml.model.parameters import Parameters
 from robocomp_yaml.values.json_schema import EFFECTIVE, values_schema
 from robocomp_yaml.values.judge import judge
 from robocomp_yaml.values.normalize import cerberus_verdict
 from robocomp_yaml.values.spell_yaml import flow
-import accessors
-from parameters import tree
 
 Judge = Callable[[Parameters, Any], bool]
 CASES = int(os.environ.get("RCYAML_CASES", "200"))

@@ -72,10 +72,12 @@ def migrate(
     return Migration(paths, output, tuple(include), force=force, exact=exact)
 
 
-def __getattr__(name: str) -> Any:
-    """Types are imported when somebody asks for them: what a command does not need, it does not load."""
-    if name not in _HOMES:
-        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-    from importlib import import_module
+if not TYPE_CHECKING:  # which would believe in any name
 
-    return getattr(import_module(f"robocomp_yaml.{_HOMES[name]}"), name)
+    def __getattr__(name: str) -> Any:
+        """Types are imported when somebody asks for them: what a command does not need, it does not load."""
+        if name not in _HOMES:
+            raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+        from importlib import import_module
+
+        return getattr(import_module(f"robocomp_yaml.{_HOMES[name]}"), name)

@@ -26,7 +26,9 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
 
     `name` is what documents say, `title` what is said of it. `package` holds its parts, modules that are imported when
     they are asked for: `plan` always; `code` where it has MERGING; `uses` for libraries; `checks` for names that it
-    cannot have, where it `has_checks`. Its templates stand there too, in `templates/`.
+    cannot have, where it `has_checks`: they are run where a component is in the language, or always if it
+    `warns_others` (then with `has_taken(module)`, for documents that are migrated). Its templates stand there too, in
+    `templates/`.
 
     `has` are its capabilities. `ignored` are keys that a document may say all the same, to no effect, since nothing is
     built there. `datamodels` are those of state machines, the usual one first.
@@ -36,8 +38,8 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
 
     `program` is what is started, relative to the component's folder, with {name} for the component's. `build` are the
     commands that make it, with {folder} for that folder; none where `compile` writes it. `loaded` are the files that
-    the program reads when it starts: folders, and how the names of the files there end. `suffixes` are those of code
-    that `code` reads, and `comment` is how a line of comment begins there.
+    the program reads when it starts: folders, and how the names of the files there end. `suffixes` are those of code,
+    which `code` reads where it has MERGING, and `comment` is how a line of comment begins there.
     """
 
     name: str
@@ -57,6 +59,7 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     suffixes: tuple[str, ...] = ()
     comment: str = "//"
     has_checks: bool = False
+    warns_others: bool = False
 
     def part(self, name: str) -> ModuleType:
         """The module of the language that is called so."""

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from cpp_programs import FAST, cmake, needs_cpp
 
 from conftest import needs_corpus
+from cpp_programs import FAST, cmake, needs_cpp
 from robocomp_yaml.cli import group
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.pipeline import analyse

@@ -9,10 +9,10 @@ import pytest
 from click.testing import CliRunner
 
 from conftest import CORPUS, needs_corpus
+from corpus.slice_oracle import checksums
 from robocomp_yaml.cli import group
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.pipeline import analyse
-from corpus.slice_oracle import checksums
 
 DEBIAN = Path("/usr/share/ice/slice")
 ICES_OWN = "RC1002"  # no module of a user can be called Ice…, and Ice's own files are

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from rcmanager_facts import facts
 
 from conftest import CORPUS, needs_corpus
+from rcmanager_facts import facts
 from robocomp_yaml.cli import group
 from robocomp_yaml.emit.exports import export
 from robocomp_yaml.network.network import Network

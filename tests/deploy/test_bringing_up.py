@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from msgspec.structs import replace
+
 from processes import Ports
 from robocomp_yaml.deploy.carry_out import GONE, READY, STARTING, STOPPING
 from robocomp_yaml.deploy.engine import RUNNING

@@ -17,8 +17,8 @@ from click.testing import Result
 
 from conftest import write_tree
 from processes import Ports, until
-from robocomp_yaml.languages import language
 from robocomp_yaml.deploy.local import procfs
+from robocomp_yaml.languages import language
 from small_networks import Place
 from terminals import foreign
 

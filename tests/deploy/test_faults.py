@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from processes import Ports, until
 import robocomp_yaml.deploy
+from processes import Ports, until
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import SKIPPED

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from processes import until
 from three_hosts import Deployment, talking_head
 

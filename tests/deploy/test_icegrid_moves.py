@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from processes import until
 from small_networks import is_alive
 from three_hosts import Deployment, talking_head

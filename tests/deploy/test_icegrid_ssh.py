@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from conftest import write_tree
 from processes import until
 from three_hosts import Deployment, three_hosts

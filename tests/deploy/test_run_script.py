@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
-from processes import until
 
+from processes import until
 from robocomp_yaml import resources
 from robocomp_yaml.deploy.icegrid.status import of_text
 

@@ -21,9 +21,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from conftest import ROOT, write_tree
 from processes import until
-
 from robocomp_yaml.deploy.local import procfs
 
 NAMES = ("onboard", "head", "arm")

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from editor.workbench import Workbench
 from editor.yaml_language_server import LanguageServer
 

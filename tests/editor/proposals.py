@@ -6,7 +6,6 @@ from collections.abc import Iterable
 
 from editor.snippets import inserted
 from editor.workbench import Proposal
-
 from robocomp_yaml.source import schema, tree
 
 

@@ -5,11 +5,11 @@ Each row is a kind, a text with the cursor as `|`, and the labels proposed, in t
 
 from __future__ import annotations
 
-
 import pytest
+
 from editor.proposals import assert_can_stand_there
 from editor.workbench import Workbench
-
+from robocomp_yaml.languages import table
 
 BASIC = "bool byte short int long float double string".split()
 TYPE = [*BASIC, "type of another module"]
@@ -105,15 +105,19 @@ IDSL = [
 ]  # fmt: skip
 
 ENTRY = ["under a name of its own", "with more about it"]
+LANGUAGES = [
+    label for one in table().values()
+    for label in (one.name, *([f"{one.name} with its standard"] if one.standards else []))
+]  # fmt: skip
 CDSL = [
     ("|", ["component document", "imports: […]", "implements: […]", "requires: […]", "publishes: […]",
            "subscribes: […]", "period: 100 ms", "gui: {…}", "statemachine: …", "uses: …", "component",
            "doc", "language", "imports", "implements", "requires", "publishes", "subscribes", "parameters", "period",
            "statemachine", "gui", "options", "compatibility", "uses"]),
     ("component: |", ["SpeechComp"]),
-    ("component: A\nlanguage: |", ["python", "cpp", "cpp with its standard"]),
+    ("component: A\nlanguage: |", LANGUAGES),
     ("component: A\nlanguage: {n|}", ["name", "standard"]),
-    ("component: A\nlanguage: {name: |}", ["python", "cpp"]),
+    ("component: A\nlanguage: {name: |}", [*table()]),
     ("component: A\nlanguage: {name: cpp, standard: |}", ["17", "20", "23"]),
     (COMPONENT + "imports: |", ["list of imports"]),
     (COMPONENT + "implements: |", ["list of interfaces"]),

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from editor.proposals import assert_can_stand_there
 from editor.workbench import Workbench
-
 from robocomp_yaml.source.schema_text import schema_text
 
 D = "deployment: A\n"

@@ -9,8 +9,8 @@ import json
 from pathlib import Path
 
 import pytest
-from editor.workbench import Workbench
 
+from editor.workbench import Workbench
 from robocomp_yaml.source import schema, tree
 from robocomp_yaml.source.discover import kind_of
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from editor.workbench import Workbench
 
+from editor.workbench import Workbench
 from robocomp_yaml.source.schema_text import schema_text
 
 IDSL = [

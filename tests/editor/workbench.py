@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 from editor.yaml_language_server import LanguageServer
-
 from robocomp_yaml.link import workspace_files
 
 SUFFIX = {

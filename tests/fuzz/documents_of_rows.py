@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+from conftest import ROOT, Tree
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.page import Repeated
-
-from conftest import ROOT, Tree
 
 LARGE = 20_000
 LEGACY = (".idsl", ".ice", ".cdsl", ".smdsl", ".jcdsl", ".pdsl", ".pconf", ".conf", ".toml", ".xml", ".launcher", "config")

@@ -1,7 +1,7 @@
 """`kill -9`, and a full disk, at any moment of any command that writes: the next run puts all in order, and nothing of
 the user's is ever lost.
 
-How a commit of many files behaves at each of its calls is in tests/unit/emit/test_writer_faults.py; here whole commands
+How a commit of many files behaves at each of its calls is in tests/integration/transactions/test_writer_faults.py; here whole commands
 are killed, at each thing that they do to a disk.
 """
 
@@ -17,11 +17,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from disk import tree
 from hypothesis import given
 from hypothesis import strategies as st
 
 from conftest import FUZZING, Tree
+from disk import tree
 from fuzzing import examples, run, standing_in
 
 SPEECH = "module: RoboCompSpeech\ninterfaces: {Speech: {methods: {say: {in: {text: string}}}}}\n"

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from conftest import read_tree
 from fuzzing import as_bytes, examples, run, standing_in, told
 from hostile import STRINGS
-from robot import TREE
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
 from robocomp_yaml.values.spell_yaml import flow
+from robot import TREE
 from skeletons import structure
 
 Place = tuple[str, tuple[str | int, ...]]  # a document, and the steps to a text in it; "" at the end for a key

@@ -40,7 +40,9 @@ SMALL_CPP = COMPONENT.replace("python", "cpp")
 HOSTILE: dict[str, Tree] = {
     "a YAML tag": {"x.idsl.yaml": f"module: !!python/object/apply:os.system [{EVIL!r}]\n"},
     "a template in texts": {**ROBOT, "Speech.idsl.yaml": SPEECH + "doc: \"{{ ''.__class__.__mro__ }} {% include '/etc/passwd' %}\"\n"},
-    "modules beside the documents": {**ROBOT, **dict.fromkeys(("yaml.py", "click.py", "jinja2.py", "robocomp_yaml.py", "sitecustomize.py", "conftest.py", "setup.py", "speech/Ice.py"), PYTHON)},
+    "modules beside the documents": {**ROBOT, **dict.fromkeys((
+        "yaml.py", "click.py", "jinja2.py", "robocomp_yaml.py", "sitecustomize.py", "conftest.py", "setup.py", "speech/Ice.py",
+    ), PYTHON)},
     "code in a parameter": {**ROBOT, "speech/speech.pdsl.yaml": (
         "component: speech.cdsl.yaml\nparameters: {a: {type: int, default: 1}}\n"
         f"constraints: [\"__import__('os').system('touch EXECUTED')\", \"{EVIL}\", \"a.__class__\"]\n"

@@ -14,7 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from components import Build, Built, build as build_components
+
+from components import Build, Built
+from components import build as build_components
 from cpp_programs import programs  # noqa: F401 (the fixture)
 from processes import Ports, Running, Start, Storm, answers, until
 from robocomp_workers import NO_QT

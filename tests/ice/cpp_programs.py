@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
 from components import build
 from cpp_sources import DOCUMENTS, SOURCES
 

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 from click.testing import Result
-from processes import Ports, Start
-from robocomp_workers import NO_QT
 
 from conftest import write_tree
+from processes import Ports, Start
+from robocomp_workers import NO_QT
 
 IDSL = "module RoboCompEcho { interface Echo { string say(string text, out int length); }; };\n"
 CDSL = """import "Echo.idsl";

@@ -15,11 +15,11 @@ from pathlib import Path
 
 import pytest
 from click.testing import Result
+
+from conftest import read_tree, write_tree
 from cpp_programs import FAST, cmake, needs_cpp, needs_qt
 from processes import Storm
 from scenario import INTERFACES
-
-from conftest import read_tree, write_tree
 
 Run = Callable[..., Result]
 Keys = Mapping[str, object]

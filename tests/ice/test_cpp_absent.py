@@ -7,6 +7,7 @@ import socket
 from pathlib import Path
 
 import pytest
+
 from cpp_programs import Program, Programs, needs_cpp
 from processes import Ports, Running, Start, until
 

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 from click.testing import Result
+
 from components import build
+from conftest import ROOT, write_tree
 from cpp_programs import cmake, in_all_builds, needs_cpp
 from mouth import MOUTH
 from processes import Start
 from scenario import INTERFACES, cdsl
-
-from conftest import ROOT, write_tree
 
 pytestmark = [pytest.mark.slow, needs_cpp]
 SYNTAX = ["g++", "-DICE_CPP11_MAPPING", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-Igenerated", "-Isrc"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+
 from components import Build, Built
 from cpp_programs import Programs, needs_cpp
 from processes import Ports, Start

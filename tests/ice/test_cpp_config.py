@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from cpp_programs import Program, Programs, needs_cpp
 from processes import Ports, Start, answers
 

@@ -11,14 +11,14 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from cpp_programs import needs_cpp
 
 from conftest import CORPUS, needs_corpus
+from cpp_programs import needs_cpp
 from robocomp_yaml import resources
 from robocomp_yaml.cli import group
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.languages.cpp import plan as cpp
 from robocomp_yaml.emit import slice as slice_target
+from robocomp_yaml.languages.cpp import plan as cpp
 from robocomp_yaml.languages.cpp.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import Component, Language, Use

@@ -8,10 +8,10 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
 from components import build
 from cpp_programs import FAST, Program, cmake, locked, needs_cpp
 from processes import Ports, Start
-
 from robocomp_yaml.languages.cpp.names import ICE_ESCAPES, ice_name
 
 SLICE = set("bool class const double enum false float int long module short struct true void".split())

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from components import build
 from cpp_programs import Programs, in_all_builds, needs_cpp, needs_qt, shared_programs
 from cpp_qt_sources import DOCUMENTS, SOURCES

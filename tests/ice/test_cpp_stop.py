@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from cpp_programs import Programs, needs_cpp
 from processes import PATIENCE, Ports, Running, Start, until
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+
 from components import Build
 from cpp_programs import Program, Programs, needs_cpp
 from processes import Ports, Start, Storm

@@ -9,10 +9,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from conftest import write_tree
 from cpp_macros import FAMILIES, found, found_globals, headers
 from cpp_programs import needs_cpp
-
-from conftest import write_tree
 from robocomp_yaml.languages.cpp import globals as cpp_globals
 from robocomp_yaml.languages.cpp import macros as cpp_macros
 

@@ -6,12 +6,12 @@ import os
 from pathlib import Path
 
 import pytest
-from conftest import write_tree
-from deployments import deployed
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from processes import Ports
 
+from conftest import write_tree
+from deployments import deployed
+from processes import Ports
 from robocomp_yaml.network.network import Network, Process
 from robocomp_yaml.pipeline import analyse
 

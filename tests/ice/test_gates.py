@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from conftest import write_tree
 from deployments import deployed
 from processes import Ports, Running, Start, until
-
 from robocomp_yaml.network.network import CONFIG
 from robocomp_yaml.pipeline import analyse
 

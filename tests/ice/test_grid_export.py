@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+
 from networks import speaking
 from processes import Ports, Start, until
-
 from robocomp_yaml.emit.exports import export
 from robocomp_yaml.network.network import (
     CONFIG,

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+
 from components import Build
 from cpp_programs import FAST, cmake, in_all_builds, needs_cpp, needs_qt
 from forms import FORM

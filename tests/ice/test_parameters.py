@@ -1,20 +1,19 @@
-"""Parameters of a running component, in both languages: read from the config, listed and changed by another process."""
+"""Parameters of a running component, in each language: read from the config, listed and changed by another process."""
 
 from __future__ import annotations
 
 import shutil
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
-from components import Built, build
-from cpp_programs import FAST, cmake, needs_cpp
-from processes import Ports, Running, Start, until
 
+import of_languages
+from components import Built, build
 from conftest import ROOT
+from processes import Ports, Running, Start, until
 
 PDSL = """\
 types:
@@ -48,175 +47,6 @@ legacy:
   motors: {key: "Arm.M{i}", columns: [name, min, max, vel], count: Arm.NumMotors}
 """
 CDSL = "component: ParaComp\nlanguage: {language}\nparameters: para.pdsl.yaml\nperiod: 20 ms\n"
-PYTHON = """\
-import threading
-
-from generated.genericworker import GenericWorker
-
-
-def race(parameters):
-    def write():
-        for number in range(500):
-            value = 0.5 if number % 2 else 1.0
-            parameters.change({"gains": [value] * 3, "motors[0].vel": value})
-
-    parameters.change({"gains": [1.0] * 3, "motors[0].vel": 1.0})
-    writer = threading.Thread(target=write)
-    writer.start()
-    seen = set()
-    while writer.is_alive():
-        now = parameters.now
-        seen.add((*now.gains, now.motors[0].vel))
-    writer.join()
-    print("seen:", *sorted({" ".join(f"{value:g}" for value in values) for values in seen}), sep=" | ", flush=True)
-
-
-class SpecificWorker(GenericWorker):
-    def initialize(self):
-        if self.parameters.device == "/dev/race":
-            race(self.parameters)
-        self.parameters.listen(self.show)
-        self.show(None)
-
-    def show(self, change):
-        now = self.parameters
-        motors = " ".join(f"{m.name}:{m.vel:g}" for m in now.motors)
-        paths = ",".join(change.paths) if change else "-"
-        print(f"[{paths}]", now.mode, now.device, now.basicPeriod, now.token, len(now.gains), motors,
-              f"{sum(now.offsets.values()):g}", int(now.Yolo.useGpu), now.period.compute, flush=True)
-        if now.device == "/dev/safe":
-            print("safe:", now.pin, *now.locks, now.password, now.server, flush=True)
-        if now.basicPeriod == 7:
-            try:
-                now.change({"basicPeriod": 8, "motors[0].vel": 9})
-            except ValueError as error:
-                print("refused:", error, flush=True)
-        if now.basicPeriod == 9:
-            now.basicPeriod = 10
-"""
-CPP = """\
-#include "specificworker.h"
-
-#include <atomic>
-#include <iostream>
-#include <set>
-#include <sstream>
-#include <thread>
-
-namespace
-{
-
-void race(Parameters& parameters)
-{
-    const auto write = [&](float value)
-    {
-        parameters.change(
-            [value](parameters::Values& values)
-            {
-                values.gains.assign(3, value);
-                values.motors.at(0).vel = value;
-            });
-    };
-    write(1);
-    std::atomic<bool> isDone = false;
-    std::thread writer(
-        [&]
-        {
-            for (int number = 0; number < 2000; ++number)
-            {
-                write(number % 2 == 0 ? 1.0F : 0.5F);
-            }
-            isDone = true;
-        });
-    std::set<std::string> seen;
-    while (!isDone)
-    {
-        const auto now = parameters.now();
-        std::ostringstream text;
-        for (const auto gain : now->gains)
-        {
-            text << gain << " ";
-        }
-        text << now->motors.at(0).vel;
-        seen.insert(text.str());
-    }
-    writer.join();
-    std::cout << "seen:";
-    for (const auto& text : seen)
-    {
-        std::cout << " | " << text;
-    }
-    std::cout << std::endl;
-}
-
-void show(Parameters& parameters, const runtime::Change& change)
-{
-    const auto now = parameters.now();
-    std::string paths;
-    for (const auto& path : change.paths)
-    {
-        paths += (paths.empty() ? "" : ",") + path;
-    }
-    std::cout << "[" << (paths.empty() ? "-" : paths) << "] "
-              << (now->mode == parameters::Mode::slow ? "slow" : "fast") << " " << parameters.device() << " "
-              << parameters.basicPeriod() << " " << parameters.token().value_or("None") << " " << parameters.gains().size();
-    for (const auto& motor : parameters.motors())
-    {
-        std::cout << " " << motor.name << ":" << motor.vel;
-    }
-    float sum = 0;
-    for (const auto& [name, value] : now->offsets)
-    {
-        sum += value;
-    }
-    std::cout << " " << sum << " " << parameters.Yolo()->useGpu << " " << now->period.compute << std::endl;
-    if (parameters.device() == "/dev/safe")
-    {
-        std::cout << "safe: " << parameters.pin().value_or(0);
-        for (const auto& lock : now->locks.value_or(std::vector<std::string>{}))
-        {
-            std::cout << " " << lock;
-        }
-        std::cout << " " << now->password.value_or("None") << " " << now->server.value_or("None") << std::endl;
-    }
-    if (now->basicPeriod == 7)
-    {
-        try
-        {
-            parameters.change(
-                [](parameters::Values& values)
-                {
-                    values.basicPeriod = 8;
-                    values.motors.at(0).vel = 9;
-                });
-        }
-        catch (const std::invalid_argument& error)
-        {
-            std::cout << "refused: " << error.what() << std::endl;
-        }
-    }
-    if (now->basicPeriod == 9)
-    {
-        parameters.set("basicPeriod", now->gains.size() + 8);
-    }
-}
-
-}
-
-void SpecificWorker::initialize()
-{
-    if (parameters.device() == "/dev/race")
-    {
-        race(parameters);
-    }
-    parameters.listen([this](const runtime::Change& change) { show(parameters, change); });
-    show(parameters, {});
-}
-
-void SpecificWorker::compute()
-{
-}
-"""
 CONFIG = {
     "Arm.Device": "/dev/usb", "Arm.NumMotors": "2", "Arm.M0": "a, -1, 1, .5", "Arm.M1": "b,0,1,2",
     "token": "${env:PARA_TOKEN}", "offsets.keys": "x y%2Ez", "offsets.x": "1", "offsets.y%2Ez": "2.5e0",
@@ -246,7 +76,7 @@ class Component:
         return start([*self.built.command, self.config, *options], env={"PARA_TOKEN": "s3cret#1"})
 
 
-LANGUAGES = ["python", pytest.param("cpp", marks=[pytest.mark.slow, needs_cpp])]
+LANGUAGES = of_languages.each()
 
 
 @pytest.fixture(scope="module", params=LANGUAGES)
@@ -254,11 +84,9 @@ def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
     folder = tmp_path_factory.mktemp(request.param)
     documents = {"para.pdsl.yaml": PDSL, "para.cdsl.yaml": CDSL.format(language=request.param)}
     made = build(documents, folder)["ParaComp"]
-    if request.param == "python":
-        (made.root / "src" / "specificworker.py").write_text(PYTHON)
-    else:
-        (made.root / "src" / "specificworker.cpp").write_text(CPP)
-        cmake(made.root, *FAST)
+    spoken = of_languages.spoken(request.param)
+    (made.root / spoken.worker).write_text(spoken.parameters)
+    spoken.build(made.root)
     return made
 
 
@@ -555,65 +383,22 @@ def test_a_value_in_a_file_is_judged_and_not_shown(component: Component, start: 
 
 
 PAPER = ROOT / "examples" / "jointmotor"
-SHOW = {
-    "python": """\
-from generated.genericworker import GenericWorker
-
-
-class SpecificWorker(GenericWorker):
-    def initialize(self):
-        now = self.parameters
-        print(now.handler, now.device, now.baudRate, now.basicPeriod, len(now.motors), flush=True)
-        for m in now.motors:
-            print(m.name, m.id, int(m.invertedSign), f"{m.min:g} {m.max:g} {m.zero:g} {m.vel:g}", flush=True)
-""",
-    "cpp": """\
-#include "specificworker.h"
-
-#include <iostream>
-
-void SpecificWorker::initialize()
-{
-    std::cout << (parameters.handler() == parameters::Handler::Dunkermotoren ? "Dunkermotoren" : "?") << " "
-              << parameters.device() << " " << parameters.baudRate() << " " << parameters.basicPeriod() << " "
-              << parameters.motors().size() << std::endl;
-    for (const auto& m : parameters.motors())
-    {
-        std::cout << m.name << " " << m.id << " " << m.invertedSign << " " << m.min << " " << m.max << " " << m.zero
-                  << " " << m.vel << std::endl;
-    }
-}
-
-void SpecificWorker::compute()
-{
-}
-""",
-}
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_papers_component(rcyaml: Callable[..., Any], tmp_path: Path, start: Start, language: str) -> None:
     """JointMotorComp as it is in the paper: compiled with its values, it reads them."""
     shutil.copytree(PAPER, tmp_path, dirs_exist_ok=True)
+    root, spoken = tmp_path / language, of_languages.spoken(language)
+    if not root.is_dir():  # the example is in two languages
+        shutil.copytree(tmp_path / "python", root, ignore=lambda *_: ["src"])
+        document = root / "jointmotor.cdsl.yaml"
+        document.write_text(document.read_text().replace("language: python", f"language: {language}"))
     result = rcyaml("compile", f"{language}/jointmotor.cdsl.yaml")
     assert result.exit_code == 0, result.output
-    root = tmp_path / language
-    suffix = {"python": "py", "cpp": "cpp"}[language]
-    (root / "src" / f"specificworker.{suffix}").write_text(_with_stubs(root, SHOW[language], language))
-    if language == "cpp":
-        cmake(root, *FAST)
+    worker = root / spoken.worker
+    worker.write_text(spoken.paper + spoken.stubs(worker.read_text()))
+    spoken.build(root)
     (program,) = (root / "bin").glob("[!.]*")  # beside a .gitignore
-    running = start([*([sys.executable] if language == "python" else []), program, "--startup-check"])
+    running = start([*spoken.command(program), "--startup-check"])
     running.wait_for("Dunkermotoren /dev/ttyUSB0 115200 220 2\n")
     running.wait_for("dunker0 A 1 -3.14 3.14 0 0.9\ndunker1 B 0 -3.14 3.14 0 0.9\n")
     assert running.exit_code() == 0
-
-
-def _with_stubs(root: Path, text: str, language: str) -> str:
-    """The user's class, with the methods of the interface as they were generated in C++."""
-    if language == "python":
-        return text
-    written = (root / "src" / "specificworker.cpp").read_text()
-    _, brace, stubs = written.partition("void SpecificWorker::compute()\n{\n}\n")
-    assert brace
-    return text + stubs

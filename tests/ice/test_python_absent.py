@@ -7,6 +7,7 @@ import socket
 from datetime import datetime
 
 import pytest
+
 from components import Build, Built
 from processes import Ports, Start, until
 from scenario import INTERFACES, cdsl

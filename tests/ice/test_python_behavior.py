@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+
 from components import Build, Built
 from processes import PATIENCE, Ports, Running, Start, until
 from scenario import INTERFACES, cdsl

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+
 from components import Build, Built
 from processes import Ports, Start
 from scenario import INTERFACES, cdsl

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from components import Build, Built
 from processes import Ports, Start, answers
 from scenario import INTERFACES, cdsl

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from components import build
-from processes import Ports, Storm
-from scenario import cdsl
 
+from components import build
 from conftest import CORPUS, needs_corpus
+from processes import Ports, Storm
 from robocomp_yaml import pipeline
 from robocomp_yaml.cli import group
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.model.interface import Interface
+from scenario import cdsl
 
 pytestmark = [needs_corpus, pytest.mark.slow]
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from components import Build, Built
 from forms import FORM
 from processes import Ports, Start

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import keyword
+
 import pytest
+
 from components import Build
 from processes import Ports, Start
 

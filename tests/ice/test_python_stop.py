@@ -7,6 +7,7 @@ import time
 from typing import Any
 
 import pytest
+
 from components import Build, Built
 from processes import Ports, Start
 from scenario import INTERFACES, cdsl

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from components import Build, Built
 from processes import Ports, Start, Storm
 from scenario import INTERFACES, cdsl

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from components import Build, Built
 from cpp_programs import FAST, cmake, in_all_builds, needs_cpp, needs_qt
 from processes import Ports, Running, Start, until

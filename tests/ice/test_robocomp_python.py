@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from components import Build, Built
 from processes import Ports, Start, Storm, until
 from robocomp_workers import CLIENT_2025, NO_QT, SERVER_2020, SERVER_2023

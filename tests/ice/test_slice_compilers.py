@@ -9,11 +9,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from slice_compilers import complaints, needs_compilers
 
 from robocomp_yaml import pipeline, resources
-from robocomp_yaml.emit.slice_literal import quoted
 from robocomp_yaml.emit import slice as target
+from robocomp_yaml.emit.slice_literal import quoted
+from slice_compilers import complaints, needs_compilers
 
 pytestmark = needs_compilers
 

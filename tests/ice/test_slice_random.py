@@ -6,14 +6,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from random_modules import Maker
-from slice_compilers import complaints, needs_compilers
 
+from random_modules import Maker
 from robocomp_yaml.check import checks
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.emit import slice as target
 from robocomp_yaml.link.program import LinkedModule, Program
+from slice_compilers import complaints, needs_compilers
 
 pytestmark = needs_compilers
 

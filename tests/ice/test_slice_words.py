@@ -6,9 +6,8 @@ import builtins
 import keyword
 from pathlib import Path
 
-from slice_compilers import complaints, needs_compilers
-
 from robocomp_yaml.check.idsl.names import RESERVED, UNESCAPED_IN_PYTHON, fault_of
+from slice_compilers import complaints, needs_compilers
 
 pytestmark = needs_compilers
 

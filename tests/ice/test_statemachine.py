@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from components import Build
 from cpp_programs import FAST, cmake, needs_cpp
 from processes import Ports, Start, until

@@ -8,13 +8,13 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from robocomp_yaml.values.property_text import property_text
+import accessors
+from parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
 from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties
+from robocomp_yaml.values.property_text import property_text
 from robocomp_yaml.values.read import properties_to_values
-import accessors
-from parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
 from verdicts import CASES
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")

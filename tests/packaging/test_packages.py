@@ -54,6 +54,8 @@ def test_the_wheel_has_all_data(built: Path) -> None:
     (wheel,) = built.glob("*.whl")
     names = set(zipfile.ZipFile(wheel).namelist())
     assert data_files("robocomp_yaml/_data/") <= names
+    of_languages = (path.relative_to(ROOT).as_posix() for path in ROOT.glob("robocomp_yaml/languages/*/templates/**/*.*"))
+    assert {path for path in of_languages if "__pycache__" not in path} <= names
     assert not [name for name in names if name.startswith(("tests/", "docs/", "examples/"))]
 
 
@@ -99,7 +101,7 @@ def test_another_build_of_the_same_version_compiles_again(built: Path, bin_: Pat
     run(*compile_, cwd=work)
     assert "0 files written" in run(*compile_, cwd=work)
     (wheel,) = built.glob("*.whl")
-    other = rebuilt(wheel, tmp_path, "languages/python/templates/runtime/log.py", b"Do not edit", b"DO NOT EDIT")
+    other = rebuilt(wheel, tmp_path, "robocomp_yaml/languages/python/templates/runtime/log.py", b"Do not edit", b"DO NOT EDIT")
     install(bin_, other, "--force-reinstall", "--no-deps")
     assert "1 file written" in run(*compile_, cwd=work)
     assert "DO NOT EDIT" in (work / "generated/runtime/log.py").read_text(encoding="utf-8")
@@ -107,14 +109,13 @@ def test_another_build_of_the_same_version_compiles_again(built: Path, bin_: Pat
 
 
 def rebuilt(wheel: Path, folder: Path, file: str, before: bytes, after: bytes) -> Path:
-    """A wheel of the same name in another folder, with one file of the data changed."""
+    """A wheel of the same name in another folder, with one file of the package changed."""
     with zipfile.ZipFile(wheel) as archive:
         content = {name: archive.read(name) for name in archive.namelist()}
-    path = f"robocomp_yaml/_data/{file}"
-    old, new = content[path], content[path].replace(before, after)
+    old, new = content[file], content[file].replace(before, after)
     assert old != new
     (record,) = (name for name in content if name.endswith(".dist-info/RECORD"))
-    content |= {path: new, record: content[record].replace(recorded(old), recorded(new))}
+    content |= {file: new, record: content[record].replace(recorded(old), recorded(new))}
     with zipfile.ZipFile(folder / wheel.name, "w") as archive:
         for name, data in content.items():
             archive.writestr(name, data)

@@ -10,8 +10,8 @@ from typing import Any
 
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.transactions.plan import ONCE, RootPlan
 from robocomp_yaml.languages import table
+from robocomp_yaml.transactions.plan import ONCE, RootPlan
 
 TYPES = ("int", "string", "bool", "float", "Pose", "Names", "Side")
 WORDS = ("say", "stop", "move", "look", "reset", "grip", "turn", "wait", "home", "learn", "sing", "jump")

@@ -17,6 +17,8 @@ from click.testing import CliRunner, Result
 from hypothesis import HealthCheck, Phase, event, given, settings
 from hypothesis import strategies as st
 
+from layouts import laid_out
+from parameters import HARD_TEXTS, JUNK, NAMES, Data, documents, linked, mutated
 from robocomp_yaml.cli import group
 from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.model.parameters import ListType, MapType, RecordType, Type
@@ -25,8 +27,6 @@ from robocomp_yaml.source.tree import parse
 from robocomp_yaml.values import paths
 from robocomp_yaml.values.read import properties_to_values
 from robocomp_yaml.values.spell_yaml import flow
-from layouts import laid_out
-from parameters import HARD_TEXTS, JUNK, NAMES, Data, documents, linked, mutated
 from verdicts import CASES
 
 RELAXED = settings(

@@ -13,8 +13,8 @@ from click.testing import CliRunner, Result
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from robocomp_yaml.cli import group
 from conftest import write_tree
+from robocomp_yaml.cli import group
 from verdicts import CASES
 
 RELAXED = settings(max_examples=max(CASES // 25, 6), deadline=None, suppress_health_check=list(HealthCheck))

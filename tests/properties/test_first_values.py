@@ -14,8 +14,8 @@ from click.testing import CliRunner, Result
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from robocomp_yaml.cli import group
 from constraints import CONSTRAINTS, subject
+from robocomp_yaml.cli import group
 from verdicts import CASES
 
 RELAXED = settings(max_examples=max(CASES // 10, 5), deadline=None, suppress_health_check=list(HealthCheck))

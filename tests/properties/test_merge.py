@@ -13,10 +13,9 @@ from pathlib import Path
 from random import Random
 
 import pytest
+
 from random_components import changed, plan, random_model
 from random_edits import Files, edited
-from verdicts import CASES
-
 from robocomp_yaml.diag.codes.specific import CONFLICT
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.emit.specific import threeway
@@ -24,6 +23,7 @@ from robocomp_yaml.emit.specific.reading import read
 from robocomp_yaml.emit.specific.review import review
 from robocomp_yaml.transactions import writer
 from robocomp_yaml.transactions.plan import RootPlan
+from verdicts import CASES
 
 CHUNKS, PAIRS, EDITS = 20, 10, max(CASES // 100, 1)
 REFUSED = 0.25  # of all merges, at most: what two sides changed can be too much

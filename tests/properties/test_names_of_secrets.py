@@ -10,9 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-
-from robocomp_yaml.languages import language
 from robocomp_yaml import secrets
+from robocomp_yaml.languages import language
 
 SECRET = (
     "PASSWORD DB_PASSWORD dbpassword MYSQL_PWD PGPASSWORD wifiPassword api-key apiKey API_KEY mail.ApiKey ACCESS_TOKEN "

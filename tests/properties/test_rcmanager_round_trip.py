@@ -9,8 +9,8 @@ from xml.sax.saxutils import quoteattr
 from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rcmanager_facts import facts
 
+from rcmanager_facts import facts
 from robocomp_yaml.cli import group
 from robocomp_yaml.emit.exports import export
 from robocomp_yaml.pipeline import analyse

@@ -1,9 +1,10 @@
-"""Generated C++ accessors judge as all the others: one program with many generated parameters, and many values."""
+"""Generated accessors of other languages than Python judge as all the others: one program a language, with many
+generated parameters, and many values."""
 
 from __future__ import annotations
 
 import re
-import shutil
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,21 +12,19 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import accessors
+import of_languages
 import spellings
 from conftest import FUZZING
 from constraints import CASES, CONSTRAINTS, subject
-from cpp_accessors import Program
 from parameters import Data, documents, linked, mutated, parameters, values
-from verdicts import CPP_DOCUMENTS, verdicts
-
 from robocomp_yaml.model.parameters import Parameters, RecordType
 from robocomp_yaml.values import evaluate
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties
+from verdicts import CPP_DOCUMENTS, verdicts
 
-pytestmark = [
-    pytest.mark.slow, pytest.mark.skipif(shutil.which("g++") is None, reason="there is no g++ here"),
-]  # fmt: skip
+pytestmark = pytest.mark.slow
+LANGUAGES = [each for each in of_languages.each() if of_languages.spoken(each.values[0]).judge]
 
 
 @st.composite
@@ -52,7 +51,7 @@ def drawn() -> list[tuple[Data, Data, list[Any]]]:
 class Subjects:
     """The program, and what it is made of: the documents of the cases as groups g0, g1 …, and two documents by hand."""
 
-    def __init__(self, tmp_path_factory: pytest.TempPathFactory) -> None:
+    def __init__(self, language: str, folder: Path) -> None:
         self.cases = drawn()
         self.documents = [
             linked({"types": document["types"], "parameters": {f"g{n}": {"group": document["parameters"]}}})
@@ -65,12 +64,14 @@ class Subjects:
             RecordType("", tuple({member.name: member for each in all_ for member in each.root.members}.values())),
             constraints=self.constrained.constraints, spellings=self.spelled.spellings,
         )
-        self.program = Program(tmp_path_factory.mktemp("driver"), whole)
+        judge = of_languages.spoken(language).judge
+        assert judge is not None
+        self.program = judge(folder, whole)
 
 
-@pytest.fixture(scope="module")
-def subjects(tmp_path_factory: pytest.TempPathFactory) -> Subjects:
-    return Subjects(tmp_path_factory)
+@pytest.fixture(scope="module", params=LANGUAGES)
+def subjects(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Subjects:
+    return Subjects(request.param, tmp_path_factory.mktemp(request.param))
 
 
 def test_the_same_verdict_about_the_same_parameters(subjects: Subjects) -> None:
@@ -79,7 +80,7 @@ def test_the_same_verdict_about_the_same_parameters(subjects: Subjects) -> None:
     answers = subjects.program.judge([(f"g{n}", data) for n, data in asked])
     for (number, data), problems in zip(asked, answers, strict=True):
         of, whole = subjects.documents[number].parameters, {f"g{number}": data}
-        found = {**verdicts(of, whole), "generated C++": not problems}
+        found = {**verdicts(of, whole), "generated accessors": not problems}
         assert len(set(found.values())) == 1, (subjects.cases[number][0], data, found, problems)
         assert _blamed(problems) == _blamed(accessors.take(of, whole)[1]), (whole, problems)
         refused += bool(problems)

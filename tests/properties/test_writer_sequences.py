@@ -5,10 +5,10 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from disk import always, carry_out, killed_in, once, plan
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from disk import always, carry_out, killed_in, once, plan
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 

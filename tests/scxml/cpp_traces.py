@@ -8,8 +8,9 @@ import os
 from collections.abc import Callable
 from dataclasses import asdict
 
-import engines
 import pytest
+
+import engines
 import w3c
 from engines import Trace
 from random_machines import odd_machines

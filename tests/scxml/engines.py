@@ -11,12 +11,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from robocomp_yaml.emit.machines import lower
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.cpp import machine_text
-from robocomp_yaml.emit.machines import lower
 from robocomp_yaml.languages.python.statemachine import tables
 from robocomp_yaml.model.statemachine import StateMachine
-
 
 
 @dataclass(frozen=True)

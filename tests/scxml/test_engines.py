@@ -9,11 +9,13 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-import engines
 import pytest
+
+import engines
 from cpp_traces import in_cpp  # noqa: F401 - the fixture
 from engines import Trace
 from random_machines import Maker, odd_machines, read
+
 
 @pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("g++"), reason="g++ is not installed")

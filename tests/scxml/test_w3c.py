@@ -7,12 +7,12 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-import engines
 import pytest
-import w3c
-from cpp_traces import in_cpp  # noqa: F401 (the fixture)
 
+import engines
+import w3c
 from conftest import ROOT
+from cpp_traces import in_cpp  # noqa: F401 (the fixture)
 
 pytestmark = w3c.needs_cases
 

@@ -7,3 +7,5 @@ from robocomp_yaml.diag.code import Family
 _PAGE = Family("cdsl")
 
 NOT_AVAILABLE = _PAGE.code("RC2060")
+IMPOSSIBLE_NAME = _PAGE.code("RC2061")
+NOT_MERGED = _PAGE.code("RC2062")

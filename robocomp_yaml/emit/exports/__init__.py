@@ -5,9 +5,8 @@ Texts that hold a configuration may hold what nobody else should read, as `Netwo
 
 from __future__ import annotations
 
-import importlib
 import os
-import pkgutil
+from collections.abc import Collection
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -15,13 +14,16 @@ from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._unwritable import Unwritable as Unwritable
 from robocomp_yaml.emit.exports._unwritable import noted as noted
 from robocomp_yaml.plugins import EXPORTS, NONE, Plugin, Plugins
+from robocomp_yaml.registry import Modules
 
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
+OWN = Modules(__name__, "form")
 
-def built_in() -> list[str]:
-    return sorted(module.name for module in pkgutil.iter_modules(__path__) if not module.name.startswith("_"))
+
+def built_in() -> Collection[str]:
+    return OWN.table().keys()
 
 
 def forms(plugins: Plugins = NONE) -> list[str]:
@@ -32,12 +34,12 @@ def forms(plugins: Plugins = NONE) -> list[str]:
 def export(network: Network, form: str, plugins: Plugins = NONE) -> dict[str, str]:
     """The files that another tool runs the network from, by their relative paths; `form` is one of `forms()`. Raises
     Unwritable where the form cannot say what the network has; what is only written otherwise is `noted`."""
-    if form not in forms(plugins):
-        raise ValueError(f"there is no form '{form}'")
-    with _unwritable.of(network):
-        if form in plugins.of(EXPORTS):
+    if form in plugins.of(EXPORTS):
+        with _unwritable.of(network):
             return _of_plugin(network, form, *plugins.of(EXPORTS)[form])
-        files: dict[str, str] = importlib.import_module(f"{__name__}.{form}").export(network)
+    made = OWN.load(form)
+    with _unwritable.of(network):
+        files: dict[str, str] = made.export(network)
     return files
 
 

@@ -30,7 +30,7 @@ class Calls(msgspec.Struct, frozen=True):
     """How a language spells them: `prefix` stands before each function, `value` makes a literal, `text` and `sign` one
     of a text and of an operator; `listing` is a list of values, `pairs` the rest of a comparison, `later` what is
     worked out when it is asked for, `parts` several of these; `function` is one of a variable; `member` picks one from
-    an owner; `variable` is a name in code."""
+    an owner; `variable` is a name in code, of the variable that so many others stand around."""
 
     prefix: str
     value: Callable[[object], str]
@@ -42,7 +42,7 @@ class Calls(msgspec.Struct, frozen=True):
     parts: Callable[[Sequence[str]], str]
     function: Callable[[str, str], str]
     member: Callable[[str, str], str]
-    variable: Callable[[str], str]
+    variable: Callable[[str, int], str]
 
     def of(self, expression: Expression, root: RecordType) -> str:
         """What the expression comes to, of the parameters' values, called `p` there."""
@@ -88,8 +88,9 @@ class _Writer(msgspec.Struct, frozen=True):
         return self.calls.listing([self.code(item) for item in items])
 
     def name(self, name: str) -> str:
-        if any(variable == name for variable, _ in self.scope.variables):
-            return self.calls.variable(name)
+        depths = [depth for depth, (variable, _) in enumerate(self.scope.variables) if variable == name]
+        if depths:
+            return self.calls.variable(name, depths[-1])
         return self.calls.member("p", self.calls.text(_key(self.scope.root, name)))
 
     def call(self, call: Call) -> str:
@@ -105,7 +106,7 @@ class _Writer(msgspec.Struct, frozen=True):
         type_ = type_of(each.source, self.scope)
         assert isinstance(type_, ListType | MapType)
         inner = _Writer(self.scope.with_variable(each.variable, type_.element), self.calls)
-        variable = self.calls.variable(each.variable)
+        variable = self.calls.variable(each.variable, len(self.scope.variables))
         functions = [self.calls.function(variable, inner.code(each.element))]
         if each.condition is not None:
             functions.append(self.calls.function(variable, inner.code(each.condition)))

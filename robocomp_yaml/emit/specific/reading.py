@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robocomp_yaml import languages
 from robocomp_yaml.emit.specific.code import Code
-from robocomp_yaml.languages.record import TargetLanguage
+from robocomp_yaml.languages.record import MERGING, TargetLanguage
 
 
 def read(path: str, text: str) -> Code | None:
@@ -32,6 +32,17 @@ def compiles(code: Code) -> bool:
     return language is None or bool(language.part("code").compiles(code))
 
 
+def unmerged(path: str) -> TargetLanguage | None:
+    """The language of a file of code, where that cannot be merged."""
+    language = _of_suffix(path)
+    return language if language and MERGING not in language.has else None
+
+
 def _language(path: str) -> TargetLanguage | None:
+    language = _of_suffix(path)
+    return language if language and MERGING in language.has else None
+
+
+def _of_suffix(path: str) -> TargetLanguage | None:
     suffix = path.rpartition(".")[2]
     return next((one for one in languages.known().values() if suffix in one.suffixes), None)

@@ -7,9 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping, Set
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.diag.codes import languages as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES
-from robocomp_yaml.emit.specific import entries, sources
+from robocomp_yaml.emit.specific import entries, reading, sources
 from robocomp_yaml.emit.specific.own import Own
 from robocomp_yaml.emit.specific.reading import is_code
 from robocomp_yaml.transactions.manifest import BASE
@@ -36,6 +38,10 @@ def review(plans: Iterable[RootPlan], *, merge: bool = False) -> Review:
     for plan in plans:
         root = Root(plan.root)
         files = list(_own(plan, root, merge, seen))
+        if merge:
+            alone = [file for file in files if reading.unmerged(file.plan.path)]
+            files = [file for file in files if file not in alone]
+            diagnostics += _not_merged(alone, root)
         if all(file.is_settled for file in files):
             continue
         from robocomp_yaml.emit.specific import merging, telling  # with the parsers of the languages
@@ -64,6 +70,18 @@ def _remember_code(seen: _Seen, root: Root, files: Iterable[Own]) -> None:
     for folder in {file.plan.path.rpartition("/")[0] for file in files if is_code(file.plan.path)}:
         seen.names[root.shown(folder)] = sources.names(root, folder)
         seen.contents.update((root.shown(path), data) for path, data in sources.code_in(root, folder))
+
+
+def _not_merged(files: Iterable[Own], root: Root) -> Iterator[Diagnostic]:
+    """What would be merged, in languages that are not."""
+    for file in files:
+        language = reading.unmerged(file.plan.path)
+        if language and not file.is_settled and file.base != file.plan.text:
+            path = root.shown(file.plan.path)
+            yield codes.NOT_MERGED.at(
+                Span(path), path=path, language=language.title,
+                hint="put in by hand what its build names; an empty folder to compile into (-o) shows a new skeleton",
+            )
 
 
 def _own(plan: RootPlan, root: Root, every: bool, seen: _Seen) -> Iterator[Own]:

@@ -29,4 +29,5 @@ LANGUAGE = TargetLanguage(
     build=(("cmake", "-S", "{folder}", "-B", "{folder}/build"), ("cmake", "--build", "{folder}/build")),
     suffixes=("h", "hpp", "cpp"),
     has_checks=True,
+    warns_others=True,
 )

@@ -25,7 +25,7 @@ def _function(variable: str, body: str, capture: str = "&") -> str:
     return f"[{capture}]({VALUE}{f' {variable}' if used else ''}) {{ return {body}; }}"
 
 
-def _variable(name: str) -> str:
+def _variable(name: str, depth: int) -> str:
     return f"{name}_" if name in _TAKEN else LANGUAGE.in_code(name)
 
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from click.testing import Result
 
-from conftest import ROOT, Tree, read_tree, write_tree
+from conftest import Tree, read_tree, write_tree
 from robocomp_yaml import api
 
 Rcyaml = Callable[..., Result]
@@ -39,12 +37,6 @@ def test_all_that_is_promised_is_there() -> None:
         assert getattr(api, name) is not None
     with pytest.raises(AttributeError):
         api.nothing  # noqa: B018
-
-
-def test_the_door_itself_is_light() -> None:
-    code = "import sys, robocomp_yaml.api; print(*(m for m in sys.modules if m.startswith('robocomp_yaml.')))"
-    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT).stdout
-    assert {name.split(".")[1] for name in out.split()} <= {"api", "diag"}
 
 
 def test_check_says_what_the_command_says(place: Path, rcyaml: Rcyaml) -> None:

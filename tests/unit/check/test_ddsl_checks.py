@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import Result
+
 from conftest import write_tree
 from deployments import Tree, deployed
 

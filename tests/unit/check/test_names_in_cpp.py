@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
+from conftest import write_tree
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.cpp.names import parameter
-from conftest import write_tree
 
 Check = Callable[..., list[dict[str, Any]]]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from talk import component, workspace
 
 from robocomp_yaml.emit import config, ports
 from robocomp_yaml.link.program import LinkedComponent
@@ -13,6 +12,8 @@ from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.transactions.plan import ONCE
+from talk import component, workspace
+
 
 @pytest.fixture(autouse=True)
 def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from conftest import write_tree
-
 from robocomp_yaml import pipeline
 from robocomp_yaml.emit.parameter_docs import parameter_docs
 

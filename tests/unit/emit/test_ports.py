@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from talk import component, workspace
 
 from robocomp_yaml.emit import ports
 from robocomp_yaml.emit.ports import IceEndpoint
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.source.disk import Disk
+from talk import component, workspace
 
 
 @pytest.fixture(autouse=True)

@@ -12,7 +12,6 @@ import pytest
 import accessors
 from constraints import CASES, CONSTRAINTS, subject
 from parameters import parameters
-
 from robocomp_yaml.languages.python import parameters as python_parameters
 from robocomp_yaml.values import evaluate
 

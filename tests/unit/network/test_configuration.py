@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+
 from deployments import analysed, config, deployed, faults, network, said
 
 BOTH = "components:\n  speech: {component: speech, port: 10001MORE}\n  mouth: {component: mouth, port: 10002}\n"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+
 from conftest import Tree
 from deployments import FACE, MOUTH, component, deployed, faults, network, said
-
 from robocomp_yaml.network.network import Connection, Network
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from deployments import deployed, faults, network, said
 
+from deployments import deployed, faults, network, said
 from robocomp_yaml.network.network import Network
 from robocomp_yaml.network.port_numbers import default_port
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from deployments import FACE, component, config, deployed, faults, network, said
 
+from deployments import FACE, component, config, deployed, faults, network, said
 from robocomp_yaml.network.network import ICESTORM, TOPIC, Network
 
 STORM = "services: {storm: {icestorm: {}}}\n"

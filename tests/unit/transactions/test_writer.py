@@ -7,8 +7,8 @@ import stat
 from pathlib import Path
 
 import pytest
-from disk import actions, always, carry_out, codes, files, once, plan, tree
 
+from disk import actions, always, carry_out, codes, files, once, plan, tree
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.transactions import writer
 from robocomp_yaml.transactions.plan import FilePlan, Merge, Merges

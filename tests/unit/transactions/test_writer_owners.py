@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from disk import OWNER, actions, always, carry_out, codes, files, once, plan, tree
-
 from robocomp_yaml.transactions import manifest, writer
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from disk import actions, always, carry_out, codes, once, plan, tree
 
+from disk import actions, always, carry_out, codes, once, plan, tree
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.transactions import manifest
 from robocomp_yaml.transactions.plan import FilePlan

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from robocomp_yaml.source import properties
 from conftest import ROOT
+from robocomp_yaml.source import properties
 
 PAPER = {
     "JointMotor.NumMotors": "2", "JointMotor.Handler": "Dunkermotoren", "JointMotor.Device": "/dev/ttyUSB0",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conftest import write_tree
 
+from conftest import write_tree
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.plugins import GRAPHS, NONE, Plugins
+from robocomp_yaml.registry import Modules
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.graphs.picture import Picture
 
+OWN = Modules(__name__, "form")
 
-def built_in() -> list[str]:
-    return sorted(module.name for module in pkgutil.iter_modules(__path__))
+
+def built_in() -> Collection[str]:
+    return OWN.table().keys()
 
 
 def forms(plugins: Plugins = NONE) -> list[str]:
@@ -30,5 +32,5 @@ def draw(picture: Picture, form: str, plugins: Plugins = NONE) -> str:
             if not isinstance(drawn, str):
                 raise TypeError("it gives no text")
         return drawn
-    text: str = importlib.import_module(f"{__name__}.{form}").draw(picture)
+    text: str = OWN.load(form).draw(picture)
     return text

@@ -1,0 +1,48 @@
+"""Names in Java: what Ice's mapping makes of a Slice name, and which ones the generated files have themselves."""
+
+from __future__ import annotations
+
+from robocomp_yaml.emit.lowering.ports import Spelling
+from robocomp_yaml.languages.java import KEYWORDS, OBJECT_METHODS
+from robocomp_yaml.link.program import LinkedModule
+
+PACKAGE = "slice"
+"""The Java package in which the build puts what Slice becomes, so that no module can be taken for something else."""
+
+# What Ice 3.7's mapping puts an underscore before.
+ICE_ESCAPES = (KEYWORDS - {"_"}) | OBJECT_METHODS | {"checkedCast", "uncheckedCast"}
+
+# Types that the generated class Parameters speaks of: a type in it that is called so would hide them.
+TYPES = KEYWORDS | frozenset(
+    """Boolean Constraint Data Double Exception Expressions Float Integer Kind List Live Long Map Member Named Object
+    Optional Override Parameters Spelling Store String Table Values com generated java permits record sealed slice var
+    yield""".split()
+)
+# Methods that it has.
+METHODS = KEYWORDS | OBJECT_METHODS | frozenset(("change", "listen", "now", "set", "table"))
+
+_PACKAGES = frozenset(("com", "java", PACKAGE))
+_WORKER = frozenset(("communicator", "log", "mutex", "parameters"))
+
+
+def ice_name(name: str) -> str:
+    """The name that Ice gives to a module, type, member, operation or parameter."""
+    return f"_{name}" if name in ICE_ESCAPES else name
+
+
+def parameter(name: str) -> str:
+    """A parameter of the worker's methods: it must not hide the packages that are named there."""
+    return f"{name}_" if name in _PACKAGES else ice_name(name)
+
+
+def qualified(scope: LinkedModule, name: str) -> str:
+    """A definition as generated code refers to it."""
+    return f"{PACKAGE}.{ice_name(scope.module.name)}.{ice_name(name)}"
+
+
+def proxy(scope: LinkedModule, interface: str) -> str:
+    """The class of an interface's proxies; with its suffix, the name is no keyword."""
+    return f"{PACKAGE}.{ice_name(scope.module.name)}.{interface}Prx"
+
+
+PORTS = Spelling(taken=_WORKER, published=("{name}_pubproxy",), called=ice_name)

@@ -1,0 +1,163 @@
+"""A component's ports as Java has them: accessors, and the servants with the worker's methods that they call."""
+
+from __future__ import annotations
+
+import msgspec
+
+from robocomp_yaml.emit.lowering import ports as lowering
+from robocomp_yaml.emit.lowering.names import Names
+from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.languages.java.names import PORTS, ice_name, parameter, proxy, qualified
+from robocomp_yaml.languages.java.text import IN, comment, declaration, literal, one_line
+from robocomp_yaml.languages.java.types import result_type, type_name, zero
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
+from robocomp_yaml.model.interface import Member, Method, TypeRef
+
+
+class MethodView(msgspec.Struct, frozen=True):
+    """A method of the worker: as GenericWorker asks for it, and as the user's class has it at first."""
+
+    comment: str
+    declaration: str
+    definition: str
+    stub: list[str]
+
+
+class OperationView(msgspec.Struct, frozen=True):
+    """An operation of a servant, which `call`s the worker's method; `name` is that method."""
+
+    declaration: str
+    call: str
+    name: str
+    is_published: bool
+
+
+class ServiceView(msgspec.Struct, frozen=True):
+    """An implemented or subscribed port; `arguments` make the run time's, and `comma` stands behind it.
+    `new_methods` are those that no earlier port has brought."""
+
+    title: str
+    servant: str
+    base: str
+    arguments: str
+    operations: list[OperationView]
+    new_methods: list[MethodView]
+    comma: str = ","
+
+
+class AccessorView(msgspec.Struct, frozen=True):
+    """A proxy that the worker has; `made` makes it."""
+
+    name: str
+    proxy: str
+    comment: str
+    summary: str
+    made: str
+
+
+class Ports:
+    """All ports of a component."""
+
+    def __init__(self, component: LinkedComponent) -> None:
+        lowered, servants = lowering.lower(component, PORTS), Names(("Services",))
+        self.requires = [_required(accessor) for accessor in lowered.requires]
+        self.publishes = [_published(accessor) for accessor in lowered.publishes]
+        self.implements = [_service(one, servants, "Servant", one.identity) for one in lowered.implements]
+        self.subscribes = [_service(one, servants, "Subscriber", "") for one in lowered.subscribes]
+
+
+def _required(accessor: lowering.Accessor) -> AccessorView:
+    milliseconds = -1 if accessor.milliseconds is None else min(accessor.milliseconds, 2**31 - 1)
+    words = [literal(accessor.port.name), literal(accessor.port.use.absent), str(milliseconds)]
+    return _accessor(accessor, f"connections.required({', '.join(words)})", accessor.summary)
+
+
+def _published(accessor: lowering.Accessor) -> AccessorView:
+    words = [literal(accessor.port.name), literal(accessor.port.interface.name)]
+    return _accessor(
+        accessor, f"connections.published({', '.join(words)})", f"{accessor.summary}: {accessor.events}"
+    )
+
+
+def _accessor(accessor: lowering.Accessor, made: str, summary: str) -> AccessorView:
+    return AccessorView(
+        accessor.name,
+        proxy(accessor.port.scope, accessor.port.interface.name),
+        comment(f"{accessor.about}\n{accessor.doc}", IN),
+        one_line(summary),
+        made,
+    )
+
+
+def _service(service: lowering.Service, servants: Names, suffix: str, identity: str) -> ServiceView:
+    port, calls = service.port, {called.method.name: called.name for called in service.methods}
+    words = (port.name, identity, port.interface.name)
+    return ServiceView(
+        title=one_line(service.title),
+        servant=servants.take(f"{port.name}{suffix}"),
+        base=qualified(port.scope, port.interface.name),
+        arguments=", ".join(map(literal, words)),
+        operations=[_operation(method, port, calls.get(method.name, "")) for method in port.interface.methods],
+        new_methods=[_method(called) for called in service.new],
+    )
+
+
+def _operation(method: Method, port: Port, calls: str) -> OperationView:
+    """Calls the worker's method called so; '' where it has none, because it is not published."""
+    names = [f"in{number}" for number in range(len(method.inputs))]
+    typed = [f"{type_name(m.type, port.scope)} {name}" for m, name in zip(method.inputs, names, strict=True)]
+    typed.append("com.zeroc.Ice.Current current")
+    returns = result_type(method, port)
+    return OperationView(
+        declaration=declaration(f"public {returns} {ice_name(method.name)}", typed, _throws(method, port), IN * 2),
+        call=f"{'' if returns == 'void' else 'return '}worker().{calls}({', '.join(names)});",
+        name=literal(calls),
+        is_published=bool(calls),
+    )
+
+
+def _method(called: lowering.Called) -> MethodView:
+    method, port = called.method, called.port
+    returns = result_type(method, port)
+    typed = [f"{type_name(member.type, port.scope)} {parameter(member.name)}" for member in method.inputs]
+    throws = _throws(method, port)
+    return MethodView(
+        comment=comment(_described(method, port), IN),
+        declaration=declaration(f"public abstract {returns} {called.name}", typed, f"{throws};", IN),
+        definition=declaration(f"public {returns} {called.name}", typed, f"{throws} {{", IN),
+        stub=_stub(called, returns),
+    )
+
+
+def _throws(method: Method, port: Port) -> str:
+    names = [qualified(*_home(ref, port.scope)) for ref in method.throws]
+    return f" throws {', '.join(names)}" if names else ""
+
+
+def _home(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, str]:
+    home, definition = found(ref, scope)
+    return home, definition.name
+
+
+def _stub(called: lowering.Called, returns: str) -> list[str]:
+    """What a method does until the user writes it."""
+    method, scope = called.method, called.port.scope
+    hidden = "this." if any(member.name == "log" for member in method.inputs) else ""
+    lines = [f'{hidden}log.info("{called.name}() is still to be written");']
+    values = [zero(ref, scope) for ref in results(method)]
+    if len(values) > 1:
+        return [*lines, f"return new {returns}({', '.join(values)});"]
+    return [*lines, f"return {values[0]};"] if values else lines
+
+
+def _described(method: Method, port: Port) -> str:
+    lines = [method.doc.strip() or f"{port.interface.name}.{method.name}"]
+    for member in (*method.inputs, *method.outputs):
+        if said := _said(member):
+            lines.append(f"{ice_name(member.name)}: {said}")
+    return "\n".join(lines)
+
+
+def _said(member: Member) -> str:
+    unit = f"[{member.unit}]" if member.unit else ""
+    return " ".join(part for part in (" ".join(member.doc.split()), unit) if part)

@@ -1,0 +1,48 @@
+"""How a deployment is shown: what needs no process to be seen."""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Callable
+
+import pytest
+from click.testing import Result
+
+from networks import speaking
+from robocomp_yaml.commands._deploy_views import status_lines
+from robocomp_yaml.commands._progress import Progress
+from robocomp_yaml.deploy.carry_out import STARTING, Event
+from robocomp_yaml.deploy.operations import Status
+
+
+def test_a_table_of_states_fits_its_terminal() -> None:
+    network = speaking()
+    found = [Status(process.name, process.host, False) for process in network.enabled()]
+    whole = status_lines(network, found, False)
+    assert any("Laser:10003, DifferentialRobot:10004" in line for line in whole)
+    narrow = status_lines(network, found, False, 80)
+    assert max(map(len, narrow)) == 80 and any("Laser:10003, Dif" in line and line.endswith("…") for line in narrow)
+    assert status_lines(network, found, False, 200) == whole
+    least = status_lines(network, found, False, 10)
+    assert any(line.endswith("  Laser…") for line in least)  # no narrower than the column's head
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_progress_takes_one_line_of_a_narrow_terminal_for_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stdout", terminal)
+    monkeypatch.setenv("COLUMNS", "12")
+    name = "a-process-with-a-long-name"
+    Progress(True, False, [name]).report(Event(name, STARTING))
+    assert terminal.getvalue() == "a-process-…\n"
+
+
+@pytest.mark.parametrize("option", ["-v", "--quiet", "--color"])
+def test_an_option_of_all_commands_stands_before_them(rcyaml: Callable[..., Result], option: str) -> None:
+    told = rcyaml("deploy", "plan", ".", option)
+    assert told.exit_code == 2 and f"'{option}' stands before the command: rcyaml {option} …" in told.stderr

@@ -1,0 +1,86 @@
+"""The deployment need not be named where there is only one, and several are told by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+
+pytestmark = pytest.mark.processes  # a probe asks programs
+
+Rcyaml = Callable[..., Result]
+ROBOT = "deployment: Robot\ncomponents: {base: {program: /bin/true}, arm: {program: /bin/true}}\n"
+READING = ("plan", "status", "logs", "probe", "down", "export")
+
+
+def deploy(rcyaml: Rcyaml, what: str, *args: str) -> Result:
+    return rcyaml("deploy", what, *args, *(("--as", "systemd") if what == "export" else ()))
+
+
+@pytest.mark.parametrize("place", ["robot.ddsl.yaml", "deployments/robot.ddsl.yaml", "a/b/ddsl.yaml"])
+@pytest.mark.parametrize("what", READING)
+def test_the_only_one_is_taken(rcyaml: Rcyaml, tmp_path: Path, what: str, place: str) -> None:
+    write_tree(tmp_path, {place: ROBOT, "build/old.ddsl.yaml": ROBOT, "interfaces/Speech.idsl.yaml": "module: X\n"})
+    named, taken = deploy(rcyaml, what, place), deploy(rcyaml, what)
+    assert (taken.exit_code, taken.output) == (named.exit_code, named.output) and taken.exit_code == 0
+    assert rcyaml("graph").exit_code == 0
+
+
+def test_a_name_needs_no_document_before_it(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"deployments/robot.ddsl.yaml": ROBOT, "arm/arm.txt": ""})
+    for args in (("base",), ("deployments", "base"), (".", "base"), ("deployments/robot.ddsl.yaml", "base")):
+        assert deploy(rcyaml, "plan", *args).output == "+ base  start: it does not run yet\n1 to start\n", args
+    assert "+ arm" in deploy(rcyaml, "plan", "arm").output, "a folder that has no deployment is none"
+    assert "localhost" in deploy(rcyaml, "probe", "localhost").output
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (("plan", "bsae"), "has no process or group 'bsae'; did you mean 'base'?"),
+        (("plan", "robot.ddsl.yml"), "Path 'robot.ddsl.yml' does not exist"),
+        (("down", "other/place"), "Path 'other/place' does not exist"),
+        (("probe", "moon"), "has no host 'moon'"),
+        (("probe", ".", "a", "b"), "Got unexpected extra argument (b)"),
+        (("export", "--as", "systemd", "base"), "Path 'base' does not exist"),
+        (("export", "--as", "systemd", ".", "base", "arm"), "Got unexpected extra arguments (base arm)"),
+    ],
+)
+def test_words_that_are_neither(rcyaml: Rcyaml, tmp_path: Path, args: tuple[str, ...], said: str) -> None:
+    write_tree(tmp_path, {"deployments/robot.ddsl.yaml": ROBOT})
+    told = rcyaml("deploy", *args)
+    assert told.exit_code == 2 and said in told.stderr
+
+
+@pytest.mark.parametrize("what", [*READING, "up", "restart"])
+def test_several_are_told(rcyaml: Rcyaml, tmp_path: Path, what: str) -> None:
+    write_tree(tmp_path, {"d/robot.ddsl.yaml": ROBOT, "d/two.ddsl.yaml": ROBOT.replace("Robot", "Two")})
+    told = deploy(rcyaml, what)
+    assert told.exit_code == 2
+    assert "there are several deployments here, of which one is to be named: d/robot.ddsl.yaml, d/two.ddsl.yaml" in told.stderr
+    assert rcyaml("graph").stderr.splitlines()[-1] == told.stderr.splitlines()[-1]
+
+
+def test_none_is_told(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"empty": None})
+    for args in ((), (".",), ("empty",)):
+        told = deploy(rcyaml, "plan", *args)
+        assert told.exit_code == 2 and "it has none: `rcyaml new deployment NAME` writes one" in told.stderr
+
+
+def test_what_others_include_is_part_of_them(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    write_tree(tmp_path, {
+        "d/base.ddsl.yaml": ROBOT.replace("Robot", "Base"),
+        "d/robot.ddsl.yaml": "deployment: Robot\ninclude: [base.ddsl.yaml]\n",
+    })  # fmt: skip
+    assert deploy(rcyaml, "plan").output.endswith("2 to start\n")
+    assert deploy(rcyaml, "plan", "d").output.endswith("2 to start\n")
+
+
+def test_the_nearest_is_meant(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT, "tests/two.ddsl.yaml": ROBOT.replace("Robot", "Two")})
+    assert deploy(rcyaml, "status").exit_code == 0 and rcyaml("graph").exit_code == 0

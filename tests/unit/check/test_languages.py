@@ -1,0 +1,90 @@
+"""What a language does not have is refused where a document says it; what it has is not."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from conftest import write_tree
+from robocomp_yaml import languages
+from robocomp_yaml.languages.record import CAPABILITIES, MERGING, PORTS, TargetLanguage
+
+Rcyaml = Callable[..., Any]
+SAID: dict[str, dict[str, Any]] = {
+    "parameters": {"parameters": "p.pdsl.yaml"},
+    "period": {"period": "20 ms"},
+    "statemachine": {"statemachine": {"initial": "a", "final": "b", "states": {"a": {}}, "transitions": {"a": "b"}}},
+    "gui": {"gui": {"toolkit": "qt", "base": "QWidget"}},
+    "compatibility": {"compatibility": "robocomp"},
+    "sources": {"uses": {"sources": ["a.cpp"]}},
+    "classes": {"uses": {"classes": ["a"]}},
+    **{key: {"uses": {"libraries": [{key: "x1"}]}} for key in ("cmake", "pkg-config", "link", "pip")},
+    **{key: {key: ["Ticks" if key in ("publishes", "subscribes") else "Clock"]} for key in PORTS},
+}
+OTHERS = {
+    "Clock.idsl.yaml": "module: RoboCompClock\ninterfaces: {Clock: {methods: {now: {returns: long}}}}\n"
+    "topics: {Ticks: {methods: {tick: {}}}}\n",
+    "p.pdsl.yaml": "parameters: {speed: {type: double, default: 1}}\n",
+}
+
+
+def said(rcyaml: Rcyaml, folder: Path, language: Any, keys: dict[str, Any]) -> list[tuple[str, str, int]]:
+    document = {"component": "ClockComp", "language": language, "imports": ["Clock"], **keys}
+    text = "\n".join(f"{key}: {json.dumps(value)}" for key, value in document.items())
+    write_tree(folder, {"c.cdsl.yaml": f"{text}\n", **OTHERS})
+    found = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
+    return [(one["code"], one["message"], one["line"]) for one in found if one["code"] in ("RC2060", "RC2303")]
+
+
+def told(language: TargetLanguage, key: str, line: int) -> list[tuple[str, str, int]]:
+    if key in language.ignored:
+        message = f"a component in {language.title} does not build anything: `{key}` has no effect"
+        return [("RC2303", message, line)]
+    return [] if key in language.has else [("RC2060", f"`{key}:` is not available in {language.title}", line)]
+
+
+def test_every_key_of_a_capability_is_tried() -> None:
+    assert {*SAID, "standard", MERGING} == {*CAPABILITIES}
+
+
+@pytest.mark.parametrize("key", SAID)
+@pytest.mark.parametrize("name", languages.table())
+def test_a_key_is_refused_where_its_language_does_not_have_it(
+    rcyaml: Rcyaml, tmp_path: Path, name: str, key: str
+) -> None:
+    assert said(rcyaml, tmp_path, name, SAID[key]) == told(languages.language(name), key, 4)
+
+
+@pytest.mark.parametrize("name", languages.table())
+def test_a_standard(rcyaml: Rcyaml, tmp_path: Path, name: str) -> None:
+    language = {"name": name, "standard": 20}
+    assert said(rcyaml, tmp_path, language, {}) == told(languages.language(name), "standard", 2)
+
+
+@pytest.mark.parametrize("name", languages.table())
+def test_what_says_nothing_asks_for_nothing(rcyaml: Rcyaml, tmp_path: Path, name: str) -> None:
+    assert said(rcyaml, tmp_path, name, {"implements": [], "uses": {"libraries": []}}) == []
+
+
+def test_the_hint_says_what_there_is(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    lacking = [(one, key) for one in languages.table().values() for key in ("statemachine", "gui") if key not in one.has]
+    for language, key in lacking:
+        said(rcyaml, tmp_path, language.name, SAID[key])
+        output = rcyaml("check").output
+        assert f"leave it out, or write the component in Python or C++; {language.title} has implements, " in output
+        compiled = rcyaml("compile")
+        assert compiled.exit_code == 1 and not (tmp_path / "src").exists(), compiled.output
+
+
+def test_one_key_is_one_error(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    """A machine that its language does not have is not looked into as well."""
+    machine = {"statemachine": {"initial": "nowhere", "datamodel": "python", "states": {"a": {}}}}
+    for language in languages.table().values():
+        if "statemachine" not in language.has:
+            said(rcyaml, tmp_path, language.name, machine)
+            found = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
+            assert "RC2216" not in [one["code"] for one in found]

@@ -1,0 +1,50 @@
+"""What is seen of the code without running it: the rules and the format of ruff, the types of mypy, and the layers.
+
+  lint.py [NAME...]   all of them, or some: rules, format, types, layers; exit code 1 where one finds something
+  lint.py --fix       mends what can be mended without a thought: the order of imports, and the format
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+RUFF = ("-m", "ruff")
+# Format and order of imports are looked at once they have been mended in one run over all: `lint.py --fix`.
+IS_FORMATTED = False
+CHECKS = {
+    "rules": (*RUFF, "check", "--quiet", *(() if IS_FORMATTED else ("--ignore", "I"))),
+    "format": (*RUFF, "format", "--check", "--quiet", "--diff"),
+    "types": ("-m", "mypy", "--no-error-summary"),
+    "layers": ("-c", "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))"),
+}
+if not IS_FORMATTED:
+    del CHECKS["format"]
+FIXES = ((*RUFF, "check", "--quiet", "--fix", "--select", "I"), (*RUFF, "format", "--quiet"))
+
+
+def main(*words: str) -> int:
+    if words == ("--fix",):
+        return max(run(arguments).returncode for arguments in FIXES)
+    if unknown := set(words) - set(CHECKS):
+        print(f"there is no {', '.join(sorted(unknown))}: {', '.join(CHECKS)}", file=sys.stderr)
+        return 2
+    wrong = [name for name in words or CHECKS if not is_right(name)]
+    return 1 if wrong else 0
+
+
+def is_right(name: str) -> bool:
+    done = run(CHECKS[name])
+    if done.returncode:
+        print(f"{name}:\n{done.stdout}{done.stderr}", flush=True)
+    return done.returncode == 0
+
+
+def run(arguments: tuple[str, ...]) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, check=False)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
