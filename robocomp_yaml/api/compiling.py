@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.api import made_already
 from robocomp_yaml.api.outcome import File, Outcome
+from robocomp_yaml.diag.codes.files import PLUGIN_FAILED
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.emit.build import Build, build
@@ -138,7 +139,7 @@ class Compilation:
         disk = self._analysis.disk
         walked = {folder: stamp.walked(folder) for folder in disk.walked}  # there may be new roots since this run
         plugins = [workspace.plugins for workspace in self._analysis.linker.workspaces.values()]
-        if any(one.broken for one in plugins):
+        if any(one.broken for one in plugins) or any(one.code == PLUGIN_FAILED.id for one in again.diagnostics):
             return None  # it may lack what nobody looks at here
         if disk.unreadable or any(walked[folder][: len(found)] != found for folder, found in disk.walked.items()):
             return None

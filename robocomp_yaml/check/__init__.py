@@ -5,7 +5,7 @@ for the documents of the workspaces that name them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from types import ModuleType
 from typing import Any
 
@@ -39,23 +39,27 @@ def checks(program: Program, plugins: Iterable[Plugins] = ()) -> list[Check]:
         "pdsl": program.parameters or program.values,
     }
     found = [check for kind, documents in kinds.items() if documents for check in checks_of(kind)]
+    spoken = {linked.component.language.name for linked in program.components.values()}
     if program.modules:
-        spoken = {linked.component.language.name for linked in program.components.values()}
         asked = (one for one in languages.table().values() if one.name in spoken or one.warns_others)
         found += [one.part("checks").check for one in asked if one.has_checks]
     for plugin in {one.name: one for each in plugins for one in each.active}.values():
-        for name, check in plugged(plugin, kinds):
+        for name, check in plugged(plugin, kinds, spoken):
             found.append(_where_it_counts(plugin, name, check))
     return found
 
 
-def plugged(plugin: Plugin, kinds: Mapping[str, object]) -> Iterator[tuple[str, Check]]:
-    """The checks of a plug-in that documents of these kinds call for, with what they are called."""
+def plugged(
+    plugin: Plugin, kinds: Mapping[str, object], spoken: Collection[str] = ()
+) -> Iterator[tuple[str, Check]]:  # fmt: skip
+    """The checks of a plug-in that documents of these kinds and components in these languages call for, with what they
+    are called."""
     for (kind, name), module in plugin.pieces.items():
         if kind == CHECKS and kinds.get(module.KIND):
             yield f"check '{name}'", module.check
-        elif kind == LANGUAGES and module.LANGUAGE.has_checks and kinds.get("idsl"):
-            yield f"language '{name}'", _of_language(module.LANGUAGE)
+        elif kind == LANGUAGES and kinds.get("idsl") and (name in spoken or module.LANGUAGE.warns_others):
+            if module.LANGUAGE.has_checks:
+                yield f"language '{name}'", _of_language(module.LANGUAGE)
 
 
 def _of_language(language: TargetLanguage) -> Check:

@@ -194,7 +194,7 @@ def _has_taken(text: str) -> bool:
     if not isinstance(tree, Tree) or schema.validate("idsl", tree):
         return False
     module = build(tree, "")
-    return any(one.part("checks").has_taken(module) for one in languages.known().values() if one.warns_others)
+    return any(one.part("checks").has_taken(module) for one in languages.table().values() if one.warns_others)
 
 
 def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:

@@ -264,6 +264,16 @@ def test_a_legacy_format_that_fails(rcyaml: Run, site: Path, tmp_path: Path, tex
     assert not [*tmp_path.glob("old/*.yaml")]
 
 
+def test_what_failed_is_tried_again(rcyaml: Run, site: Path, tmp_path: Path) -> None:
+    """It may have failed of something that no stamp remembers."""
+    text = CHECK.replace("    return []", "    open('needed')\n    return []")
+    installed(site, "acme", {"checks/a": "mod"}, {"mod.py": text})
+    workspace(tmp_path, "acme")
+    assert rcyaml("compile").returncode == 1
+    (tmp_path / "needed").touch()
+    assert rcyaml("compile").returncode == 0
+
+
 def test_elsewhere_it_does_not_matter(rcyaml: Run, site: Path, tmp_path: Path) -> None:
     """What is installed and not named is not even imported."""
     installed(site, "acme", {"checks/a": "mod"}, {"mod.py": "open('imported', 'w')\n"})
