@@ -20,7 +20,7 @@ DOCUMENTS = {
     "radio/radio.cdsl.yaml": cdsl(
         "Radio", "java", implements=["Arm"], requires=[{"Hand": {"interface": "Hand", "timeout": "30 s"}}],
         publishes=["ArmEvents"], subscribes=["ArmEvents"],
-    ),  # fmt: skip
+    ),
 }
 
 SERVER = """

@@ -6,7 +6,6 @@ Texts that hold a configuration may hold what nobody else should read, as `Netwo
 from __future__ import annotations
 
 import os
-from collections.abc import Collection
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -19,11 +18,11 @@ from robocomp_yaml.registry import Modules
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
-OWN = Modules(__name__, "form")
+_OURS = Modules(__name__, "form")
 
 
-def built_in() -> Collection[str]:
-    return OWN.table().keys()
+def built_in() -> list[str]:
+    return [*_OURS.table()]
 
 
 def forms(plugins: Plugins = NONE) -> list[str]:
@@ -34,12 +33,12 @@ def forms(plugins: Plugins = NONE) -> list[str]:
 def export(network: Network, form: str, plugins: Plugins = NONE) -> dict[str, str]:
     """The files that another tool runs the network from, by their relative paths; `form` is one of `forms()`. Raises
     Unwritable where the form cannot say what the network has; what is only written otherwise is `noted`."""
-    if form in plugins.of(EXPORTS):
-        with _unwritable.of(network):
-            return _of_plugin(network, form, *plugins.of(EXPORTS)[form])
-    made = OWN.load(form)
+    if form not in forms(plugins):
+        raise ValueError(f"there is no form '{form}'")
     with _unwritable.of(network):
-        files: dict[str, str] = made.export(network)
+        if form in plugins.of(EXPORTS):
+            return _of_plugin(network, form, *plugins.of(EXPORTS)[form])
+        files: dict[str, str] = _OURS.load(form).export(network)
     return files
 
 

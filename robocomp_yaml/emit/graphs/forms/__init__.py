@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.plugins import GRAPHS, NONE, Plugins
@@ -11,11 +10,11 @@ from robocomp_yaml.registry import Modules
 if TYPE_CHECKING:
     from robocomp_yaml.emit.graphs.picture import Picture
 
-OWN = Modules(__name__, "form")
+_OURS = Modules(__name__, "form")
 
 
-def built_in() -> Collection[str]:
-    return OWN.table().keys()
+def built_in() -> list[str]:
+    return [*_OURS.table()]
 
 
 def forms(plugins: Plugins = NONE) -> list[str]:
@@ -32,5 +31,5 @@ def draw(picture: Picture, form: str, plugins: Plugins = NONE) -> str:
             if not isinstance(drawn, str):
                 raise TypeError("it gives no text")
         return drawn
-    text: str = OWN.load(form).draw(picture)
+    text: str = _OURS.load(form).draw(picture)
     return text
