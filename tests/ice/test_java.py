@@ -238,6 +238,33 @@ def test_a_method_that_lacks_is_named_by_the_build(built: Callable[[str], Path],
     assert done.stderr.endswith("Server: javac refuses the code, see above\n")
 
 
+def test_a_build_refuses_what_it_cannot_do(built: Callable[[str], Path], tmp_path: Path) -> None:
+    """Another's program in its place, an old compiler, no compiler; a failed build leaves the last one."""
+    root = tmp_path / "server"
+    shutil.copytree(built("Server"), root)
+    program, build_ = root / "bin" / "Server", root / "generated" / "build"
+    before = program.read_bytes(), (root / "build" / "Server.jar").read_bytes()
+
+    def said(**variables: str) -> str:
+        done = subprocess.run([build_], env={**os.environ, **variables}, capture_output=True, text=True)
+        assert done.returncode == 1
+        assert (program.read_bytes(), (root / "build" / "Server.jar").read_bytes()) == before
+        assert sorted(path.name for path in (root / "build").iterdir()) == [".gitignore", "Server.jar"]
+        return done.stderr
+
+    assert said(JAVA_HOME="/nowhere").startswith("Server: there is no javac: apt install openjdk-17-jdk-headless")
+    old = tmp_path / "old" / "bin" / "javac"
+    old.parent.mkdir(parents=True)
+    old.write_text("#!/bin/sh\necho javac 11.0.2\n")
+    old.chmod(0o755)
+    assert said(JAVA_HOME=str(tmp_path / "old")).endswith("is of Java 11: 17 or later is needed\n")
+    (root / "src" / "Odd.java").write_text("class {")
+    assert said().endswith("Server: javac refuses the code, see above\n")
+    program.write_text("#!/bin/sh\necho mine\n")
+    before = program.read_bytes(), before[1]
+    assert said() == f"Server: {program} is not of a build: move it away\n"
+
+
 def test_common_behavior(program: Program, addresses: Addresses, start: Start, ice: Any, free_port: Ports) -> None:
     from Ice import loadSlice
 
