@@ -23,7 +23,7 @@ from robocomp_yaml.values.effective import effective
 from robocomp_yaml.values.properties import as_dict, properties
 from verdicts import CPP_DOCUMENTS, verdicts
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.processes]
 LANGUAGES = [each for each in of_languages.each() if of_languages.spoken(each.values[0]).judge]
 
 
