@@ -112,11 +112,12 @@ def analyse(
     program = linker.link(found.documents)
     derived = networks_of(program)
     said = [*found.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
-    for check in checks(program):
+    for check in checks(program, [one.plugins for one in linker.workspaces.values()]):
         said += check(program)
-    said += of_networks(derived)
+    said += of_networks(derived, program)
     said += secrets.check(program, linker.documents.read.values())
-    analysis = Analysis(program, linker, found, disk, derived, Allowed.of(disk.contents))
+    allowed = Allowed.of(disk.contents, program.plugins_of)
+    analysis = Analysis(program, linker, found, disk, derived, allowed)
     judged = analysis.judged([*said, *analysis.allowed.said])
     return replace(analysis, diagnostics=tuple(in_order(analysis.shown(judged.told))), used=judged.used)
 

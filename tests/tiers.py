@@ -16,7 +16,7 @@ from types import ModuleType
 import pytest
 
 TESTS = Path(__file__).resolve().parent
-OF_PROCESSES = frozenset(("deploy", "docs", "editor", "ice", "lint", "packaging", "scxml"))
+OF_PROCESSES = frozenset(("deploy", "docs", "editor", "ice", "lint", "packaging", "plugins", "scxml"))
 """Tiers that are about processes as a whole."""
 STARTING = frozenset(("os.fork", "os.forkpty", "os.posix_spawn", "os.system", "subprocess.Popen"))
 OF_UNITS = STARTING | {"open", "socket.bind", "socket.connect"}

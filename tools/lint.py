@@ -15,7 +15,7 @@ RUFF = ("-m", "ruff")
 # Format and order of imports are looked at once they have been mended in one run over all: `lint.py --fix`.
 IS_FORMATTED = False
 CHECKS = {
-    "rules": (*RUFF, "check", "--quiet", *(() if IS_FORMATTED else ("--ignore", "I"))),
+    "rules": (*RUFF, "check", "--quiet", "--output-format", "concise", *(() if IS_FORMATTED else ("--ignore", "I"))),
     "format": (*RUFF, "format", "--check", "--quiet", "--diff"),
     "types": ("-m", "mypy", "--no-error-summary"),
     "layers": ("-c", "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))"),

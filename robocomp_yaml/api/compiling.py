@@ -121,12 +121,13 @@ class Compilation:
             if not fences.hold(workspace.root):
                 continue
             try:
-                workspace_files.install(Path(workspace.root))
+                workspace_files.install(Path(workspace.root), workspace.plugins)
             except OSError:
                 continue
             for kind in workspace_files.GLOBS:
                 path = os.path.normpath(os.path.join(workspace.root, workspace_files.schema_path(kind)))
-                found[path] = whole(path)[0]
+                if os.path.lexists(path):  # it may wait for a plug-in
+                    found[path] = whole(path)[0]
         return found
 
     def _stamp(
@@ -136,6 +137,9 @@ class Compilation:
         change without any trace."""
         disk = self._analysis.disk
         walked = {folder: stamp.walked(folder) for folder in disk.walked}  # there may be new roots since this run
+        plugins = [workspace.plugins for workspace in self._analysis.linker.workspaces.values()]
+        if any(one.broken for one in plugins):
+            return None  # it may lack what nobody looks at here
         if disk.unreadable or any(walked[folder][: len(found)] != found for folder, found in disk.walked.items()):
             return None
         settled, once = changes.settled, changes.once
@@ -152,6 +156,7 @@ class Compilation:
             outputs=settled | schemas,
             present=once,
             replay=again.as_data(),
+            plugins=sorted({name for one in plugins for name in one.named}),
         )
 
 

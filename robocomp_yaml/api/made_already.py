@@ -16,7 +16,13 @@ def outcome(
 ) -> Outcome | None:  # fmt: skip
     """What the same compile made again would come to; None where it is to be made."""
     made = stamp.load(*_place(paths, include, output, targets))
-    return Outcome.of_data(made.replay, planned=planned) if made is not None and stamp.is_current(made) else None
+    if made is None or not stamp.is_current(made):
+        return None
+    if made.plugins:
+        from robocomp_yaml.plugins import finding  # whose words are told again
+
+        finding.load(made.plugins)
+    return Outcome.of_data(made.replay, planned=planned)
 
 
 def told_of_code(paths: Sequence[str], include: Sequence[str]) -> list[Diagnostic] | None:

@@ -1,15 +1,20 @@
 """What a schema cannot say: a folder for each kind of document, every module of which may have a
 `check(program) -> Iterator[Diagnostic]` (`ddsl`: `check(network)`, see `networks`). The checks of a kind are imported
-only where there are documents of it. What a language says of interfaces stands with the language."""
+only where there are documents of it. What a language says of interfaces stands with the language. Plug-ins add checks,
+for the documents of the workspaces that name them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import ModuleType
+from typing import Any
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.errors import Faulty
+from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
+from robocomp_yaml.plugins import CHECKS, LANGUAGES, Plugin, Plugins
 from robocomp_yaml.registry import Modules
 
 Check = Callable[[Program], Iterator[Diagnostic]]
@@ -25,8 +30,8 @@ def checks_of(kind: str) -> list[Check]:
     return [module.check for module in modules_of(kind)]
 
 
-def checks(program: Program) -> list[Check]:
-    """The checks that a program calls for."""
+def checks(program: Program, plugins: Iterable[Plugins] = ()) -> list[Check]:
+    """The checks that a program calls for; `plugins` are those of its workspaces."""
     kinds = {
         "idsl": program.modules,
         "cdsl": program.components,
@@ -38,4 +43,49 @@ def checks(program: Program) -> list[Check]:
         spoken = {linked.component.language.name for linked in program.components.values()}
         asked = (one for one in languages.table().values() if one.name in spoken or one.warns_others)
         found += [one.part("checks").check for one in asked if one.has_checks]
+    for plugin in {one.name: one for each in plugins for one in each.active}.values():
+        for name, check in plugged(plugin, kinds):
+            found.append(_where_it_counts(plugin, name, check))
     return found
+
+
+def plugged(plugin: Plugin, kinds: Mapping[str, object]) -> Iterator[tuple[str, Check]]:
+    """The checks of a plug-in that documents of these kinds call for, with what they are called."""
+    for (kind, name), module in plugin.pieces.items():
+        if kind == CHECKS and kinds.get(module.KIND):
+            yield f"check '{name}'", module.check
+        elif kind == LANGUAGES and module.LANGUAGE.has_checks and kinds.get("idsl"):
+            yield f"language '{name}'", _of_language(module.LANGUAGE)
+
+
+def _of_language(language: TargetLanguage) -> Check:
+    def check(program: Program) -> Iterator[Diagnostic]:
+        found: Iterator[Diagnostic] = language.part("checks").check(program)
+        return found
+
+    return check
+
+
+def said_by(plugin: Plugin, name: str, check: Callable[[Any], Iterator[Diagnostic]], about: Any) -> list[Diagnostic]:
+    """What a plug-in's check says, and that it failed, where it does."""
+    said: list[Diagnostic] = []
+    try:
+        with plugin.answering(name):
+            for one in check(about):
+                if not isinstance(one, Diagnostic):
+                    raise TypeError(f"it gives {type(one).__name__}, which is no Diagnostic")
+                said.append(one)
+    except Faulty as failed:
+        said += failed.diagnostics
+    return said
+
+
+def _where_it_counts(plugin: Plugin, name: str, check: Check) -> Check:
+    """A plug-in sees the whole program, and speaks only of the documents of workspaces that name it."""
+
+    def run(program: Program) -> Iterator[Diagnostic]:
+        for one in said_by(plugin, name, check, program):
+            if one.span.file == plugin.span.file or program.plugins_of(one.span.file).has(plugin.name):
+                yield one
+
+    return run

@@ -8,8 +8,9 @@ import msgspec
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import files as codes
-from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.codes import row_of
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.allowances import OURS, Allowance, allowances
 from robocomp_yaml.source.spelled import Text, text_of
 
@@ -32,12 +33,13 @@ class Allowed(msgspec.Struct, frozen=True):
     texts: Mapping[str, Text] = {}
 
     @classmethod
-    def of(cls, contents: Mapping[str, bytes]) -> Allowed:
-        """Those of the YAML documents among these files."""
+    def of(cls, contents: Mapping[str, bytes], plugins_of: Callable[[str], Plugins]) -> Allowed:
+        """Those of the YAML documents among these files; `plugins_of` says which plug-ins count for one."""
         by_file, said, texts = {}, [], {}
         for path, raw in contents.items():
             if path.endswith(".yaml") and OURS.search(raw) and (text := text_of(path, raw)) is not None:
-                found, wrong = allowances(text)
+                plugins = plugins_of(path)
+                found, wrong = allowances(text, plugins.codes, whole=plugins.whole)
                 by_file[path], texts[path] = tuple(found), text
                 said += wrong
         return cls(by_file, tuple(said), texts)
@@ -66,7 +68,7 @@ class Allowed(msgspec.Struct, frozen=True):
         """The allowances in these files that are not among those that a whole check used."""
         for file in files:
             for one in self.by_file.get(file, ()):
-                if one not in used and _is_checked(table()[one.code], environment):
+                if one not in used and _is_checked(row_of(one.code), environment):
                     yield codes.ALLOW_UNUSED.at(
                         one.span, code=one.code, hint="remove it", fixes=[one.removal(self.texts[file])]
                     )

@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING
 
 import click
 
+from robocomp_yaml.commands import _plugged
+
 if TYPE_CHECKING:
     from robocomp_yaml.diag.errors import Faulty
 
 
 class Command(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        _plugged.remember(ctx, args)
         with _answers(ctx):
             return super().parse_args(ctx, args)
 

@@ -31,7 +31,7 @@ def export(ctx: click.Context, opened: Opened, form: str, output: str | None) ->
     network = hidden(opened.network) if is_hidden else opened.network
     try:
         with exports.noted() as notes:
-            files = exports.export(network, form)
+            files = exports.export(network, form, opened.analysis.program.plugins_of(opened.path))
     except exports.Unwritable as refused:
         opened.told.append(_told(refused, form).as_severity(ERROR))
         end(ctx, opened)

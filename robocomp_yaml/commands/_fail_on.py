@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import click
 import msgspec
 
+from robocomp_yaml.commands import _plugged
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import ERROR, SEVERITIES, Diagnostic
 
@@ -45,7 +46,9 @@ def _parse(ctx: click.Context, param: click.Parameter, given: tuple[str, ...]) -
         from robocomp_yaml.diag.codes import table
         from robocomp_yaml.diag.suggest import suggest
 
-        known = table()
+        known = dict(table())
+        if any(code not in known for code in codes):
+            known |= _plugged.codes(ctx)
         for code in codes:
             if code not in known:
                 meant = suggest(code.lower(), SEVERITIES) or suggest(code, known)

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_yaml.commands import _fail_on, _options
+from robocomp_yaml.commands._command import Command
 
 if TYPE_CHECKING:
     from robocomp_yaml.commands._fail_on import FailOn
 
 
-@click.command(short_help="Report everything that is wrong with the documents.")
+@click.command(cls=Command, short_help="Report everything that is wrong with the documents.")
 @_options.paths
 @click.option("--environment", is_flag=True, help="Also say which of the libraries they name are not installed.")
 @click.option("--fix", is_flag=True, help="Apply the fixes that leave only one possible meaning.")

@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
-from robocomp_yaml import languages
 from robocomp_yaml.commands import _fail_on, _options
+from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands._plugged import Plugged
+
+if TYPE_CHECKING:
+    from robocomp_yaml.plugins import Plugins
 
 
-@click.command(short_help="Write Slice and components; only what changed.")
+def _targets(plugins: Plugins) -> list[str]:
+    from robocomp_yaml import languages
+
+    return ["slice", *languages.table(), *(one.name for one in plugins.languages), "config", "docs"]
+
+
+@click.command(cls=Command, short_help="Write Slice and components; only what changed.")
 @_options.paths
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR.")
-@click.option("--target", "targets", multiple=True, type=click.Choice(["slice", *languages.table(), "config", "docs"]),
+@click.option("--target", "targets", multiple=True, type=Plugged(_targets),
               help="Write only this; may be repeated.")
 @click.option("--dry-run", is_flag=True, help="Say what would be written, and write nothing.")
 @click.option("--diff", is_flag=True, help="Show what would change in each file, and write nothing.")

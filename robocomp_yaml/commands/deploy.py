@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Group
 from robocomp_yaml.commands._deployment_argument import DocumentAnd
+from robocomp_yaml.commands._plugged import Plugged
 from robocomp_yaml.deploy.engines import ENGINES
-from robocomp_yaml.emit.exports import forms
+
+if TYPE_CHECKING:
+    from robocomp_yaml.plugins import Plugins
 
 _FORMATS = click.Choice(["text", "json"])
 
@@ -43,6 +46,12 @@ class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are no
 
 timeout = click.option("--timeout", type=_Duration(), metavar="TIME",
                        help="How long it may take, all in all: 30s, 2min.")  # fmt: skip
+
+
+def _exports(plugins: Plugins) -> list[str]:
+    from robocomp_yaml.emit.exports import forms
+
+    return forms(plugins)
 
 
 @click.group(cls=Group, short_help="A network of components: plan, up, status, logs, down.")
@@ -164,14 +173,15 @@ def probe(ctx: click.Context, ddsl: str, host: tuple[str, ...], include: tuple[s
 @command.command(short_help="The network in the words of other tools.")
 @_shared
 @click.argument("nothing", cls=DocumentAnd, most=0, expose_value=False)
-@click.option("--as", "form", required=True, type=click.Choice(forms()),
+@click.option("--as", "form", required=True, type=Plugged(_exports),
               help="Which tool.")
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR, not to "
               "standard output.")
 @click.pass_context
 def export(ctx: click.Context, ddsl: str, form: str, output: str | None, include: tuple[str, ...],
            format_: str) -> None:  # fmt: skip
-    """Print the files from which IceGrid, RCManager, systemd or docker compose run the network, or write them."""
+    """Print the files from which IceGrid, RCManager, systemd or docker compose run the network, or what a plug-in of
+    the workspace makes of it; or write them."""
     from robocomp_yaml.commands import _deploying, _exporting
 
     _exporting.export(ctx, _deploying.open_(ctx, ddsl, include, format_, None), form, output)

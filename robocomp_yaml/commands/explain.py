@@ -2,34 +2,55 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
+
 import click
 
+from robocomp_yaml.commands import _plugged
+from robocomp_yaml.commands._command import Command
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.page import Files, Repeated
 
+_OF_A_PLUGIN = re.compile(r"(?!RC\d)[A-Z]{2,}\d{3,4}")
 
-@click.command(short_help="Say what a diagnostic means, with examples.")
+
+@click.command(cls=Command, short_help="Say what a diagnostic means, with examples.")
 @click.argument("code", required=False)
 @click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
 @click.pass_context
 def command(ctx: click.Context, code: str | None, format_: str) -> None:
     """Say what the diagnostic CODE means, such as RC2003; without a code, list them all."""
-    from robocomp_yaml.diag.codes import table
-    from robocomp_yaml.diag.suggest import suggest
-
-    rows = table()
+    rows = _codes()
     if code is None:
         chosen = list(rows.values())
     elif (row := rows.get(code.upper())) is None:
-        meant = suggest(code.upper(), rows)
-        raise click.UsageError(f"no diagnostic is called {code}" + (f"; did you mean {meant}?" if meant else ""))
+        _plugged.here()  # it may be that of a plug-in that cannot be had
+        raise click.UsageError(f"no diagnostic is called {code}{_hint(code.upper(), rows)}")
     else:
         chosen = [row]
     if format_ == "json":
         terminal.data(_as_json(chosen), json=True)
     else:
         terminal.say_text(_listed(chosen) if code is None else _explained(chosen[0]))
+
+
+def _hint(code: str, known: Iterable[str]) -> str:
+    from robocomp_yaml.diag.suggest import suggest
+
+    alike = [one for one in known if one[:2] == code[:2]]
+    if not alike and _OF_A_PLUGIN.fullmatch(code):
+        return " here: those of a plug-in are explained in a workspace that names it under `plugins:`"
+    meant = suggest(code, alike or known)
+    return f"; did you mean {meant}?" if meant else ""
+
+
+def _codes() -> dict[str, Code]:
+    """All codes, with those of the plug-ins of this folder's workspace."""
+    from robocomp_yaml.diag.codes import table
+
+    return {**table(), **_plugged.codes()}
 
 
 def _listed(rows: list[Code]) -> str:

@@ -11,6 +11,7 @@ import click
 from robocomp_yaml.api.deployments import deployments_of, one_of
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands._plugged import Plugged
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.emit.graphs.forms import forms
 from robocomp_yaml.source.discover import kind_of
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
 @click.command(cls=Command, short_help="A picture of a deployment, or of components.")
 @click.argument("path", metavar="[DDSL]", default=".", type=click.Path(exists=True))
-@click.option("--as", "form", type=click.Choice(forms()), default="text", show_default=True, help="How to draw it.")
+@click.option("--as", "form", type=Plugged(forms), default="text", show_default=True, help="How to draw it.")
 @click.option("-o", "--output", metavar="FILE", type=click.Path(dir_okay=False), help="Write it there.")
 @_options.include
 @_options.format_
@@ -46,7 +47,7 @@ def command(
     if made is None:
         _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)
         return
-    text = draw(made, form)
+    text = draw(made, form, analysis.linker.workspace_of(_inside(path)).plugins)
     if output is None:
         terminal.data(text, json=form == "json")
     else:
@@ -75,6 +76,11 @@ def _picture(path: str, analysis: Analysis) -> Picture | None:
         return None
     name = os.path.basename(os.path.abspath(path))
     return of_components.picture_of(name, analysis.program.components.values())
+
+
+def _inside(path: str) -> str:
+    """A document, or what stands for one in a folder: its workspace is that of the picture."""
+    return os.path.join(path, "") if os.path.isdir(path) else path
 
 
 def _save(path: str, text: str) -> None:

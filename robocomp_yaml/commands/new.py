@@ -11,7 +11,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 import msgspec
@@ -19,8 +19,12 @@ import msgspec
 from robocomp_yaml import languages
 from robocomp_yaml.commands import _options, _workspace
 from robocomp_yaml.commands._command import Group
+from robocomp_yaml.commands._plugged import Plugged
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.transactions import whole_file
+
+if TYPE_CHECKING:
+    from robocomp_yaml.plugins import Plugins
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LONGEST_NAME = 200
@@ -73,6 +77,10 @@ def _names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
     return [name for name in interfaces_of(root) if name.startswith(incomplete)] if root else []
 
 
+def _languages(plugins: Plugins) -> list[str]:
+    return [*languages.table(), *(one.name for one in plugins.languages)]
+
+
 def _uses(name: str, meaning: str) -> Callable[[Any], Any]:
     return click.option(
         f"--{name}", multiple=True, metavar="INTERFACE", shell_complete=_names, help=f"The {meaning}; may be repeated."
@@ -81,7 +89,7 @@ def _uses(name: str, meaning: str) -> Callable[[Any], Any]:
 
 @command.command(short_help="A new component document.")
 @click.argument("name")
-@click.option("--language", type=click.Choice([*languages.table()]), default=languages.DEFAULT,
+@click.option("--language", type=Plugged(_languages), default=languages.DEFAULT,
               help="The language of its code.")
 @_uses("implements", "interfaces that it serves")
 @_uses("requires", "interfaces of others that it calls")

@@ -9,6 +9,8 @@ from pathlib import Path
 import click
 from click.shell_completion import CompletionItem
 
+from robocomp_yaml.commands import _plugged
+from robocomp_yaml.commands._command import Command
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.source.regular import regular
 
@@ -23,18 +25,17 @@ def _kinds(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
     return kinds or [CompletionItem(incomplete, type="file")]
 
 
-@click.command(short_help="Print the JSON Schema of a kind of document.")
+@click.command(cls=Command, short_help="Print the JSON Schema of a kind of document.")
 @click.argument("kind", metavar="[KIND|FILE]", required=False, shell_complete=_kinds)
 @click.pass_context
 def command(ctx: click.Context, kind: str | None) -> None:
     """Print the JSON Schema of a KIND of document, or say which one applies to FILE; without either, list the kinds."""
-    from robocomp_yaml.link.workspace_files import GLOBS
-    from robocomp_yaml.source.schema_text import schema_text
+    from robocomp_yaml.link.workspace_files import GLOBS, schema_of
 
     if kind is None:
         _list()
     elif kind in GLOBS:
-        terminal.data(schema_text(kind), json=True)
+        terminal.data(schema_of(kind, _plugged.here()), json=True)
     else:
         _tell(Path(kind))
 
@@ -99,7 +100,7 @@ def _named(document: Path) -> str | None:
 
 
 def _tell_whether_right(kind: str, path: Path, named: str, root: Path) -> None:
-    from robocomp_yaml.source.schema_text import schema_text
+    from robocomp_yaml.link.workspace_files import schema_of
 
     init = f"`{terminal.typed('rcyaml', 'init', str(root))}`"
 
@@ -107,5 +108,5 @@ def _tell_whether_right(kind: str, path: Path, named: str, root: Path) -> None:
         return
     if not path.is_file():
         terminal.say(f"that file is missing: {init} writes it again")
-    elif path.read_bytes() != schema_text(kind).encode("utf-8"):
+    elif path.read_bytes() != schema_of(kind, _plugged.here(str(root))).encode("utf-8"):
         terminal.say(f"that file is not this version's schema: {init} writes it again")

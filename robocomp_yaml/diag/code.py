@@ -84,9 +84,11 @@ KNOWN: dict[str, Code] = {}
 
 
 class Family(msgspec.Struct, frozen=True):
-    """The codes of a page."""
+    """The codes of a page: its name, or a plug-in's page itself, as text."""
 
     page: str
 
     def code(self, id_: str) -> Code:
-        return KNOWN.setdefault(id_, Code(id_, self.page))
+        made = Code(id_, self.page)
+        KNOWN.setdefault(id_, made)
+        return made

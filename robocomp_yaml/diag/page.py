@@ -29,7 +29,7 @@ import msgspec
 from robocomp_yaml import resources
 
 COMMAND = "check ."
-_ENTRY = re.compile(r"^## (RC\d{4})\n\n\*(\w+)\*\n", re.MULTILINE)
+_ENTRY = re.compile(r"^## ([A-Z]{2,}\d{3,4})\n\n\*(\w+)\*\n", re.MULTILINE)
 _SHARED = re.compile(r"^## Beside the examples\n(.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
 _FENCE = re.compile(r'^```(\w+)(?: ("[^"]+"|\S+)(?: ([^\n]+))?)?\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 _SECTION = re.compile(r"^(Wrong|Right|Both beside)(?:, for `rcyaml ([^`]+)`)?:$", re.MULTILINE)
@@ -90,12 +90,12 @@ class Page(msgspec.Struct, frozen=True):
 
 @cache
 def page(name: str) -> Page:
-    """The page of this name."""
-    text = resources.text(f"diagnostics/{name}.md")
+    """The page of this name; a plug-in's page is given as its text."""
+    text = name if "\n" in name else resources.text(f"diagnostics/{name}.md")
     found = list(_ENTRY.finditer(text))
     ends = [*(match.start() for match in found[1:]), len(text)]
     texts = {match[1]: text[match.end() : end] for match, end in zip(found, ends, strict=True)}
-    shared = _SHARED.search(text, 0, found[0].start())
+    shared = _SHARED.search(text, 0, found[0].start()) if found else None
     return Page(
         {match[1]: match[2] for match in found}, {id_: _message(id_, part) for id_, part in texts.items()}, texts,
         shared[1] if shared else "",

@@ -18,6 +18,12 @@ class Span(msgspec.Struct, frozen=True, order=True):
     end_line: int = 1
     end_column: int = 1
 
+    def holds(self, other: Span) -> bool:
+        """Whether another place is this one, or lies in it."""
+        first, last = (self.line, self.column), (self.end_line, self.end_column)
+        start, end = (other.line, other.column), (other.end_line, other.end_column)
+        return self.file == other.file and first <= start <= end <= last
+
     def inside(self, text: str, start: int, end: int) -> Span:
         """The place of some characters of the text that stands here, bare or in quotes; the whole place where it is
         spelled otherwise than it reads: with escapes, or on several lines."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, nullcontext
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit import config, parameter_files
@@ -13,6 +14,7 @@ from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.model.pdsl import ValuesDocument
+from robocomp_yaml.plugins import LANGUAGES
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 
@@ -33,11 +35,12 @@ def component_plan(
             common = resources.text("templates/slice/CommonBehavior.ice")
             files.append(FilePlan("slice/CommonBehavior.ice", common))
     if options.wants(component.language.name):
-        files += component.language.target.part("plan").plan(linked)
-        if component.sources or component.libraries:
-            from robocomp_yaml.emit import uses
+        with _telling(linked, options):
+            files += component.language.target.part("plan").plan(linked)
+            if component.sources or component.libraries:
+                from robocomp_yaml.emit import uses
 
-            files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
+                files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
     if options.wants("config"):
         if options.only is None:
             files += parameter_files.schemas(linked)
@@ -50,6 +53,13 @@ def component_plan(
         files += parameter_files.docs(linked)
     owner = os.path.relpath(component.path, root)
     return RootPlan(root, owner, tuple(files), partial=bool(options.targets))
+
+
+def _telling(linked: LinkedComponent, options: Options) -> AbstractContextManager[None]:
+    """Where the component's language is a plug-in's, what goes wrong is told as the plug-in's fault."""
+    name = linked.component.language.name
+    owner = options.workspace_of(linked.component.path).plugins.of(LANGUAGES).get(name)
+    return owner[0].answering(f"language '{name}'") if owner else nullcontext()
 
 
 def places(linked: LinkedComponent, workspace: Workspace, root: str) -> list[str]:

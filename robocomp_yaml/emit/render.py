@@ -15,7 +15,7 @@ from pathlib import Path
 import msgspec
 from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, StrictUndefined
 from jinja2.bccache import Bucket
-from jinja2.loaders import ChoiceLoader, FileSystemLoader, PrefixLoader
+from jinja2.loaders import BaseLoader, ChoiceLoader, FileSystemLoader, PrefixLoader
 from msgspec.structs import asdict
 
 from robocomp_yaml import languages, resources
@@ -34,11 +34,18 @@ class _Cache(FileSystemBytecodeCache):
             super().dump_bytecode(bucket)
 
 
+class _OfLanguages(dict[str, BaseLoader]):
+    """The templates of each language; those of plug-ins become known as they come."""
+
+    def __missing__(self, name: str) -> BaseLoader:
+        self[name] = FileSystemLoader(languages.known()[name].templates)
+        return self[name]
+
+
 @cache
 def _environment() -> Environment:
-    of_languages = {name: FileSystemLoader(one.templates) for name, one in languages.table().items()}
     return Environment(
-        loader=ChoiceLoader([PrefixLoader(of_languages), FileSystemLoader(resources.folder("templates"))]),
+        loader=ChoiceLoader([PrefixLoader(_OfLanguages()), FileSystemLoader(resources.folder("templates"))]),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

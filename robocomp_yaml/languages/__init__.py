@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from functools import cache
 
 from robocomp_yaml.languages.record import TargetLanguage
@@ -18,19 +18,37 @@ DEFAULT = "python"
 
 @cache
 def table() -> dict[str, TargetLanguage]:
-    """Every language by its name, the usual one first."""
+    """Every built-in language by its name, the usual one first."""
     packages = [module.name for module in pkgutil.iter_modules(__path__) if module.ispkg]
     found = [importlib.import_module(f"{__name__}.{name}").LANGUAGE for name in packages]
     return {one.name: one for one in sorted(found, key=lambda one: (one.name != DEFAULT, one.name))}
 
 
+_ADDED: dict[str, TargetLanguage] = {}
+
+
+def add(record: TargetLanguage) -> None:
+    """Makes a plug-in's language known. Where documents may be in it, their workspace says."""
+    _ADDED[record.name] = record
+
+
+def known() -> dict[str, TargetLanguage]:
+    """Every language that some document of this process may be in."""
+    return {**table(), **_ADDED}
+
+
+def built_in() -> Collection[str]:
+    return table().keys()
+
+
 def language(name: str) -> TargetLanguage:
     """The language that a document calls so; the schema has seen to it that there is one."""
-    return table()[name]
+    return table().get(name) or _ADDED[name]
 
 
-def with_capability(capability: str) -> list[TargetLanguage]:
-    return [one for one in table().values() if capability in one.has]
+def with_capability(capability: str, more: Iterable[TargetLanguage] = ()) -> list[TargetLanguage]:
+    """The languages that have it: built-in ones, and of `more`, those of plug-ins."""
+    return [one for one in (*table().values(), *more) if capability in one.has]
 
 
 def listed(words: Iterable[str], conjunction: str = "or") -> str:

@@ -21,7 +21,7 @@ CAPABILITIES = (*PORTS, PARAMETERS, PERIOD, STATEMACHINE, GUI, COMPATIBILITY, ST
 """What a language may have or not, called as the keys of the documents where there is one."""
 
 
-class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True):
+class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     """A language that components are written in.
 
     `name` is what documents say, `title` what is said of it. `package` holds its parts, modules that are imported when

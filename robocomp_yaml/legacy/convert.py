@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import unicodedata
+from contextlib import nullcontext
 
 import msgspec
 from lark import Token, Tree
@@ -14,10 +16,7 @@ from robocomp_yaml.legacy.draft import FileDraft, Reader, plain
 from robocomp_yaml.legacy.formats import by_name, recognize
 from robocomp_yaml.legacy.grammar import Parsed, marked, parse, words
 from robocomp_yaml.legacy.reading import Source, read
-from robocomp_yaml.legacy.rules import Rules
-from robocomp_yaml.registry import Modules
-
-CONVERTERS = Modules("robocomp_yaml.legacy.converters", "converter")
+from robocomp_yaml.legacy.rules import Formats, Rules, formats
 
 
 class Converted(msgspec.Struct, frozen=True):
@@ -35,17 +34,20 @@ class Converted(msgspec.Struct, frozen=True):
         return self.draft is None
 
 
-def convert(path: str) -> Converted:
+def convert(path: str, known: Formats | None = None) -> Converted:
+    """The draft of a file that is in one of the known formats, by default the built-in ones."""
+    known = formats() if known is None else known
     source, said = read(path)
     if source is None:
-        return Converted(path, by_name(path), diagnostics=tuple(said))
-    rules, told = recognize(source)
+        return Converted(path, by_name(path, known), diagnostics=tuple(said))
+    rules, told = recognize(source, known)
     said += told
     if rules is None:
-        return Converted(path, by_name(path), source, diagnostics=tuple(said))
-    parsed = parse(source, rules)
-    said += parsed.diagnostics
-    draft = _draft(parsed, source, rules, said)
+        return Converted(path, by_name(path, known), source, diagnostics=tuple(said))
+    with rules.plugin.answering(f"legacy format '{rules.name}'") if rules.plugin else nullcontext():
+        parsed = parse(source, rules)
+        said += parsed.diagnostics
+        draft = _draft(parsed, source, rules, said)
     return Converted(path, rules, source, parsed, draft, tuple(said))
 
 
@@ -56,8 +58,7 @@ def _draft(parsed: Parsed, source: Source, rules: Rules, said: list[Diagnostic])
     placed = comments.place(parsed.tree, parsed.comments, source, rules)
     said += placed.diagnostics
     reader = Reader(source, rules, parsed, placed)
-    converter = CONVERTERS.load(rules.converter)
-    draft: FileDraft | None = converter.convert(reader)
+    draft: FileDraft | None = importlib.import_module(rules.converter).convert(reader)
     said += reader.diagnostics
     marks = directives.review(parsed.trivia, source, rules)
     refused = has_errors([*said, *marks])

@@ -8,36 +8,38 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.reading import Source, read
-from robocomp_yaml.legacy.rules import Rules, formats
+from robocomp_yaml.legacy.rules import Formats, Rules, formats
 from robocomp_yaml.legacy.syntax_error import without_silent
 from robocomp_yaml.source import properties
 
 
-def by_name(path: str) -> Rules | None:
+def by_name(path: str, known: Formats) -> Rules | None:
     """The format that a file's suffix says."""
-    return next((rules for rules in formats() if not rules.by_content and _has_suffix(path, rules)), None)
+    return next((rules for rules in known if not rules.by_content and _has_suffix(path, rules)), None)
 
 
 def _has_suffix(path: str, rules: Rules) -> bool:
     return os.path.splitext(path)[1].lower() in rules.suffixes
 
 
-def recognize(source: Source) -> tuple[Rules | None, list[Diagnostic]]:
-    """The format of a text; None with the reason where it is in none."""
-    said = by_name(source.path)
+def recognize(source: Source, known: Formats | None = None) -> tuple[Rules | None, list[Diagnostic]]:
+    """Which of the known formats, by default the built-in ones, a text is in; None with the reason where it is in
+    none."""
+    known = formats() if known is None else known
+    said = by_name(source.path, known)
     content = without_silent(source.text)
     if not content.strip():
         what = "nothing but comments" if source.text.strip() else "nothing"
         return None, [codes.EMPTY.at(Span(source.path), what=what)]
     fitting = [
-        rules for rules in formats()
+        rules for rules in known
         if (not rules.weak or _may_be(rules, said)) and rules.signature.search(content)
     ]  # fmt: skip
     if said is not None and (said in fitting or not fitting):
         return _unless_foreign(said, source)
     if not fitting:
-        known = ", ".join(f"{rules.title} ({', '.join(rules.suffixes)})" for rules in formats())
-        return None, [codes.UNKNOWN_FORMAT.at(Span(source.path), formats=known)]
+        listed = ", ".join(f"{rules.title} ({', '.join(rules.suffixes)})" for rules in known)
+        return None, [codes.UNKNOWN_FORMAT.at(Span(source.path), formats=listed)]
     found = fitting[0]
     if said is None or said.weak:
         return _unless_foreign(found, source)
@@ -70,17 +72,17 @@ def _unless_foreign(rules: Rules, source: Source) -> tuple[Rules | None, list[Di
     return rules, []
 
 
-def candidate(path: str) -> bool:
+def candidate(path: str, known: Formats) -> bool:
     """Whether a file of a folder is to be migrated: its name says so, or its name may and its content does."""
-    said = by_name(path)
+    said = by_name(path, known)
     if said is not None and not said.keep_suffix:
         return True
-    fits = {rules.files.fit(path) for rules in formats() if rules.files is not None}
+    fits = {rules.files.fit(path) for rules in known if rules.files is not None}
     if "certain" in fits:
         return True
-    told = any(rules.by_content and _has_suffix(path, rules) for rules in formats())
+    told = any(rules.by_content and _has_suffix(path, rules) for rules in known)
     if "perhaps" not in fits and not told:
         return False
     source, _ = read(path)
-    found = recognize(source)[0] if source is not None else None
+    found = recognize(source, known)[0] if source is not None else None
     return found is not None and ("perhaps" in fits or found.by_content)

@@ -11,7 +11,6 @@ from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedInput
 from lark.lexer import PatternRE, PatternStr, TerminalDef
 
-from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -48,8 +47,7 @@ class _Parser(msgspec.Struct, frozen=True):
 
 
 @cache
-def _parser(grammar: str) -> _Parser:
-    text = resources.text(f"migrate/{grammar}")
+def _parser(text: str) -> _Parser:
     trivia: list[Token] = []
 
     def keep(token: Token) -> Token:

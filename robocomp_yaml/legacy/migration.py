@@ -20,12 +20,14 @@ from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
 from robocomp_yaml.legacy.networks.settle import settle as settle_networks
 from robocomp_yaml.legacy.result import Migration
+from robocomp_yaml.legacy.rules import Formats, with_plugins
 from robocomp_yaml.legacy.settings.components import Inferred, settle
 from robocomp_yaml.legacy.settings.plan import Guesses
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.legacy.upgrade import upgrade
-from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.link.workspace import Search, above
 from robocomp_yaml.model.build_interface import build
+from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.migrated import HEADING
@@ -49,11 +51,12 @@ def migrate(
     guesses: Guesses = Guesses(), exact: bool = False,
 ) -> Migration:  # fmt: skip
     """Everything but the writing."""
-    found = find(paths, output)
-    run = Migration(general=found.diagnostics)
+    formats, said = _formats(paths)
+    found = find(paths, output, formats)
+    run = Migration(general=[*said, *found.diagnostics])
     by_file: list[tuple[LegacyFile, Entry]] = []
     for file in progress(found.files):
-        entry = Entry(convert(file.path), skipped=bool(file.preferred))
+        entry = Entry(convert(file.path, formats), skipped=bool(file.preferred))
         entry.diagnostics = [*entry.file.diagnostics]
         if file.preferred:
             entry.diagnostics = [codes.PREFERRED.at(Span(file.path), other=file.preferred)]
@@ -74,6 +77,14 @@ def migrate(
     _plan(run, good, chosen, known, networks | dict(settled.documents), settled.inferred, force)
     upgrade(run, paths)
     return run
+
+
+def _formats(paths: Sequence[str]) -> tuple[Formats, list[Diagnostic]]:
+    """The built-in formats, and those of the plug-ins that the workspaces of these paths name."""
+    workspaces_ = {os.path.realpath(made.root): (made, said) for made, said in map(above, paths)}
+    active = {one.name: one for made, _ in workspaces_.values() for one in made.plugins.active}
+    told = [one for made, said in workspaces_.values() if not made.plugins.whole for one in said]
+    return with_plugins(Plugins(tuple(active.values()))), told
 
 
 def look_back(run: Migration, extra: Sequence[str]) -> None:
@@ -183,7 +194,7 @@ def _has_taken(text: str) -> bool:
     if not isinstance(tree, Tree) or schema.validate("idsl", tree):
         return False
     module = build(tree, "")
-    return any(one.part("checks").has_taken(module) for one in languages.table().values() if one.warns_others)
+    return any(one.part("checks").has_taken(module) for one in languages.known().values() if one.warns_others)
 
 
 def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
 import msgspec
 
 from robocomp_yaml import resources
+from robocomp_yaml.plugins import FORMATS, Plugin, Plugins
 from robocomp_yaml.source.tree import parse
+
+_CONVERTERS = "robocomp_yaml.legacy.converters"
 
 Texts = Mapping[str, str]
 
@@ -34,7 +37,8 @@ class Files(msgspec.Struct, frozen=True, eq=False):
 
 
 class Rules(msgspec.Struct, frozen=True, eq=False):
-    """How one legacy format is read. `migrate/README.md` says what each key of the file means."""
+    """How one legacy format is read. `migrate/README.md` says what each key of the file means. `grammar` is its text,
+    `converter` the name of a module, `plugin` whose it is."""
 
     name: str
     title: str
@@ -47,6 +51,7 @@ class Rules(msgspec.Struct, frozen=True, eq=False):
     names: re.Pattern[str]
     doc_strip: re.Pattern[str]
     doc_drop: str
+    plugin: Plugin | None = None
     grammar: str = ""
     words: Texts = {}
     places: Texts = {}
@@ -71,18 +76,43 @@ class Rules(msgspec.Struct, frozen=True, eq=False):
     stop: frozenset[str] = frozenset()
 
 
+Formats = tuple[Rules, ...]
+
+
+def built_in() -> list[str]:
+    return sorted(path.parent.name for path in resources.folder("migrate").glob("*/rules.yaml"))
+
+
 @cache
-def formats() -> tuple[Rules, ...]:
+def formats() -> Formats:
     """Every format that `migrate/` describes, by rank."""
-    folders = sorted(path.parent.name for path in resources.folder("migrate").glob("*/rules.yaml"))
-    return tuple(sorted((_rules(name) for name in folders), key=lambda rules: (rules.rank, rules.name)))
+    return _by_rank(_rules(name, _data(name), f"{_CONVERTERS}.{{}}") for name in built_in())
 
 
-def _rules(name: str) -> Rules:
-    data = _data(name)
+def with_plugins(plugins: Plugins) -> Formats:
+    """Those, and what plug-ins add: each a module with `RULES` (as `rules.yaml`), `GRAMMAR` (where it has one) and
+    `convert`. Raises Faulty where one of them is not as it should be."""
+    found: list[Rules] = []
+    for name, (plugin, module) in plugins.of(FORMATS).items():
+        with plugin.answering(f"legacy format '{name}'"):
+            data = _read("RULES", module.RULES)
+            if hasattr(module, "GRAMMAR"):
+                data["grammar"] = module.GRAMMAR
+            found.append(_rules(name, _over_base(data), module.__name__, plugin))
+    return _by_rank((*formats(), *found)) if found else formats()
+
+
+def _by_rank(rules: Iterable[Rules]) -> Formats:
+    return tuple(sorted(rules, key=lambda each: (each.rank, each.name)))
+
+
+def _rules(name: str, data: dict[str, Any], converters: str, plugin: Plugin | None = None) -> Rules:
+    """`converters` says which module a converter is."""
     doc = data.pop("doc")
     return Rules(
         name=name,
+        converter=converters.format(data.pop("converter", "")),
+        plugin=plugin,
         suffixes=tuple(data.pop("suffixes")),
         signature=re.compile(data.pop("signature")),
         names=re.compile(data.pop("names")),
@@ -109,11 +139,21 @@ def _of_lines(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def _data(name: str) -> dict[str, Any]:
-    """The file's content over that of the format which it extends."""
     path = f"{name}/rules.yaml"
-    tree, diagnostics = parse(path, resources.text(f"migrate/{path}"))
+    data = _read(path, resources.text(f"migrate/{path}"))
+    if "grammar" in data:
+        data["grammar"] = resources.text(f"migrate/{data['grammar']}")
+    return _over_base(data)
+
+
+def _read(path: str, text: str) -> dict[str, Any]:
+    tree, diagnostics = parse(path, text)
     if tree is None or not isinstance(tree.data, dict):
-        raise ValueError(f"migrate/{path} is broken: {diagnostics}")
-    data = dict(tree.data)
+        raise ValueError(f"{path} is broken: {'; '.join(one.message for one in diagnostics)}")
+    return dict(tree.data)
+
+
+def _over_base(data: dict[str, Any]) -> dict[str, Any]:
+    """The rules over those of the format which they extend."""
     base = data.pop("extends", None)
     return {**(_data(base) if base else {}), **data}

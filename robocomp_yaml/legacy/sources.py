@@ -12,7 +12,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.formats import by_name, candidate
-from robocomp_yaml.legacy.rules import Rules, formats
+from robocomp_yaml.legacy.rules import Formats, Rules
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.transactions import manifest
@@ -49,7 +49,7 @@ class Found(msgspec.Struct):
         ]  # fmt: skip
 
 
-def find(paths: Sequence[str], output: str | None) -> Found:
+def find(paths: Sequence[str], output: str | None, known: Formats) -> Found:
     """The files named, and below the folders named all with a suffix of a legacy format; each once."""
     found = Found()
     seen: set[str] = set()
@@ -57,13 +57,13 @@ def find(paths: Sequence[str], output: str | None) -> Found:
         is_folder = os.path.isdir(path)
         if not is_folder and kind_of(path) is not None and os.path.isfile(path):
             continue  # a document of ours: it may be an older one
-        below = list(_below(path, found.diagnostics)) if is_folder else [os.path.normpath(path)]
+        below = list(_below(path, found.diagnostics, known)) if is_folder else [os.path.normpath(path)]
         root = output or (os.path.normpath(path) if is_folder else _root_of(path))
         if is_folder:
             if root not in found.folders:
                 found.folders.append(root)
             if not below and next(documents_below(path), None) is None:
-                suffixes = "the suffixes are known: " + ", ".join(sorted(_suffixes()))
+                suffixes = "the suffixes are known: " + ", ".join(sorted(_suffixes(known)))
                 found.diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=suffixes))
         for file in below:
             real = os.path.realpath(file)
@@ -72,7 +72,7 @@ def find(paths: Sequence[str], output: str | None) -> Found:
                 start = (path if is_folder else os.path.dirname(path)) if output else root
                 folder = os.path.relpath(os.path.dirname(file) or ".", start or ".")
                 found.files.append(LegacyFile(file, root, folder))
-    found.files = list(_preferences(found.files))
+    found.files = list(_preferences(found.files, known))
     return found
 
 
@@ -81,11 +81,11 @@ def _root_of(path: str) -> str:
     return root_above(folder) or folder or "."
 
 
-def _suffixes() -> set[str]:
-    return {suffix for rules in formats() for suffix in rules.suffixes}
+def _suffixes(known: Formats) -> set[str]:
+    return {suffix for rules in known for suffix in rules.suffixes}
 
 
-def _below(folder: str, said: list[Diagnostic]) -> Iterator[str]:
+def _below(folder: str, said: list[Diagnostic], known: Formats) -> Iterator[str]:
     """Links to folders are followed, but no folder is entered twice. What `compile` wrote is no source."""
 
     def closed(error: OSError) -> None:
@@ -104,8 +104,8 @@ def _below(folder: str, said: list[Diagnostic]) -> Iterator[str]:
         for name in sorted(names):
             path = os.path.normpath(os.path.join(where, name))
             # A config that became a document is a source still, though `compile` now writes it.
-            made = path in compiled and (by_name(name) is not None or not os.path.exists(f"{path}.yaml"))
-            if not name.startswith(".") and not made and candidate(path):
+            made = path in compiled and (by_name(name, known) is not None or not os.path.exists(f"{path}.yaml"))
+            if not name.startswith(".") and not made and candidate(path, known):
                 yield path
 
 
@@ -118,17 +118,17 @@ def _compiled(folder: str) -> set[str]:
     return {os.path.normpath(os.path.join(folder, path)) for path in files}
 
 
-def _preferences(files: Iterable[LegacyFile]) -> Iterator[LegacyFile]:
+def _preferences(files: Iterable[LegacyFile], known: Formats) -> Iterator[LegacyFile]:
     """A file that has one of the same stem and kind beside it, of a format with a lower rank, was made from that."""
     listed = list(files)
     best: dict[tuple[str, str], tuple[int, str]] = {}
     for file in listed:
-        rules = by_name(file.path)
+        rules = by_name(file.path, known)
         if rules is not None:
             key = (os.path.splitext(file.path)[0], rules.kind)
             best[key] = min(best.get(key, (rules.rank, file.path)), (rules.rank, file.path))
     for file in listed:
-        rules = by_name(file.path)
+        rules = by_name(file.path, known)
         rank, other = best[(os.path.splitext(file.path)[0], rules.kind)] if rules else (0, file.path)
         better = rules is not None and rules.is_made and rank < rules.rank
         yield LegacyFile(file.path, file.root, file.folder, other) if better else file

@@ -13,10 +13,12 @@ import msgspec
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.model import build_interface
+from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import COMPONENT, text_at_top
+from robocomp_yaml.source.schema_text import MARKED
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, parse
 
@@ -60,10 +62,12 @@ class Document(msgspec.Struct, frozen=True, eq=False):
 
 
 class Documents(msgspec.Struct):
-    """The documents of a run by real path, with all that is wrong with each by itself."""
+    """The documents of a run by real path, with all that is wrong with each by itself. `plugins_of` says which plug-ins
+    count for a document."""
 
     disk: Disk = msgspec.field(default_factory=Disk)
     on_read: Callable[[str], None] = lambda path: None
+    plugins_of: Callable[[str], Plugins] = lambda path: NONE
     read: dict[str, Document] = {}
     diagnostics: list[Diagnostic] = []
     _glanced: dict[str, tuple[Document, list[Diagnostic]]] = {}
@@ -101,21 +105,29 @@ class Documents(msgspec.Struct):
         said += more
         if tree is None:
             return nothing, said
-        misfits = _misfits(kind, tree)
+        misfits = self._misfits(path, kind, tree)
         model = None
         if not has_errors(misfits):
             assert isinstance(tree, Mapping)
             model = builder(kind)(tree, path)
         module, component = text_at_top(tree, "module"), text_at_top(tree, COMPONENT)
-        return Document(path, real, kind, model, module, component, tree), [*said, *misfits]
+        told = [one for one in misfits if not self._is_of_a_plugin(path, kind, tree, one)]
+        return Document(path, real, kind, model, module, component, tree), [*said, *told]
 
+    def _is_of_a_plugin(self, path: str, kind: str, tree: Node, said: Diagnostic) -> bool:
+        """Whether an unknown language may be that of a plug-in which cannot be had: that is told already."""
+        if kind not in MARKED or not isinstance(tree, Mapping) or self.plugins_of(path).whole:
+            return False
+        language = tree.get("language")
+        return said.code == codes.WRONG_SHAPE.id and language is not None and language.span.holds(said.span)
 
-def _misfits(kind: str, tree: Node) -> list[Diagnostic]:
-    """What of a document's shape is not as its kind wants it."""
-    diagnostics = schema.validate(kind, tree)
-    if not diagnostics and kind == "idsl" and isinstance(tree, Mapping):
-        diagnostics = list(_kinds_of_types(tree))
-    return diagnostics
+    def _misfits(self, path: str, kind: str, tree: Node) -> list[Diagnostic]:
+        """What of a document's shape is not as its kind wants it."""
+        more = self.plugins_of(path).languages if kind in MARKED else ()
+        diagnostics = schema.validate(kind, tree, more)
+        if not diagnostics and kind == "idsl" and isinstance(tree, Mapping):
+            diagnostics = list(_kinds_of_types(tree))
+        return diagnostics
 
 
 def _kinds_of_types(tree: Mapping) -> Iterator[Diagnostic]:

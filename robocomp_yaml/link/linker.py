@@ -20,6 +20,7 @@ from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program, Tables
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
 from robocomp_yaml.model.interface import Import, Module
+from robocomp_yaml.plugins import Plugins
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.attachments import Attachments
@@ -40,6 +41,7 @@ class Linker(msgspec.Struct):
 
     def link(self, paths: Iterable[str]) -> Program:
         """The program of these documents and of all that they import."""
+        self.documents.plugins_of = self._plugins_of
         todo = [self.documents.get(path) for path in paths]
         asked = frozenset(document.real for document in todo)
         components: list[tuple[Document, LinkedComponent]] = []
@@ -80,8 +82,11 @@ class Linker(msgspec.Struct):
         tables = self.tables
         return Program(
             tables.modules, tables.components, tables.parameters, tables.values, tables.deployments, asked,
-            len(self.documents.read), self.documents.disk,
+            len(self.documents.read), self.documents.disk, self._plugins_of,
         )
+
+    def _plugins_of(self, path: str) -> Plugins:
+        return self.workspace_of(path).plugins
 
     def _expanded(self, component: Component) -> LinkedComponent:
         """A component with what its options add."""

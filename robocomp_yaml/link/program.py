@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Callable, Iterator, Mapping, Set
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -15,6 +15,7 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
+from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source.disk import Disk
 
 if TYPE_CHECKING:
@@ -167,7 +168,7 @@ class Tables(msgspec.Struct):
 
 class Program(msgspec.Struct, frozen=True):
     """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported).
-    Checks read other files through `disk`."""
+    Checks read other files through `disk`; `plugins_of` says which plug-ins count for a document."""
 
     modules: Mapping[str, LinkedModule] = {}
     components: Mapping[str, LinkedComponent] = {}
@@ -177,6 +178,7 @@ class Program(msgspec.Struct, frozen=True):
     asked: Set[str] = frozenset()
     documents: int = 0
     disk: Disk = msgspec.field(default_factory=Disk)
+    plugins_of: Callable[[str], Plugins] = lambda path: NONE
 
     def documents_of_components(self) -> dict[str, LinkedComponent | None]:
         """The documents of parameters and of values, each with its component."""

@@ -11,6 +11,7 @@ import msgspec
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
 from robocomp_yaml.model.build_interface import entries, items, text
+from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import Disk
@@ -23,13 +24,14 @@ SUFFIX = ".idsl.yaml"
 class Workspace(msgspec.Struct, frozen=True):
     """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
     look for imports in, `slice_folder` is where Slice goes (both joined with the root), `lint` a severity (or
-    'off') by code."""
+    'off') by code; `plugins` are those that it names."""
 
     root: str
     declared: bool = False
     interfaces: tuple[str, ...] = ()
     slice_folder: str = ""
     lint: Map[str, str] = {}
+    plugins: Plugins = NONE
 
 
 def root_above(folder: str, disk: Disk | None = None) -> str | None:
@@ -62,22 +64,40 @@ def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnosti
         return workspace, diagnostics
     named = (node.lexeme for node in items(tree, "interfaces") if isinstance(node, Scalar))
     slice_folder = text(tree.get("output"), "slice")
+    plugins, said = _plugins(tree)
     workspace = Workspace(
         root, True, tuple(os.path.normpath(os.path.join(root, folder)) for folder in named),
         os.path.normpath(os.path.join(root, slice_folder)) if slice_folder else "",
-        {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None},
+        {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None}, plugins,
     )
-    return workspace, list(_idle_settings(tree, root, disk))
+    return workspace, [*said, *_idle_settings(tree, workspace, disk)]
 
 
-def _idle_settings(tree: Mapping, root: str, disk: Disk) -> Iterator[Diagnostic]:
+def _plugins(tree: Mapping) -> tuple[Plugins, list[Diagnostic]]:
+    named = [(node.lexeme, node.span) for node in items(tree, "plugins") if isinstance(node, Scalar)]
+    if not named:
+        return NONE, []
+    from robocomp_yaml.plugins import finding  # most workspaces name none
+
+    return finding.found(named)
+
+
+def above(path: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnostic]]:
+    """The workspace that a folder, or a file, belongs to; without a declared one, that folder."""
+    folder = path if os.path.isdir(path) else os.path.dirname(path)
+    root = root_above(folder, disk)
+    return (Workspace(folder), []) if root is None else read(root, disk)
+
+
+def _idle_settings(tree: Mapping, workspace: Workspace, disk: Disk) -> Iterator[Diagnostic]:
     from robocomp_yaml.diag.codes import table
 
+    root = workspace.root
     for node in items(tree, "interfaces"):
         if isinstance(node, Scalar) and not disk.has_folder(os.path.join(root, node.lexeme)):
             yield codes.WORKSPACE_SETTING.at(node.span, problem=f"there is no folder '{node.lexeme}'")
     for key, value in entries(tree, "lint"):
-        if key.lexeme not in table():
+        if key.lexeme not in table() and key.lexeme not in workspace.plugins.codes and workspace.plugins.whole:
             yield codes.WORKSPACE_SETTING.at(
                 key.span, problem=f"no diagnostic is called {key.lexeme}", hint="`rcyaml explain` lists them"
             )

@@ -6,10 +6,12 @@ import errno
 import os
 from pathlib import Path
 
+from robocomp_yaml.link.workspace import above
+from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.inside import stays_inside
 from robocomp_yaml.source.json_comments import Unreadable, with_members
 from robocomp_yaml.source.regular import regular
-from robocomp_yaml.source.schema_text import schema_text
+from robocomp_yaml.source.schema_text import MARKED, schema_text
 from robocomp_yaml.transactions import whole_file
 
 FOLDER = ".rcyaml/schemas"
@@ -30,14 +32,20 @@ def schema_path(kind: str) -> str:
     return f"{FOLDER}/{kind}.schema.json"
 
 
+def schema_of(kind: str, plugins: Plugins) -> str:
+    """The text of the schema of a kind in a workspace with these plug-ins."""
+    return schema_text(kind, plugins.languages if kind in MARKED else ())
+
+
 def modeline(kind: str, document: Path, workspace: Path) -> str:
     """The first line of a document, without its line end: it tells editors which schema to use."""
     path = os.path.relpath(workspace / schema_path(kind), document.parent)
     return f"# yaml-language-server: $schema={Path(path).as_posix()}"
 
 
-def install(folder: Path) -> list[Path]:
-    """Brings the editor's files of a workspace up to date; gives those that changed.
+def install(folder: Path, plugins: Plugins | None = None) -> list[Path]:
+    """Brings the editor's files of a workspace up to date; gives those that changed. `plugins` are the workspace's,
+    where they are known already; while one of them cannot be had, what depends on them stays as it is.
 
     What the user has in VS Code's settings stays as it is, comments included; `settings_problem` says why nothing
     could be added. Raises OSError where the folder cannot be written, or a link leads out of it.
@@ -45,10 +53,11 @@ def install(folder: Path) -> list[Path]:
     for kind in GLOBS:
         if not stays_inside(str(folder), schema_path(kind)):
             raise OSError(errno.ELOOP, "a link leads out of the workspace", str(folder / schema_path(kind)))
+    plugins = above(str(folder))[0].plugins if plugins is None else plugins
     changed = [
         folder / schema_path(kind)
         for kind in GLOBS
-        if _write(folder / schema_path(kind), schema_text(kind))
+        if (plugins.whole or kind not in MARKED) and _write(folder / schema_path(kind), schema_of(kind, plugins))
     ]
     try:
         wired = _wired(folder)

@@ -51,8 +51,7 @@ class MachineIndex(msgspec.Struct):
         yield from self.machine.states
 
     def similar(self, name: str, inside: State | None = None) -> Hint:
-        """A hint at a state (in this one) whose name is like this one; to look for it in thousands would take too long.
-        """
+        """A hint at a state (in this one) whose name is like this one; looking for it in thousands takes too long."""
         ids = [found for found, state in self.by_id.items() if inside is None or inside in self.ancestors(state)]
         return did_you_mean(name, ids, open_=True) if len(ids) < _MANY else NO_HINT
 

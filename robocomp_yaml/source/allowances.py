@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import msgspec
 
@@ -21,7 +21,7 @@ OURS = re.compile(rb"#[ \t]*rcyaml[ \t]*(?::|allow\b)")
 _COMMENT = re.compile(r"(?:(?<=[ \t])|(?<![^\r\n]))#[ \t]*rcyaml(?:[ \t]*:|(?=[ \t]*allow\b))[^\r\n]*")
 _PARTS = re.compile(r"#[ \t]*rcyaml(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?")
 _WORD = re.compile(r"[^\s,]+")
-_CODE = re.compile(r"RC\d{4}", re.IGNORECASE)
+_CODE = re.compile(r"(?i:RC\d{4})|[A-Z]{2,}\d{3,4}")
 _FORM = "write `# rcyaml: allow RC1234 -- reason`"
 _EMPTY_LINE = re.compile(r"[ \t]*(?:#.*|---[ \t]*(?:#.*)?|%.*)?")
 
@@ -56,8 +56,11 @@ class Allowance(msgspec.Struct, frozen=True):
         return Fix("remove it", (text.edit(start, gap.end(), ""),))
 
 
-def allowances(text: Text) -> tuple[list[Allowance], list[Diagnostic]]:
-    """What the comments of a document allow, and what is wrong with them; nothing where it is no YAML."""
+def allowances(
+    text: Text, more: Collection[str] = (), *, whole: bool = True
+) -> tuple[list[Allowance], list[Diagnostic]]:
+    """What the comments of a document allow, and what is wrong with them; nothing where it is no YAML. `more` are codes
+    of plug-ins, `whole` says whether these are all that there could be."""
     found: list[Allowance] = []
     said: list[Diagnostic] = []
     if text.tree is None:
@@ -66,14 +69,18 @@ def allowances(text: Text) -> tuple[list[Allowance], list[Diagnostic]]:
     for comment in _COMMENT.finditer(text.text):
         if any(node.start <= comment.start() < node.end for node in texts if isinstance(node, Scalar)):
             continue
-        made, wrong = _read(text, comment)
+        made, wrong = _read(text, comment, more)
         first, last = _lines(text, comment, texts)
+        if not whole:
+            wrong = [one for one in wrong if one.code != codes.ALLOW_UNKNOWN.id]
         found += [Allowance(word, span, first, last, text.span(*comment.span()), len(made) > 1) for word, span in made]
         said += wrong
     return found, said
 
 
-def _read(text: Text, comment: re.Match[str]) -> tuple[list[tuple[str, Span]], list[Diagnostic]]:
+def _read(
+    text: Text, comment: re.Match[str], more: Collection[str]
+) -> tuple[list[tuple[str, Span]], list[Diagnostic]]:
     """The codes that a comment names, each with its place, and what is wrong with it."""
     whole = text.span(*comment.span())
     parts = _PARTS.fullmatch(comment[0].rstrip())
@@ -94,14 +101,14 @@ def _read(text: Text, comment: re.Match[str]) -> tuple[list[tuple[str, Span]], l
     made: list[tuple[str, Span]] = []
     for word in _WORD.finditer(parts["codes"]):
         place = [comment.start() + parts.start("codes") + at for at in word.span()]
-        if _CODE.fullmatch(word[0]) is None:
+        if _CODE.fullmatch(word[0]) is None and word[0].upper() not in more:
             before = Fix("put -- before it", (text.edit(place[0], place[0], "-- "),), True)
             said.append(codes.ALLOW_MALFORMED.at(
                 text.span(*place), problem=f"'{word[0]}' is no code", hint="a reason stands behind `--`",
                 fixes=[before] if made and parts["reason"] is None else [],
             ))
             return (made if parts["colon"] else []), said
-        if word[0].upper() not in table():
+        if word[0].upper() not in table() and word[0].upper() not in more:
             said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint="`rcyaml explain` lists them"))
         elif parts["colon"]:
             made.append((word[0].upper(), text.span(*place)))

@@ -1,5 +1,4 @@
-"""JSON with comments and trailing commas, as editors keep their settings: members are added without touching the rest.
-"""
+"""JSON with comments and trailing commas, as editors keep settings: members are added without touching the rest."""
 
 from __future__ import annotations
 

@@ -19,6 +19,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.source.retyped import retyped
 from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
@@ -43,34 +44,34 @@ _AT_END = "; behind `|-` and `>-` the last line break does not count"
 _APPLICATORS = frozenset(("allOf", "anyOf", "oneOf", "then", "else", "if"))
 
 
-def new_schema(kind: str) -> dict[str, Any]:
+def new_schema(kind: str, more: tuple[TargetLanguage, ...] = ()) -> dict[str, Any]:
     """The JSON Schema of a kind of document, 'idsl' or 'cdsl' for instance, to be changed as one likes."""
-    loaded: dict[str, Any] = json.loads(schema_text(kind))
+    loaded: dict[str, Any] = json.loads(schema_text(kind, more))
     return loaded
 
 
 @cache
-def schema(kind: str) -> dict[str, Any]:
+def schema(kind: str, more: tuple[TargetLanguage, ...] = ()) -> dict[str, Any]:
     """The JSON Schema of a kind of document, which all share."""
-    return new_schema(kind)
+    return new_schema(kind, more)
 
 
 @cache
-def _validator(kind: str) -> jsonschema_rs.Draft7Validator:
-    return jsonschema_rs.Draft7Validator(schema(kind))
+def _validator(kind: str, more: tuple[TargetLanguage, ...]) -> jsonschema_rs.Draft7Validator:
+    return jsonschema_rs.Draft7Validator(schema(kind, more))
 
 
-def validate(kind: str, root: Node) -> list[Diagnostic]:
-    """All that the schema refuses, one diagnostic a cause."""
+def validate(kind: str, root: Node, more: tuple[TargetLanguage, ...] = ()) -> list[Diagnostic]:
+    """All that the schema refuses, one diagnostic a cause. There may be `more` languages than the built-in ones."""
     if not isinstance(root, Mapping):
         return [codes.NOT_A_MAPPING.at(root.span, what=_what(root))]
-    validator = _validator(kind)
+    validator = _validator(kind, more)
     if validator.is_valid(root.data):
         return []
     explained: dict[tuple[object, ...], list[Diagnostic]] = {}
     for error in validator.iter_errors(root.data):
         place = tuple(error.instance_path)
-        said = list(_explain(schema(kind), root, place, list(error.schema_path), error.kind))
+        said = list(_explain(schema(kind, more), root, place, list(error.schema_path), error.kind))
         at_place = explained.setdefault(place, [])
         # At one place, shape (`type`, `enum` …) is one cause; every missing or unknown key is a cause of its own.
         at_place += [d for d in said if d.code in _KEY_CODES or all(o.code in _KEY_CODES for o in at_place)]

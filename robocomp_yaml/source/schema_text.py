@@ -21,10 +21,11 @@ MARKED = frozenset(("cdsl",))
 
 
 @cache
-def schema_text(kind: str) -> str:
-    """The JSON Schema of a kind of document, 'idsl' or 'cdsl' for instance, as people read it."""
+def schema_text(kind: str, more: tuple[TargetLanguage, ...] = ()) -> str:
+    """The JSON Schema of a kind of document, 'idsl' or 'cdsl' for instance, as people read it; with `more` languages,
+    those of plug-ins."""
     text = resources.text(f"schemas/{kind}.schema.json")
-    return filled(text, languages.table().values()) if kind in MARKED else text
+    return filled(text, [*languages.table().values(), *more]) if kind in MARKED else text
 
 
 def filled(text: str, known: Iterable[TargetLanguage]) -> str:

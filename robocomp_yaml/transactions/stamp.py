@@ -17,7 +17,7 @@ import msgspec
 from msgspec.structs import asdict
 
 import robocomp_yaml
-from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.digest import digest, states
 from robocomp_yaml.source.discover import documents_below
 from robocomp_yaml.source.disk import documents_in, names_in, state_of
 from robocomp_yaml.source.inside import stays_inside
@@ -35,7 +35,8 @@ class Stamp(msgspec.Struct, frozen=True):
     `inputs`: of each file read, its real path and its digest with who may read it. `states` and `listed`: what else it
     asked, as `source.disk.Disk` remembers it. `names`: all names in folders. `walked`: of each folder, what `walked`
     finds below it. `outputs`: of each file written, its digest and who may read and run it. `present`: files whose
-    contents are the user's. `replay`: what the run had to say, in the caller's form.
+    contents are the user's. `replay`: what the run had to say, in the caller's form. `plugins`: of those that
+    its workspaces name, what tells one build from another, '' where it is not installed.
     """
 
     tool: str
@@ -47,6 +48,7 @@ class Stamp(msgspec.Struct, frozen=True):
     outputs: dict[str, tuple[str, str]]
     present: list[str]
     replay: dict[str, object]
+    plugins: dict[str, str] = {}
 
 
 def key(arguments: Iterable[str]) -> str:
@@ -64,6 +66,7 @@ def take(
     outputs: Mapping[str, bytes],
     present: Iterable[str],
     replay: Mapping[str, object],
+    plugins: Iterable[str] = (),
 ) -> Stamp | None:
     """The stamp of a run that is done; None where one of its files has gone already. `inputs` are the bytes that were
     read, `outputs` those that were meant to be written: the disk may have changed since."""
@@ -79,6 +82,7 @@ def take(
             {path: (digest(data), _may(os.lstat(path))) for path, data in outputs.items()},
             sorted(present),
             dict(replay),
+            _builds(plugins),
         )
     except OSError:
         return None
@@ -108,6 +112,7 @@ def reads_the_same(stamp: Stamp) -> bool:
             and all(real.path(path) == where for path, (where, _) in stamp.inputs.items())
             and all(_state(path) == state for path, (_, state) in stamp.inputs.items())
             and stamp.tool == tool()
+            and _builds(stamp.plugins) == stamp.plugins
         )
     except (OSError, ValueError, TypeError):
         return False
@@ -145,8 +150,16 @@ def tool() -> str:
         tops += (os.path.join(place, name) for name in _DATA)
     parts = [robocomp_yaml.__version__, *_records(place)]
     for top in tops:
-        parts += sorted(_states(top, len(place)))
+        parts += sorted(states(top, len(place)))
     return digest("\n".join(parts).encode(errors="surrogateescape"))
+
+
+def _builds(plugins: Iterable[str]) -> dict[str, str]:
+    if not plugins:
+        return {}
+    from robocomp_yaml.plugins.finding import identity  # most workspaces name none
+
+    return {name: identity(name) for name in plugins}
 
 
 def _records(place: str) -> Iterator[str]:
@@ -155,18 +168,6 @@ def _records(place: str) -> Iterator[str]:
         if name.startswith("rcyaml-") and name.endswith(".dist-info"):
             with contextlib.suppress(OSError):
                 yield f"{name} {_state(os.path.join(place, name, 'RECORD'))}"
-
-
-def _states(folder: str, base: int) -> Iterator[str]:
-    """Each file below a folder, with its size and times; of paths, what is behind the first `base` characters. Where
-    installers give the files of two builds one date, the time at which the disk changed (ctime) tells them apart."""
-    with os.scandir(folder) as entries:
-        for entry in entries:
-            if not entry.is_dir():
-                state = entry.stat()
-                yield f"{entry.path[base:]} {state.st_size} {state.st_mtime_ns} {state.st_ctime_ns}"
-            elif entry.name != "__pycache__":
-                yield from _states(entry.path, base)
 
 
 class _Real:

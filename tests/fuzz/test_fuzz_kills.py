@@ -24,6 +24,8 @@ from conftest import FUZZING, Tree
 from disk import tree
 from fuzzing import examples, run, standing_in
 
+pytestmark = pytest.mark.processes
+
 SPEECH = "module: RoboCompSpeech\ninterfaces: {Speech: {methods: {say: {in: {text: string}}}}}\n"
 COMPONENT: Tree = {
     "Speech.idsl.yaml": SPEECH,

@@ -18,8 +18,12 @@ DOCUMENTS = {
         ],
     ),
     "radio/radio.cdsl.yaml": cdsl(
-        "Radio", "java", implements=["Arm"], requires=[{"Hand": {"interface": "Hand", "timeout": "30 s"}}],
-        publishes=["ArmEvents"], subscribes=["ArmEvents"],
+        "Radio",
+        "java",
+        implements=["Arm"],
+        requires=[{"Hand": {"interface": "Hand", "timeout": "30 s"}}],
+        publishes=["ArmEvents"],
+        subscribes=["ArmEvents"],
     ),
 }
 

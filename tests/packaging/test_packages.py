@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import hashlib
 import os
+import re
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -12,7 +14,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from packaging.metadata import Metadata
 
+import robocomp_yaml
 from conftest import ROOT, read_tree, write_tree
 
 pytestmark = pytest.mark.slow
@@ -53,7 +57,7 @@ def data_files(inside: str = "") -> set[str]:
 def test_the_wheel_has_all_data(built: Path) -> None:
     (wheel,) = built.glob("*.whl")
     names = set(zipfile.ZipFile(wheel).namelist())
-    assert data_files("robocomp_yaml/_data/") <= names
+    assert data_files("robocomp_yaml/_data/") | {"robocomp_yaml/py.typed"} <= names
     of_languages = (path.relative_to(ROOT).as_posix() for path in ROOT.glob("robocomp_yaml/languages/*/templates/**/*.*"))
     assert {path for path in of_languages if "__pycache__" not in path} <= names
     assert not [name for name in names if name.startswith(("tests/", "docs/", "examples/"))]
@@ -67,11 +71,28 @@ def test_the_sdist_has_all_data(built: Path) -> None:
     assert {"pyproject.toml", "README.md", "LICENSE", "Makefile", "tests/conftest.py"} <= names
 
 
+def test_the_package_index_takes_it_and_its_links_lead_somewhere(built: Path) -> None:
+    (wheel,) = built.glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        (name,) = (name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
+        metadata = Metadata.from_email(archive.read(name), validate=True)
+    assert str(metadata.version) == robocomp_yaml.__version__
+    assert metadata.description_content_type == "text/markdown"
+    assert {"Homepage", "Documentation", "Changelog", "Issues"} <= set(metadata.project_urls or {})
+    links = re.findall(r"\]\(([^)\s]+)\)", metadata.description or "")
+    assert len(links) > 10
+    assert [link for link in links if not link.startswith(("https://", "#"))] == []
+    assert f"/blob/v{metadata.version}/docs/cdsl.md" in (metadata.description or "")
+
+
 @pytest.fixture(scope="module")
 def bin_(built: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Where the commands are of an environment into which the wheel is installed, which `build` made from the sdist."""
-    environment = tmp_path_factory.mktemp("installed") / "venv"
-    run(sys.executable, "-m", "venv", str(environment))
+    return installed(built, tmp_path_factory.mktemp("installed") / "venv", sys.executable)
+
+
+def installed(built: Path, environment: Path, python: str) -> Path:
+    run(python, "-m", "venv", str(environment))
     (wheel,) = built.glob("*.whl")
     install(environment / "bin", wheel)
     return environment / "bin"
@@ -93,6 +114,43 @@ def test_it_works_outside_the_checkout(bin_: Path, tmp_path: Path) -> None:
     assert {"slice/Speech.ice", "old/slice/Mouth.ice", "etc/config", "bin/SpeechComp"} <= set(tree)
     assert {"src/specificworker.py", "generated/genericworker.py"} <= set(tree)
     run(rcyaml, "compile", "--check", cwd=work)
+
+
+LIBRARY = """\
+from robocomp_yaml import api
+plan = api.load("robot").compile()
+assert not plan.has_errors, plan.diagnostics
+print(len(plan.files), "files,", sum(told.severity == api.ERROR for told in api.load("wrong").check()), "error")
+"""
+
+
+def python_of(version: str) -> str | None:
+    """A Python of this version that makes environments: the first on the path, or one that pyenv keeps."""
+    kept = Path(os.environ.get("PYENV_ROOT") or Path.home() / ".pyenv").glob(f"versions/{version}.*/bin/python{version}")
+    for python in (shutil.which(f"python{version}"), *map(str, sorted(kept))):
+        if python and subprocess.run([python, "-c", "import ensurepip, venv"], capture_output=True).returncode == 0:
+            return python
+    return None
+
+
+@pytest.mark.parametrize("version", ["3.11", "3.12", "3.13"])
+def test_it_works_with_each_python(version: str, built: Path, bin_: Path, tmp_path: Path) -> None:
+    if version != f"{sys.version_info[0]}.{sys.version_info[1]}":
+        python = python_of(version)
+        if python is None:
+            pytest.skip(f"there is no python{version} on this machine that makes environments")
+        bin_ = installed(built, tmp_path / "venv", python)
+    work = write_tree(tmp_path / "work", {"robot": None, "wrong/Arm.idsl.yaml": "module: 3\n", "use.py": LIBRARY})
+    rcyaml = str(bin_ / "rcyaml")
+    assert run(rcyaml, "--version") == f"rcyaml, version {robocomp_yaml.__version__}\n"
+    run(rcyaml, "init", "robot", cwd=work)
+    run(rcyaml, "new", "interface", "Arm", cwd=work / "robot")
+    run(rcyaml, "new", "component", "ArmComp", "--implements", "Arm", cwd=work / "robot")
+    assert "nothing wrong" in run(rcyaml, "check", cwd=work / "robot")
+    assert "error" not in run(rcyaml, "compile", cwd=work / "robot")
+    assert "Arm" in " ".join(read_tree(work / "robot"))
+    said = run(str(bin_ / "python"), "use.py", cwd=work)
+    assert re.fullmatch(r"[1-9]\d* files, 1 error\n", said)
 
 
 def test_another_build_of_the_same_version_compiles_again(built: Path, bin_: Path, tmp_path: Path) -> None:

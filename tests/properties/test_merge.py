@@ -25,6 +25,8 @@ from robocomp_yaml.transactions import writer
 from robocomp_yaml.transactions.plan import RootPlan
 from verdicts import CASES
 
+pytestmark = pytest.mark.processes  # by git
+
 CHUNKS, PAIRS, EDITS = 20, 10, max(CASES // 100, 1)
 REFUSED = 0.25  # of all merges, at most: what two sides changed can be too much
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.codes import languages as codes
@@ -22,8 +22,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
             if key in language.ignored:
                 yield uses.OTHER_LANGUAGE.at(span, language=language.title, key=key)
             elif key not in language.has:
+                more = program.plugins_of(component.path).languages
                 yield codes.NOT_AVAILABLE.at(
-                    span, key=key, language=language.title, hint=_hint(key, language),
+                    span, key=key, language=language.title, hint=_hint(key, language, more),
                     related=[Related(f"the component is in {language.title}", component.language.span)],
                 )
 
@@ -41,7 +42,7 @@ def _said(component: Component) -> Iterator[tuple[str, Span]]:
         yield library.kind, library.span
 
 
-def _hint(key: str, language: TargetLanguage) -> str:
-    others = languages.listed(other.title for other in languages.with_capability(key))
+def _hint(key: str, language: TargetLanguage, more: Iterable[TargetLanguage]) -> str:
+    others = languages.listed(other.title for other in languages.with_capability(key, more))
     has = languages.listed((one for one in CAPABILITIES if one in language.has), "and")
     return f"leave it out, or write the component in {others}; {language.title} has {has}"

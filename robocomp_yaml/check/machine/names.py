@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.languages import with_capability
-from robocomp_yaml.languages.record import STATEMACHINE
+from robocomp_yaml.languages.record import STATEMACHINE, TargetLanguage
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.machine_index import MachineIndex
@@ -24,7 +24,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
         if linked.machine is not None:
             yield from _events(linked.machine)
-            yield from _in_code(linked, linked.machine)
+            more = program.plugins_of(linked.component.path).languages
+            yield from _in_code(linked, linked.machine, with_capability(STATEMACHINE, more))
 
 
 def _events(machine: StateMachine) -> Iterator[Diagnostic]:
@@ -46,10 +47,10 @@ def _events(machine: StateMachine) -> Iterator[Diagnostic]:
             yield codes.EVENT_NAME.at(event.span, event=event.text)
 
 
-def _in_code(linked: LinkedComponent, machine: StateMachine) -> Iterator[Diagnostic]:
+def _in_code(linked: LinkedComponent, machine: StateMachine, known: list[TargetLanguage]) -> Iterator[Diagnostic]:
     taken = {named.name: named for named in _of_ports(linked)}
     guards, actions = names.guards(machine), names.actions(machine)
-    reserved = _WORKERS.union(*(language.keywords for language in with_capability(STATEMACHINE)))
+    reserved = _WORKERS.union(*(language.keywords for language in known))
     reserved |= linked.component.language.target.taken
     if linked.component.compatibility:
         reserved |= names.ROBOCOMPS

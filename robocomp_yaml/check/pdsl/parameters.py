@@ -9,6 +9,7 @@ from robocomp_yaml import languages
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.expression_types import is_sound
 from robocomp_yaml.model.names import is_identifier
@@ -19,28 +20,32 @@ from robocomp_yaml.values.defaults import defaults
 from robocomp_yaml.values.judge import Path, judge
 from robocomp_yaml.values.references import is_reference
 
+Languages = tuple[TargetLanguage, ...]
+
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.parameter_documents():
-        faults = list(_records(linked.parameters))
+        assert linked.document is not None
+        more = program.plugins_of(linked.document.path).languages
+        faults = list(_records(linked.parameters, (*languages.table().values(), *more)))
         yield from faults
         if not faults and not linked.broken:
             yield from _defaults_together(linked.parameters)
 
 
-def _records(parameters: Parameters) -> Iterator[Diagnostic]:
+def _records(parameters: Parameters, known: Languages) -> Iterator[Diagnostic]:
     """Each struct once, and the groups of the parameters."""
-    yield from _members(parameters.root, ())
+    yield from _members(parameters.root, (), known)
     for type_ in parameters.types:
         if isinstance(type_, RecordType):
-            yield from _members(type_, (type_.name,))
+            yield from _members(type_, (type_.name,), known)
 
 
-def _members(record: RecordType, path: Path) -> Iterator[Diagnostic]:
-    yield from _names(record)
+def _members(record: RecordType, path: Path, known: Languages) -> Iterator[Diagnostic]:
+    yield from _names(record, known)
     for member in record.members:
         if member.is_group and isinstance(member.type, RecordType):
-            yield from _members(member.type, (*path, member.name))
+            yield from _members(member.type, (*path, member.name), known)
         elif member.default is not None and member.default.node is not None:
             yield from _default(member, member.default.node, (*path, member.name))
 
@@ -69,13 +74,13 @@ def _references(node: Node) -> Iterator[Mapping]:
             yield from _references(item)
 
 
-def _names(record: RecordType) -> Iterator[Diagnostic]:
+def _names(record: RecordType, known: Languages) -> Iterator[Diagnostic]:
     names: dict[tuple[str, str], Member] = {}
     for member in record.members:
         if not is_identifier(member.code_name):
             yield codes.NO_IDENTIFIER.at(member.span, name=member.name, hint=f"for instance as: {_free(member.name)}")
             continue
-        for language in languages.table().values():
+        for language in known:
             code = language.in_code(member.code_name)
             other = names.setdefault((language.name, code), member)
             if other is not member:

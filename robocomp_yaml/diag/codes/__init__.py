@@ -27,7 +27,12 @@ def table() -> dict[str, Code]:
     return dict(sorted(rows.items()))
 
 
+def row_of(id_: str) -> Code:
+    """The code of this id. Most often its family is imported, since it made the diagnostic; a plug-in's always is."""
+    return KNOWN.get(id_) or table()[id_]
+
+
 @cache
 def message_of(id_: str) -> str:
-    """The message of a code, a format string. Most often its family is imported: it made the diagnostic."""
-    return (KNOWN.get(id_) or table()[id_]).message
+    """The message of a code, a format string."""
+    return row_of(id_).message

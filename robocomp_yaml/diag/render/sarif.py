@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from urllib.parse import quote
 
 from robocomp_yaml import __version__
-from robocomp_yaml.diag.codes import table
+from robocomp_yaml.diag.codes import row_of
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Fix
 from robocomp_yaml.diag.render.json import dumps
@@ -20,7 +20,7 @@ def render(diagnostics: Sequence[Diagnostic], documents: int) -> str:
     ids = sorted({diagnostic.code for diagnostic in diagnostics})
     rules = [
         {"id": row.id, "fullDescription": {"text": row.why}, "defaultConfiguration": {"level": row.severity}}
-        for row in (table()[id_] for id_ in ids)
+        for row in map(row_of, ids)
     ]
     driver = {"name": "rcyaml", "version": __version__, "rules": rules}
     run = {

@@ -5,28 +5,49 @@ Texts that hold a configuration may hold what nobody else should read, as `Netwo
 
 from __future__ import annotations
 
+import os
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._unwritable import Unwritable as Unwritable
 from robocomp_yaml.emit.exports._unwritable import noted as noted
+from robocomp_yaml.plugins import EXPORTS, NONE, Plugin, Plugins
 from robocomp_yaml.registry import Modules
 
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
-EXPORTS = Modules(__name__, "form")
+_OURS = Modules(__name__, "form")
 
 
-def forms() -> list[str]:
+def built_in() -> list[str]:
+    return [*_OURS.table()]
+
+
+def forms(plugins: Plugins = NONE) -> list[str]:
     """What `export` can make."""
-    return [*EXPORTS.table()]
+    return [*built_in(), *sorted(plugins.of(EXPORTS))]
 
 
-def export(network: Network, form: str) -> dict[str, str]:
+def export(network: Network, form: str, plugins: Plugins = NONE) -> dict[str, str]:
     """The files that another tool runs the network from, by their relative paths; `form` is one of `forms()`. Raises
     Unwritable where the form cannot say what the network has; what is only written otherwise is `noted`."""
-    made = EXPORTS.load(form)
+    if form not in forms(plugins):
+        raise ValueError(f"there is no form '{form}'")
     with _unwritable.of(network):
-        files: dict[str, str] = made.export(network)
+        if form in plugins.of(EXPORTS):
+            return _of_plugin(network, form, *plugins.of(EXPORTS)[form])
+        files: dict[str, str] = _OURS.load(form).export(network)
+    return files
+
+
+def _of_plugin(network: Network, form: str, plugin: Plugin, module: ModuleType) -> dict[str, str]:
+    with plugin.answering(f"export '{form}'", Unwritable):
+        files = module.export(network)
+        if not isinstance(files, dict) or not all(isinstance(each, str) for item in files.items() for each in item):
+            raise TypeError("it gives no texts by their paths")
+        for path in files:
+            if os.path.isabs(path) or os.path.normpath(path).split(os.sep)[0] in (os.pardir, os.curdir):
+                raise ValueError(f"'{path}' is no path of a file below a folder")
     return files

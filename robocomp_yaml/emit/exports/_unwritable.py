@@ -15,11 +15,12 @@ from robocomp_yaml.network.network import Network, Process
 
 
 class Unwritable(ValueError):
-    """The text says why; `name` is whose it is, and `span` where that stands."""
+    """The text says why; `name` is whose it is, and `span` where that stands: those of the process that is being
+    written, where they are not given."""
 
-    def __init__(self, why: str) -> None:
+    def __init__(self, why: str, name: str = "", span: Span = Span("")) -> None:
         super().__init__(why)
-        self.name, self.span = "", Span("")
+        self.name, self.span = name, span
 
 
 _NOTES: ContextVar[list[Unwritable]] = ContextVar("notes")

@@ -45,4 +45,4 @@ def _language(path: str) -> TargetLanguage | None:
 
 def _of_suffix(path: str) -> TargetLanguage | None:
     suffix = path.rpartition(".")[2]
-    return next((one for one in languages.table().values() if suffix in one.suffixes), None)
+    return next((one for one in languages.known().values() if suffix in one.suffixes), None)

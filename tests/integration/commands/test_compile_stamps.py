@@ -17,7 +17,8 @@ from robocomp_yaml.diag.page import Files, Repeated
 
 # What cannot be read may become readable without any trace; whether programs are there is for `check` alone; of files
 # that a compile refuses to write, more is looked at than is remembered.
-NEVER = {"RC0001", "RC2010", "RC4403", "RC4404"}
+# The last are of plug-ins that are installed for the examples alone.
+NEVER = {"RC0001", "RC2010", "RC4403", "RC4404", "RC0081", "RC0082", "RC0083"}
 
 
 def _paths(row: Code) -> list[str]:

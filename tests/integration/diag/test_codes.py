@@ -7,6 +7,7 @@ import os
 import re
 import shlex
 import socket
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -26,11 +27,18 @@ pytestmark = pytest.mark.processes  # examples with programs ask the machine
 ROWS = list(table().values())
 
 
+@pytest.fixture(autouse=True)
+def _nothing_more_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "path", [*sys.path])
+
+
 def _run(row: Code, files: Files, rcyaml: Callable[..., Result], folder: Path) -> list[dict[str, object]]:
     if "icegrid" in row.command:
         pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
     texts = {path: str(it) if isinstance(it, Repeated) else it for path, it in files.items()}
     write_tree(folder, {path: _with_free_ports(it) if isinstance(it, str) else it for path, it in texts.items()})
+    if any(path.startswith("site-packages/") for path in files):
+        sys.path.insert(0, str(folder / "site-packages"))  # a plug-in that is installed; the fixture takes it away
     words = [name for word in shlex.split(row.command) for name in (sorted(os.listdir()) if word == "*" else [word])]
     result = rcyaml(*words, "--format", "json")
     return json.loads(result.stdout)["diagnostics"]

@@ -4,20 +4,32 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from robocomp_yaml.plugins import GRAPHS, NONE, Plugins
 from robocomp_yaml.registry import Modules
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.graphs.picture import Picture
 
-FORMS = Modules(__name__, "form")
+_OURS = Modules(__name__, "form")
 
 
-def forms() -> list[str]:
+def built_in() -> list[str]:
+    return [*_OURS.table()]
+
+
+def forms(plugins: Plugins = NONE) -> list[str]:
     """What `draw` can make."""
-    return [*FORMS.table()]
+    return [*built_in(), *sorted(plugins.of(GRAPHS))]
 
 
-def draw(picture: Picture, form: str) -> str:
+def draw(picture: Picture, form: str, plugins: Plugins = NONE) -> str:
     """The picture in a form, which is called as its module."""
-    text: str = FORMS.load(form).draw(picture)
+    if form in plugins.of(GRAPHS):
+        plugin, module = plugins.of(GRAPHS)[form]
+        with plugin.answering(f"picture '{form}'"):
+            drawn = module.draw(picture)
+            if not isinstance(drawn, str):
+                raise TypeError("it gives no text")
+        return drawn
+    text: str = _OURS.load(form).draw(picture)
     return text

@@ -1,0 +1,105 @@
+"""Choices that plug-ins add to: those of the workspaces that a command line is about."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
+    from robocomp_yaml.diag.code import Code
+    from robocomp_yaml.plugins import Plugins
+
+_WORDS = "robocomp_yaml.words"
+
+
+def remember(ctx: click.Context, words: Sequence[str]) -> None:
+    """The words of a command line, before anything is known of them."""
+    ctx.meta[_WORDS] = tuple(words)
+
+
+class Plugged(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
+    """One of what `known` gives for the plug-ins of the workspaces of the paths on the command line; where there is
+    none, of that of the working folder. Nothing is looked for before somebody asks."""
+
+    name = "choice"
+
+    def __init__(self, known: Callable[[Plugins], Sequence[str]]) -> None:
+        self._known = known
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
+        return f"[{'|'.join(self.choices(ctx))}]"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        choices = self.choices(ctx)
+        if value not in choices:
+            _tell_of_plugins(ctx)
+        return str(click.Choice(choices).convert(value, param, ctx))
+
+    def choices(self, ctx: click.Context | None) -> list[str]:
+        return list(dict.fromkeys(name for plugins in _plugins(ctx) for name in self._known(plugins)))
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        from click.shell_completion import CompletionItem
+
+        return [CompletionItem(name) for name in self.choices(ctx) if name.startswith(incomplete)]
+
+
+def here(path: str = ".") -> Plugins:
+    """The plug-ins of the workspace that a path is in. Raises Faulty where one of them cannot be had."""
+    from robocomp_yaml.plugins import NONE
+
+    if not _may_name_some(path):
+        return NONE
+    from robocomp_yaml.diag.errors import Faulty
+    from robocomp_yaml.link.workspace import above
+
+    workspace, said = above(path)
+    if not workspace.plugins.whole:
+        raise Faulty(said)
+    return workspace.plugins
+
+
+def codes(ctx: click.Context | None = None) -> dict[str, Code]:
+    """The codes of those of the command line."""
+    return {id_: code for plugins in _plugins(ctx) for id_, code in plugins.codes.items()}
+
+
+def _plugins(ctx: click.Context | None) -> list[Plugins]:
+    from robocomp_yaml.plugins import NONE
+
+    paths = [path for path in _paths(ctx) if _may_name_some(path)]
+    if not paths:
+        return [NONE]
+    from robocomp_yaml.link.workspace import above
+
+    return [above(path)[0].plugins for path in paths]
+
+
+def _may_name_some(path: str) -> bool:
+    """Whether it is worth reading the workspace's settings, for which much is loaded."""
+    from robocomp_yaml.source.discover import WORKSPACE_FILE
+    from robocomp_yaml.source.regular import regular
+
+    here = os.path.abspath(path)
+    for folder in (here, *map(str, PurePath(here).parents)):
+        with suppress(OSError), open(os.path.join(folder, WORKSPACE_FILE), "rb", opener=regular) as file:
+            return b"plugins" in file.read()
+    return False
+
+
+def _paths(ctx: click.Context | None) -> list[str]:
+    words = ctx.meta.get(_WORDS, ()) if ctx is not None else ()
+    return [word for word in words if os.path.exists(word)] or ["."]
+
+
+def _tell_of_plugins(ctx: click.Context | None) -> None:
+    """What is not known may be that of a plug-in that cannot be had: then it is told why."""
+    for path in _paths(ctx):
+        here(path)

@@ -1,0 +1,183 @@
+"""The plug-ins that a workspace names, found among the installed distributions and loaded; and what tells one build of
+a plug-in from another."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator
+from importlib import metadata
+from importlib.util import find_spec
+from types import ModuleType
+
+from robocomp_yaml import languages
+from robocomp_yaml.diag.codes import files as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import Hint
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import meaning, suggest
+from robocomp_yaml.plugins import LANGUAGES, Plugin, Plugins, codes_in, reason_of
+from robocomp_yaml.plugins.kinds import BY_GROUP, Kind
+from robocomp_yaml.source.digest import digest, states
+
+_OURS = re.compile(r"RC\d")
+_CODE = re.compile(r"[A-Z]{2,}\d{3,4}")
+
+
+def found(named: Iterable[tuple[str, Span]]) -> tuple[Plugins, list[Diagnostic]]:
+    """The plug-ins of these names, each with the place that names it, and what is wrong with them."""
+    listed = list(named)
+    said: list[Diagnostic] = []
+    active: list[Plugin] = []
+    seen: set[str] = set()
+    for name, span in listed:
+        if normal(name) in seen:
+            continue
+        seen.add(normal(name))
+        distribution = _distribution(name)
+        if distribution is None:
+            said.append(codes.NO_PLUGIN.at(span, name=name, hint=_missing(name)))
+            continue
+        entries = _entries(distribution)
+        if not entries:
+            said.append(codes.NOT_A_PLUGIN.at(span, name=name, hint=_other(name) or "take it out of `plugins:`"))
+            continue
+        plugin = Plugin(normal(name), span, {})
+        for entry in entries:
+            said += _add(plugin, entry, active)
+        active.append(plugin)
+    are_broken = any(one.code in (codes.PLUGIN_BROKEN.id, codes.PLUGIN_CLASH.id) for one in said)
+    return Plugins(tuple(active), tuple(normal(name) for name, _ in listed), not said, are_broken), said
+
+
+def load(names: Iterable[str]) -> None:
+    """Makes what plug-ins say known, where their workspace is not read: what they said in an earlier run is told."""
+    found((name, Span("")) for name in names)
+
+
+def normal(name: str) -> str:
+    """A distribution's name as installers compare it."""
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def identity(name: str) -> str:
+    """What tells one build of a plug-in from another: what its installer recorded, and size and times of its modules,
+    which tell what was changed since, or in a checkout. '' where it is not installed."""
+    distribution = _distribution(name)
+    if distribution is None:
+        return ""
+    parts = [distribution.version, distribution.read_text("RECORD") or "", *_lines(distribution)]
+    for package in sorted({entry.module.partition(".")[0] for entry in _entries(distribution)}):
+        parts += _files(package)
+    return digest("\n".join(parts).encode(errors="surrogateescape"))
+
+
+def _distribution(name: str) -> metadata.Distribution | None:
+    try:
+        return metadata.distribution(name)
+    except (metadata.PackageNotFoundError, ValueError):
+        return None
+
+
+def _entries(distribution: metadata.Distribution) -> list[metadata.EntryPoint]:
+    return [entry for entry in distribution.entry_points if entry.group in BY_GROUP]
+
+
+def _lines(distribution: metadata.Distribution) -> list[str]:
+    return [f"{entry.group} {entry.name} {entry.value}" for entry in _entries(distribution)]
+
+
+def _files(package: str) -> Iterator[str]:
+    try:
+        spec = find_spec(package)
+    except (ImportError, ValueError):
+        return
+    if spec is None:
+        return
+    for folder in spec.submodule_search_locations or ():
+        if os.path.isdir(folder):
+            yield from sorted(states(folder, len(folder)))
+    if spec.origin and os.path.isfile(spec.origin):
+        status = os.stat(spec.origin)
+        yield f"{spec.origin} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"
+
+
+def _add(plugin: Plugin, entry: metadata.EntryPoint, others: list[Plugin]) -> Iterator[Diagnostic]:
+    """Puts what an entry point names into the plug-in, or says why that cannot be."""
+    kind = BY_GROUP[entry.group]
+    what = f"{kind.called} '{entry.name}'"
+    try:
+        module = entry.load()
+    except (Exception, SystemExit) as error:  # noqa: BLE001  # whatever somebody's module does when it is imported
+        hint = _why_not(error, plugin.name)
+        yield codes.PLUGIN_BROKEN.at(plugin.span, name=plugin.name, what=what, reason=reason_of(error), hint=hint)
+        return
+    if problem := kind.problem(entry.name, module) or _problem_of_codes(module):
+        yield codes.PLUGIN_BROKEN.at(plugin.span, name=plugin.name, what=what, reason=problem, hint=_LATER)
+        return
+    if clash := _clash(kind, entry.name, module, others):
+        thing, other = clash
+        hint = "name one of the two" if other != "rcyaml" else _LATER
+        yield codes.PLUGIN_CLASH.at(plugin.span, name=plugin.name, what=thing, other=other, hint=hint)
+        return
+    plugin.pieces[kind.name, entry.name] = module
+    if kind.name == LANGUAGES:
+        languages.add(module.LANGUAGE)
+
+
+_LATER = "tell its authors; another version may be right"
+
+
+def _why_not(error: BaseException, name: str) -> str:
+    if isinstance(error, ModuleNotFoundError) and error.name:
+        return f"install it again, with all that it needs: `pip install --force-reinstall {name}`"
+    return _LATER
+
+
+def _problem_of_codes(module: ModuleType) -> str:
+    for code in codes_in(module):
+        if not _CODE.fullmatch(code.id):
+            return f"'{code.id}' is no code: two or more capital letters, and three or four digits"
+        if _OURS.match(code.id):
+            continue  # one of ours, which it may give too; or a clash
+        try:
+            code.severity, code.message, code.entry  # noqa: B018 (to see whether they are there)
+        except (KeyError, ValueError, OSError) as error:
+            return f"the page of {code.id} is not as it should be: {reason_of(error)}"
+    return ""
+
+
+def _clash(kind: Kind, name: str, module: ModuleType, others: list[Plugin]) -> tuple[str, str] | None:
+    """What of a module somebody else has already, and who."""
+    if name in kind.built_in():
+        return f"{kind.called} '{name}'", "rcyaml"
+    for other in others:
+        if kind.home and (kind.name, name) in other.pieces:
+            return f"{kind.called} '{name}'", f"plug-in '{other.name}'"
+    for code in codes_in(module):
+        if _OURS.match(code.id):
+            from robocomp_yaml.diag.codes import table
+
+            if table().get(code.id) != code:
+                return f"diagnostic {code.id}", "rcyaml"
+        for other in others:
+            if other.codes.get(code.id, code) != code:
+                return f"diagnostic {code.id}", f"plug-in '{other.name}'"
+    return None
+
+
+def _installed() -> dict[str, list[str]]:
+    """All plug-ins that are installed, with the names of what they add."""
+    entries = {distribution.name: _entries(distribution) for distribution in metadata.distributions()}
+    return {name: [entry.name for entry in found] for name, found in entries.items() if found}
+
+
+def _missing(name: str) -> Hint:
+    return _other(name) or Hint(f"`pip install {name}` installs it, into the environment that rcyaml runs in")
+
+
+def _other(name: str) -> Hint | None:
+    """The plug-in that was meant: by a name like its own, or by that of something that it has."""
+    known = _installed()
+    meant = suggest(name, known) or next((one for one, pieces in known.items() if name in pieces), None)
+    return meaning(name, meant) if meant else None
