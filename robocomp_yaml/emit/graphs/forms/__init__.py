@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.plugins import GRAPHS, NONE, Plugins

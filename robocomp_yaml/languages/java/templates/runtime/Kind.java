@@ -291,7 +291,7 @@ public final class Kind {
             case WHOLE -> "a whole number";
             case DECIMAL -> "a number";
             case TEXT -> "text";
-            default -> "one of " + joined();
+            default -> allowed();
         };
     }
 
@@ -334,7 +334,7 @@ public final class Kind {
             return values.contains(value) ? "" : "be " + words();
         }
         if (!values.isEmpty() && values.stream().noneMatch(allowed -> Expressions.same(allowed, value))) {
-            return "be one of " + joined() + inUnit;
+            return "be " + allowed() + inUnit;
         }
         if (form == Form.TEXT) {
             return pattern == null || pattern.test((String) value) ? "" : "match " + shownAs;
@@ -376,8 +376,10 @@ public final class Kind {
         return String.join(" and ", ends);
     }
 
-    private String joined() {
-        return values.stream().map(Texts::spelled).collect(Collectors.joining(", "));
+    /** Which values it may have: of a secret, only how many. */
+    private String allowed() {
+        return isSecret ? "one of the " + values.size() + " values allowed"
+            : "one of " + values.stream().map(Texts::spelled).collect(Collectors.joining(", "));
     }
 
     /** A value of this type, or what was to be one, for messages. */
