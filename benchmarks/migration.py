@@ -1,6 +1,6 @@
 """The corpus of legacy files beside the checkout, migrated: what became of each format, and how long it took.
 
-    python benchmarks/migration.py
+python benchmarks/migration.py
 """
 
 from __future__ import annotations

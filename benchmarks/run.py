@@ -112,8 +112,13 @@ def main(runs: int) -> None:
         paths = sorted(str(path) for path in docs.rglob("*.idsl.yaml"))
         floor = [sys.executable, "-c", FLOOR, *paths]
         print(f"{len(paths)} documents, {runs} runs of each in turn; ratios of processor time: median (min–max)\n")
-        compare("rcyaml --help / python -c 'import click'", [*RCYAML, "--help"],
-                [sys.executable, "-c", "import click"], "1.5", runs)
+        compare(
+            "rcyaml --help / python -c 'import click'",
+            [*RCYAML, "--help"],
+            [sys.executable, "-c", "import click"],
+            "1.5",
+            runs,
+        )
         compare("check / floor", [*RCYAML, "check", str(docs)], floor, "4", runs)
         out = work / "out"
         compile_ = [*RCYAML, "compile", str(docs), "-o", str(out)]
@@ -121,13 +126,26 @@ def main(runs: int) -> None:
         subprocess.run(compile_, stdout=subprocess.DEVNULL)
         compare("compile, nothing to do / floor", compile_, floor, "1.3", runs)
         small, large = generated(work / "g1", 100, 10), generated(work / "g10", 1000, 10)
-        compare("compile, 10,000 interfaces / 1,000", [*RCYAML, "compile", str(large), "-o", str(work / "o10")],
-                [*RCYAML, "compile", str(small), "-o", str(work / "o1")], "10", 3, work / "o10", work / "o1")
+        compare(
+            "compile, 10,000 interfaces / 1,000",
+            [*RCYAML, "compile", str(large), "-o", str(work / "o10")],
+            [*RCYAML, "compile", str(small), "-o", str(work / "o1")],
+            "10",
+            3,
+            work / "o10",
+            work / "o1",
+        )
         for language in ("python", "cpp"):
             source = component(work / language, language)
             target = work / f"{language}-out"
-            compare(f"one {language} component, cold / python", [*RCYAML, "compile", str(source), "-o", str(target)],
-                    [sys.executable, "-c", "pass"], "0.25 s", runs, target)
+            compare(
+                f"one {language} component, cold / python",
+                [*RCYAML, "compile", str(source), "-o", str(target)],
+                [sys.executable, "-c", "pass"],
+                "0.25 s",
+                runs,
+                target,
+            )
 
 
 if __name__ == "__main__":

@@ -53,9 +53,12 @@ def long_pdsl(folder: Path, language: str) -> Path:
     (folder / "c.cdsl.yaml").write_text(f"component: C\nlanguage: {language}\n")
     lines = ["component: c.cdsl.yaml", *TYPES.splitlines(), "parameters:"]
     kinds = (
-        "{{type: float, range: [0, 1], default: 0.5, unit: m, doc: Parameter {n}.}}", "{{type: int, default: {n}}}",
-        "{{type: string, default: text{n}}}", "{{list: Motor, size: [0, 9], default: []}}",
-        "{{list: {{list: float, size: 3}}, default: [[1, 0, 0]]}}", "{{group: {{on: {{type: bool, default: true}}}}}}",
+        "{{type: float, range: [0, 1], default: 0.5, unit: m, doc: Parameter {n}.}}",
+        "{{type: int, default: {n}}}",
+        "{{type: string, default: text{n}}}",
+        "{{list: Motor, size: [0, 9], default: []}}",
+        "{{list: {{list: float, size: 3}}, default: [[1, 0, 0]]}}",
+        "{{group: {{on: {{type: bool, default: true}}}}}}",
     )
     while len(lines) < 350:
         n = len(lines)

@@ -71,9 +71,7 @@ def read_tree(folder: Path) -> dict[str, str]:
 
 
 @pytest.fixture
-def rcyaml(
-    request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Callable[..., Result]:
+def rcyaml(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
     """Runs `rcyaml ARGS` in tmp_path, in this process; ports that others have are free to it."""
     own_ports.only(None if request.node.get_closest_marker("unit") else tmp_path, monkeypatch)
     monkeypatch.chdir(tmp_path)

@@ -51,7 +51,13 @@ class Program:
 
     def ask(self, lines: list[str]) -> Iterator[list[str]]:
         """The words of each answer."""
-        done = subprocess.run(self.command, input="\n".join(lines) + "\n", capture_output=True, text=True, env={"PATH": os.environ["PATH"]})
+        done = subprocess.run(
+            self.command,
+            input="\n".join(lines) + "\n",
+            capture_output=True,
+            text=True,
+            env={"PATH": os.environ["PATH"]},
+        )
         assert done.returncode == 0, done.stderr
         answers = done.stdout.splitlines()
         assert len(answers) == len(lines)

@@ -21,7 +21,17 @@ class Program(CppProgram):
         (folder / "generated" / "Parameters.java").write_text(text, encoding="utf-8")
         (folder / "generated" / "runtime").symlink_to(language("java").templates / "runtime")
         jars = ":".join(map(str, Path("/usr/share/java").glob("ice*-3.7*.jar")))
-        command = ["javac", "-encoding", "UTF-8", "-cp", jars, "-sourcepath", str(folder), "-d", str(folder / "classes")]
+        command = [
+            "javac",
+            "-encoding",
+            "UTF-8",
+            "-cp",
+            jars,
+            "-sourcepath",
+            str(folder),
+            "-d",
+            str(folder / "classes"),
+        ]
         done = subprocess.run([*command, str(DRIVER)], capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         self.command = ["java", "-cp", f"{folder / 'classes'}:{jars}", "generated.runtime.Driver"]

@@ -35,8 +35,16 @@ def speaking(folder: str = "/robot/.rcyaml/deployments/Head") -> Network:
                   env: tuple[Variable, ...] = ()) -> Process:  # fmt: skip
         config = ConfigFile(f"config/{name}", f"Title=50% ${{env:TITLE}} of $HOME & <{name}>\n")
         return Process(
-            name, host, (f"/robot/{name}/bin/{name}", CONFIG), f"/robot/{name}", config=config, endpoints=ports,
-            after=after, env=env, component=name.capitalize(), ready=Readiness(5.0, (f"{name}:tcp -p 1",)),
+            name,
+            host,
+            (f"/robot/{name}/bin/{name}", CONFIG),
+            f"/robot/{name}",
+            config=config,
+            endpoints=ports,
+            after=after,
+            env=env,
+            component=name.capitalize(),
+            ready=Readiness(5.0, (f"{name}:tcp -p 1",)),
         )
 
     storm = Process(

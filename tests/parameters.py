@@ -50,12 +50,18 @@ def values(of: LinkedParameters, data: Data, **more: Any) -> LinkedValues:
 # Documents of parameters with values that fit them, and values that may not.
 
 NAMES = ("alpha", "beta", "gamma", "delta", "from", "size", "keys", "env", "file", "password", "2d", "a-b")
-PATTERNS = {r"[A-Z][0-9]+": ("A1", "Z99"), r"/dev/\w+": ("/dev/x",), r"a|b": ("a", "b"), r".*": ("", "x#y"),
-            r"[^,\s]{1,3}": ("é", "a=b")}
+PATTERNS = {
+    r"[A-Z][0-9]+": ("A1", "Z99"),
+    r"/dev/\w+": ("/dev/x",),
+    r"a|b": ("a", "b"),
+    r".*": ("", "x#y"),
+    r"[^,\s]{1,3}": ("é", "a=b"),
+}
 TEXTS = st.text(st.characters(exclude_categories=("Cs",), exclude_characters="\0\r\x85\u2028\u2029\ufeff"), max_size=6)
 HARD_TEXTS = st.lists(
-    st.sampled_from(("#", "=", "\\", " ", "a", "é", ",", ";", '"', "'", "%", ".", "${env:X}", "${file:x}", ": ", "1", "true",
-                     "\t")),
+    st.sampled_from(
+        ("#", "=", "\\", " ", "a", "é", ",", ";", '"', "'", "%", ".", "${env:X}", "${file:x}", ": ", "1", "true", "\t")
+    ),
     max_size=5,
 ).map("".join)
 KEYS = st.sampled_from(("left", "a.b", "a b", "", "keys", "size", "%", "x=y", "é", "0", "#", "\\", "[0]", "a\tb"))
@@ -74,8 +80,9 @@ def numbers(draw: st.DrawFn, name: str) -> tuple[Data, st.SearchStrategy[Any]]:
         case "open":
             low = draw(st.integers(-50, 50))
             high = low + draw(st.integers(2, 9))
-            inside = st.integers(low + 1, high - 1) if whole else st.floats(low, high, exclude_min=True,
-                                                                           exclude_max=True)
+            inside = (
+                st.integers(low + 1, high - 1) if whole else st.floats(low, high, exclude_min=True, exclude_max=True)
+            )
             return {"type": name, "range": {"above": low, "below": high}}, inside
         case "values":
             chosen = draw(st.lists(within, min_size=1, max_size=4, unique=True))
@@ -129,8 +136,10 @@ def types(draw: st.DrawFn, depth: int = 2) -> tuple[Data, st.SearchStrategy[Any]
 
 
 POINT = {
-    "x": {"type": "float", "range": [-10, 10]}, "name": {"type": "string", "default": ""},
-    "tag": {"type": "string", "optional": True}, "on": {"type": "bool", "default": True},
+    "x": {"type": "float", "range": [-10, 10]},
+    "name": {"type": "string", "default": ""},
+    "tag": {"type": "string", "optional": True},
+    "on": {"type": "bool", "default": True},
     "note": {"type": "string", "default": "none"},
 }
 POINTS = st.fixed_dictionaries(
@@ -176,18 +185,61 @@ def documents(draw: st.DrawFn) -> tuple[Data, Data]:
     """A document of parameters, and values that fit it."""
     made, fitting = draw(members())
     document = {
-        "types": {"Mode": {"enum": ["slow", "fast", "off"]}, "Point": {"struct": POINT}}, "parameters": made,
+        "types": {"Mode": {"enum": ["slow", "fast", "off"]}, "Point": {"struct": POINT}},
+        "parameters": made,
     }
     return document, draw(fitting)
 
 
-JUNK = st.sampled_from((
-    True, False, 0, 1, 1.0, 1.5, -1e9, 2**31, 2**63, 2**64, -(2**63) - 1, 1e300, 1e39, 10**400, math.nan, math.inf,
-    -math.inf, "", "1", "true", "slow", "A1\n", "xA1", "A1x", [], [1, 1.0], {}, {"env": "HOME"}, {"env": 1},
-    {"env": "7UP"}, {"env": "A\n"}, {"env": "A", "b": 1}, {"x": 1},
-    {"file": "a/b c"}, {"file": ""}, {"file": "a/"}, {"file": "a\nb"}, {"file": 1}, {"file": "a "}, {"file": "}"},
-    {"env": "A", "file": "b"}, None, -0.0, "c", "é,x",
-))
+JUNK = st.sampled_from(
+    (
+        True,
+        False,
+        0,
+        1,
+        1.0,
+        1.5,
+        -1e9,
+        2**31,
+        2**63,
+        2**64,
+        -(2**63) - 1,
+        1e300,
+        1e39,
+        10**400,
+        math.nan,
+        math.inf,
+        -math.inf,
+        "",
+        "1",
+        "true",
+        "slow",
+        "A1\n",
+        "xA1",
+        "A1x",
+        [],
+        [1, 1.0],
+        {},
+        {"env": "HOME"},
+        {"env": 1},
+        {"env": "7UP"},
+        {"env": "A\n"},
+        {"env": "A", "b": 1},
+        {"x": 1},
+        {"file": "a/b c"},
+        {"file": ""},
+        {"file": "a/"},
+        {"file": "a\nb"},
+        {"file": 1},
+        {"file": "a "},
+        {"file": "}"},
+        {"env": "A", "file": "b"},
+        None,
+        -0.0,
+        "c",
+        "é,x",
+    )
+)
 
 
 @st.composite

@@ -36,11 +36,14 @@ def component(name: str, **lists: str) -> str:
 
 def workspace(documents: dict[str, str], **configs: str) -> dict[str, LinkedComponent]:
     """Writes components (folder to document) and configs (by folder) below the working folder, and links them."""
-    write_tree(Path(), {
-        "rcyaml.yaml": "interfaces: [idsl/]\n",
-        "idsl/Talk.idsl.yaml": INTERFACES,
-        **{f"{folder}/{folder}.cdsl.yaml": text for folder, text in documents.items()},
-        **{f"{folder}/{CONFIG}": text for folder, text in configs.items()},
-    })
+    write_tree(
+        Path(),
+        {
+            "rcyaml.yaml": "interfaces: [idsl/]\n",
+            "idsl/Talk.idsl.yaml": INTERFACES,
+            **{f"{folder}/{folder}.cdsl.yaml": text for folder, text in documents.items()},
+            **{f"{folder}/{CONFIG}": text for folder, text in configs.items()},
+        },
+    )
     program = analyse(["."]).program
     return {Path(linked.component.path).parent.name: linked for linked in program.components.values()}

@@ -46,7 +46,9 @@ def _is_way_to(path: Path, wanted: Path) -> bool:
 def _may_start(module: ModuleType) -> bool:
     """Whether a module of tests has `subprocess`, or takes something from one of tests that has it."""
     if not hasattr(module, "_may_start"):
-        named = {getattr(value, "__module__", None) or getattr(value, "__name__", "") for value in vars(module).values()}
+        named = {
+            getattr(value, "__module__", None) or getattr(value, "__name__", "") for value in vars(module).values()
+        }
         known = [sys.modules[name] for name in named if isinstance(name, str) and name in sys.modules]
         ours = [one for one in known if TESTS in Path(getattr(one, "__file__", None) or "/").parents]
         module._may_start = any(hasattr(one, "subprocess") for one in (module, *ours))  # type: ignore[attr-defined]

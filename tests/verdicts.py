@@ -68,7 +68,10 @@ def _as_json(data: Any) -> Any:
 
 
 JUDGES: dict[str, Judge] = {
-    "ours": ours, "Cerberus": by_cerberus, "jsonschema-rs": by_jsonschema_rs, "jsonschema": by_jsonschema,
+    "ours": ours,
+    "Cerberus": by_cerberus,
+    "jsonschema-rs": by_jsonschema_rs,
+    "jsonschema": by_jsonschema,
     "generated Python": by_python_accessors,
 }
 

@@ -1,7 +1,7 @@
 """What is seen of the code without running it: the rules and the format of ruff, the types of mypy, and the layers.
 
-  lint.py [NAME...]   all of them, or some: rules, format, types, layers; exit code 1 where one finds something
-  lint.py --fix       mends what can be mended without a thought: the order of imports, and the format
+lint.py [NAME...]   all of them, or some: rules, format, types, layers; exit code 1 where one finds something
+lint.py --fix       mends what can be mended without a thought: the order of imports, and the format
 """
 
 from __future__ import annotations
@@ -12,16 +12,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 RUFF = ("-m", "ruff")
-# Format and order of imports are looked at once they have been mended in one run over all: `lint.py --fix`.
-IS_FORMATTED = False
 CHECKS = {
-    "rules": (*RUFF, "check", "--quiet", "--output-format", "concise", *(() if IS_FORMATTED else ("--ignore", "I"))),
+    "rules": (*RUFF, "check", "--quiet", "--output-format", "concise"),
     "format": (*RUFF, "format", "--check", "--quiet", "--diff"),
     "types": ("-m", "mypy", "--no-error-summary"),
     "layers": ("-c", "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))"),
 }
-if not IS_FORMATTED:
-    del CHECKS["format"]
 FIXES = ((*RUFF, "check", "--quiet", "--fix", "--select", "I"), (*RUFF, "format", "--quiet"))
 
 

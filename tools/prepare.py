@@ -204,7 +204,7 @@ def of_apt(line: str) -> str:
     names = {"Get:": "fetching", "Unpacking": "unpacking", "Setting up": "setting up"}
     for start, doing in names.items():
         if line.startswith(start):
-            rest = words[4:5] if start == "Get:" else words[len(start.split()):]
+            rest = words[4:5] if start == "Get:" else words[len(start.split()) :]
             return f"{doing} {rest[0]}" if rest else ""
     return ""
 
@@ -272,9 +272,12 @@ class Progress:
 
 def answers(command: Sequence[str | Path], given: str = "") -> bool:
     try:
-        return subprocess.run(
-            command, input=given.encode(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=ROOT
-        ).returncode == 0
+        return (
+            subprocess.run(
+                command, input=given.encode(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=ROOT
+            ).returncode
+            == 0
+        )
     except OSError:
         return False
 

@@ -177,7 +177,12 @@ class Values:
         self._refuse_bad(type_, steps, value, _place_of(root, ["parameters", *steps]), is_text=is_text)
         try:
             change = edit(
-                self.file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null",
+                self.file,
+                text,
+                root,
+                ["parameters", *steps],
+                value,
+                is_text=is_text and value != "null",
                 lines_above=lambda way: lines_above(of, way[1:]),
             )
         except NotEditable as refused:

@@ -54,9 +54,7 @@ class Workspace:
         rcyaml did not write, `merge` brings the user's files up to date."""
         from robocomp_yaml.api.compiling import Compilation
 
-        return Compilation(
-            self.analysis, self._paths, self._include, output, targets, adopt=adopt, merge=merge
-        )
+        return Compilation(self.analysis, self._paths, self._include, output, targets, adopt=adopt, merge=merge)
 
     def fix(self, *, unsafe: bool = False, environment: bool = False) -> Fixing:
         """What applying the fixes of diagnostics comes to: those that leave only one possible meaning, and with
@@ -79,9 +77,11 @@ class Workspace:
         """The network of the deployment at a path, or of the only one that no other one includes. Raises Refused where
         there is none, or several; Faulty where its errors leave no network."""
         program = self.analysis.program
-        wanted = {os.path.realpath(path)} if path else {
-            real for real, linked in program.deployments.items() if not linked.is_included
-        }
+        wanted = (
+            {os.path.realpath(path)}
+            if path
+            else {real for real, linked in program.deployments.items() if not linked.is_included}
+        )
         found = [network for real, network in self.analysis.networks.items() if real in wanted]
         if len(found) == 1:
             return found[0]

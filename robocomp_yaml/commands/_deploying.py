@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+
 class Opened(msgspec.Struct):
     """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
     so far, of which some have been `shown`; `analysis` is of the documents. `lock` is held while it is changed.

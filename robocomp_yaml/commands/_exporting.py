@@ -44,10 +44,13 @@ def export(ctx: click.Context, opened: Opened, form: str, output: str | None) ->
         return
     try:
         for path in exported.in_the_way(output, files):
-            opened.told.append(emitting.NOT_OURS.at(
-                Span(os.path.join(output, path)), path=path,
-                hint="or it was edited since; move it away, or export to another folder",
-            ))
+            opened.told.append(
+                emitting.NOT_OURS.at(
+                    Span(os.path.join(output, path)),
+                    path=path,
+                    hint="or it was edited since; move it away, or export to another folder",
+                )
+            )
         if not has_errors(opened.told):
             exported.write(output, files)
     except OSError as error:

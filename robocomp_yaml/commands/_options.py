@@ -18,7 +18,12 @@ MANY = 300  # documents: fewer are read before a bar could be seen
 
 paths = click.argument("paths", nargs=-1, type=click.Path(exists=True))
 include = click.option(
-    "-I", "--include", "include", multiple=True, metavar="DIR", type=click.Path(exists=True, file_okay=False),
+    "-I",
+    "--include",
+    "include",
+    multiple=True,
+    metavar="DIR",
+    type=click.Path(exists=True, file_okay=False),
     help="Look for imports here too; may be repeated.",
 )
 format_ = click.option(

@@ -23,8 +23,7 @@ def _targets(plugins: Plugins) -> list[str]:
 @click.command(cls=Command, short_help="Write Slice and components; only what changed.")
 @_options.paths
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR.")
-@click.option("--target", "targets", multiple=True, type=Plugged(_targets),
-              help="Write only this; may be repeated.")
+@click.option("--target", "targets", multiple=True, type=Plugged(_targets), help="Write only this; may be repeated.")
 @click.option("--dry-run", is_flag=True, help="Say what would be written, and write nothing.")
 @click.option("--diff", is_flag=True, help="Show what would change in each file, and write nothing.")
 @click.option("--check", is_flag=True, help="Write nothing; exit with 1 if anything would change (for CI).")

@@ -100,9 +100,14 @@ def get(
     _values.get(ctx, file, path, include, format_, reveal=reveal)
 
 
-@command.command("set", short_help="Change one value; all else stays as it is.", cls=_FileMayLack, context_settings={
-    "ignore_unknown_options": True,
-})
+@command.command(
+    "set",
+    short_help="Change one value; all else stays as it is.",
+    cls=_FileMayLack,
+    context_settings={
+        "ignore_unknown_options": True,
+    },
+)
 @file
 @click.argument("path")
 @click.argument("value")
@@ -132,5 +137,3 @@ def export(ctx: click.Context, file: str, form: str, reveal: bool, include: tupl
     from robocomp_yaml.commands import _values
 
     _values.export(ctx, file, form, include, reveal=reveal)
-
-

@@ -80,8 +80,12 @@ def plan(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | No
 @_shared
 @names
 @engine
-@click.option("--on-failure", type=click.Choice(["ask", "stop", "rollback", "keep"]), default="ask",
-              help="What becomes of what was started when a process fails; asked on a terminal, else stop.")
+@click.option(
+    "--on-failure",
+    type=click.Choice(["ask", "stop", "rollback", "keep"]),
+    default="ask",
+    help="What becomes of what was started when a process fails; asked on a terminal, else stop.",
+)
 @timeout
 @click.option("--attach", is_flag=True, help="Stay, show what they print, and take them down at the end.")
 @click.pass_context
@@ -130,8 +134,12 @@ def logs(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | No
 @_shared
 @names
 @engine
-@click.option("--on-failure", type=click.Choice(["ask", "stop", "rollback", "keep"]), default="ask",
-              help="What becomes of those that were restarted when one fails.")
+@click.option(
+    "--on-failure",
+    type=click.Choice(["ask", "stop", "rollback", "keep"]),
+    default="ask",
+    help="What becomes of those that were restarted when one fails.",
+)
 @timeout
 @click.pass_context
 def restart(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, on_failure: str,
@@ -173,10 +181,10 @@ def probe(ctx: click.Context, ddsl: str, host: tuple[str, ...], include: tuple[s
 @command.command(short_help="The network in the words of other tools.")
 @_shared
 @click.argument("nothing", cls=DocumentAnd, most=0, expose_value=False)
-@click.option("--as", "form", required=True, type=Plugged(_exports),
-              help="Which tool.")
-@click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR, not to "
-              "standard output.")
+@click.option("--as", "form", required=True, type=Plugged(_exports), help="Which tool.")
+@click.option(
+    "-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR, not to standard output."
+)
 @click.pass_context
 def export(ctx: click.Context, ddsl: str, form: str, output: str | None, include: tuple[str, ...],
            format_: str) -> None:  # fmt: skip

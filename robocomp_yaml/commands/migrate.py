@@ -26,19 +26,34 @@ LONG = 50
 
 @click.command(cls=Command, short_help="Carry legacy files over to YAML, losing nothing.")
 @click.argument("paths", nargs=-1, required=True, type=click.Path(exists=True))
-@click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False),
-              help="Write below DIR, in the folders of the sources. Default: beside each source.")
+@click.option(
+    "-o",
+    "--output",
+    metavar="DIR",
+    type=click.Path(file_okay=False),
+    help="Write below DIR, in the folders of the sources. Default: beside each source.",
+)
 @click.option("--dry-run", is_flag=True, help="Write nothing; say what would be written.")
 @click.option("--diff", "show_diff", is_flag=True, help="Show what changes, as a unified diff.")
-@click.option("--report", "report", metavar="FILE", type=click.Path(dir_okay=False, allow_dash=True),
-              help="Write what became of each line of each file, as JSON.")
+@click.option(
+    "--report",
+    "report",
+    metavar="FILE",
+    type=click.Path(dir_okay=False, allow_dash=True),
+    help="Write what became of each line of each file, as JSON.",
+)
 @click.option("--strict", is_flag=True, help="Fail when a line of a source is lost.")
 @click.option("--force", is_flag=True, help="Overwrite documents that were edited since, showing the difference first.")
 @click.option("--exact", is_flag=True, help="Keep the blanks around the separators of records and lists.")
-@click.option("--names", multiple=True, metavar="KEY=a,b,c",
-              help="What the columns of the rows KEY0, KEY1… are called.")
-@click.option("--rules", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
-              help="Corrections of what is guessed: `names:` and `types:` by key, `text:` for keys that are no lists.")
+@click.option(
+    "--names", multiple=True, metavar="KEY=a,b,c", help="What the columns of the rows KEY0, KEY1… are called."
+)
+@click.option(
+    "--rules",
+    metavar="FILE",
+    type=click.Path(exists=True, dir_okay=False),
+    help="Corrections of what is guessed: `names:` and `types:` by key, `text:` for keys that are no lists.",
+)
 @_options.include
 @_options.format_
 @click.pass_context
@@ -63,9 +78,7 @@ def command(
         raise click.UsageError(str(error)) from None
     if report is not None:
         _refuse_to_overwrite(report)
-    run = migrate(
-        paths, output, search_folders(include), force=force, progress=_progress, guesses=guesses, exact=exact
-    )
+    run = migrate(paths, output, search_folders(include), force=force, progress=_progress, guesses=guesses, exact=exact)
     shown = run.changes() if show_diff else run.forced()
     for path, change in list(shown):
         terminal.data(change.diff(path), err=format_ != "text" or report == "-")

@@ -89,8 +89,7 @@ def _uses(name: str, meaning: str) -> Callable[[Any], Any]:
 
 @command.command(short_help="A new component document.")
 @click.argument("name")
-@click.option("--language", type=Plugged(_languages), default=languages.DEFAULT,
-              help="The language of its code.")
+@click.option("--language", type=Plugged(_languages), default=languages.DEFAULT, help="The language of its code.")
 @_uses("implements", "interfaces that it serves")
 @_uses("requires", "interfaces of others that it calls")
 @_uses("publishes", "topics that it publishes")

@@ -55,7 +55,8 @@ def _defining(wanted: str, known: dict[str, list[tuple[str, str]]]) -> str:
 
     module, _, name = wanted.rpartition(".")
     candidates = [
-        (defining, path) for defining, path in known.get(name, ())
+        (defining, path)
+        for defining, path in known.get(name, ())
         if not module or module in (defining, Path(path).name.removesuffix(".idsl.yaml"))
     ]
     if not candidates:

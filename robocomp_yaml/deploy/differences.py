@@ -50,9 +50,7 @@ def _field(name: str, old: str, new: str, *, is_live: bool = False) -> Iterator[
         yield Difference(name, secrets.masked(old), secrets.masked(new), is_live)
 
 
-def _entries(
-    name: str, old: dict[str, str], new: dict[str, str], hidden: Collection[str]
-) -> Iterator[Difference]:
+def _entries(name: str, old: dict[str, str], new: dict[str, str], hidden: Collection[str]) -> Iterator[Difference]:
     """`hidden` are names of secrets, beside those that say so themselves."""
     for key in [*old, *(key for key in new if key not in old)]:
         before, after = old.get(key), new.get(key)

@@ -18,7 +18,8 @@ def in_the_way(output: str, files: Mapping[str, str]) -> list[str]:
     written = _record(output)
     found = {path: _read(Path(output, path)) for path in files}
     return [
-        path for path, data in found.items()
+        path
+        for path, data in found.items()
         if data is not None and data != _bytes(files[path]) and digest(data) != written.get(path)
     ]
 

@@ -197,7 +197,9 @@ def _usable_component(linked: LinkedComponent, state: _State, result: Build) -> 
 def _unresolved(document: Module | Component, cause: str, state: _State) -> Diagnostic:
     related = [Related("this document has errors, or imports what is not there", Span(cause))]
     told = compiling.UNRESOLVED.at(
-        document.span, name=document.name, related=related if cause != document.path else (),
+        document.span,
+        name=document.name,
+        related=related if cause != document.path else (),
         hint=f"`{typed('rcyaml', 'check', document.path)}` says what is missing; mend that first",
     )
     # Where the cause is an error already, this only says what follows from it.

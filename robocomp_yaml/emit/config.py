@@ -29,7 +29,11 @@ _ICE = (
 def plan(component: LinkedComponent, table: Ports) -> FilePlan:
     """`etc/config` of a component; `table` has the ports of its workspace."""
     sections = (
-        _head(component), _offers(component, table), _needs(component, table), _topics(component), _worker(component),
+        _head(component),
+        _offers(component, table),
+        _needs(component, table),
+        _topics(component),
+        _worker(component),
         _middleware(),
     )
     text = "\n".join("".join(f"{line}\n" for line in section) for section in map(list, sections) if section)

@@ -36,7 +36,9 @@ class Fences:
 def _told(document: str, root: str, folders: Sequence[str]) -> Diagnostic:
     named = " and ".join(os.path.realpath(folder) for folder in folders)
     return codes.OUTSIDE.at(
-        Span(document), path=os.path.normpath(root), reason=f"{os.path.realpath(root)} is not below {named}",
+        Span(document),
+        path=os.path.normpath(root),
+        reason=f"{os.path.realpath(root)} is not below {named}",
         hint=f"if that is meant: `rcyaml compile {document}`, or -o DIR",
     )
 

@@ -96,11 +96,14 @@ def _others(linked: LinkedParameters, changed: Mapping[str, str]) -> Sections:
     assert linked.component is not None
     root = linked.parameters.root
     known = {key for each in config.needed(linked.component) for key in config.names(each)}
-    own = {key: value for key, value in changed.items()
-           if key not in known and root.member(key.partition(".")[0]) is None}
+    own = {
+        key: value for key, value in changed.items() if key not in known and root.member(key.partition(".")[0]) is None
+    }
     ice = [(key.removeprefix("Ice."), value) for key, value in own.items() if key.startswith("Ice.")]
     # Which property a spelling of its own means is not known here: what is none of Ice's may be a parameter.
-    others = [] if linked.parameters.spellings else [
-        (key, value) for key, value in own.items() if not key.startswith("Ice.")
-    ]
+    others = (
+        []
+        if linked.parameters.spellings
+        else [(key, value) for key, value in own.items() if not key.startswith("Ice.")]
+    )
     return [("ice", ice), ("properties", others)]

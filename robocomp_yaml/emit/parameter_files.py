@@ -36,7 +36,12 @@ def docs(linked: LinkedComponent) -> Iterator[FilePlan]:
     from robocomp_yaml.values.new import new_document
 
     where = os.path.basename(linked.component.path)
-    example = new_document(linked.parameters.parameters, f"../{where}", "# An example: every parameter, and what it "
-                           "may be. The first line of your own document names the schema beside this file.", [])
+    example = new_document(
+        linked.parameters.parameters,
+        f"../{where}",
+        "# An example: every parameter, and what it "
+        "may be. The first line of your own document names the schema beside this file.",
+        [],
+    )
     yield FilePlan(DOCS, parameter_docs(linked))
     yield FilePlan(EXAMPLE, example)

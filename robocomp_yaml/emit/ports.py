@@ -92,10 +92,16 @@ def clashes(components: Iterable[LinkedComponent], disk: Disk) -> list[Diagnosti
             others = seen.setdefault((endpoint.protocol == "udp", endpoint.port), [])
             for host, other, place in others:
                 if not host or not endpoint.host or host == endpoint.host:
-                    diagnostics.append(codes.PORT_CLASH.at(
-                        span, port=endpoint.port, name=who, other=other, hint="give one of them another port",
-                        related=[Related("the same port", place)],
-                    ))
+                    diagnostics.append(
+                        codes.PORT_CLASH.at(
+                            span,
+                            port=endpoint.port,
+                            name=who,
+                            other=other,
+                            hint="give one of them another port",
+                            related=[Related("the same port", place)],
+                        )
+                    )
                     break
             others.append((endpoint.host, who, span))
     return diagnostics

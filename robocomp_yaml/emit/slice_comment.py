@@ -14,7 +14,7 @@ WIDTH = 110
 LONGEST_WORD = 8_000  # characters; the preprocessor's buffer has 65,536 bytes
 
 _HANG = re.compile(r" *(?:[-*+] +|[0-9]+[.)] +)?")  # below what the lines of a paragraph or list item start
-_HARMFUL = re.compile("[\x00-\x09\x0b-\x1f\x7f-\x9f\ud800-\udfff]|\\*/|/\\*|\\\\|\"\"\"")
+_HARMFUL = re.compile('[\x00-\x09\x0b-\x1f\x7f-\x9f\ud800-\udfff]|\\*/|/\\*|\\\\|"""')
 _CONTROL = "[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]"
 
 

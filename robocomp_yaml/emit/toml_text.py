@@ -106,10 +106,15 @@ def _key(key: str) -> str:
 def _literal(type_: Type, data: Any, where: Where) -> str:
     match type_:
         case RecordType():
-            return "{" + ", ".join(
-                f"{_key(m.name)} = {_literal(m.type, data[m.name], step(where, m.name))}"
-                for m in type_.members if m.name in data
-            ) + "}"
+            return (
+                "{"
+                + ", ".join(
+                    f"{_key(m.name)} = {_literal(m.type, data[m.name], step(where, m.name))}"
+                    for m in type_.members
+                    if m.name in data
+                )
+                + "}"
+            )
         case ListType(element=element):
             return "[" + ", ".join(_literal(element, item, step(where, n)) for n, item in enumerate(data)) + "]"
         case MapType(element=element):

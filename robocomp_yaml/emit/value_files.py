@@ -33,9 +33,7 @@ def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues
     return [values for values in found if os.path.basename(values.document.path) not in joined]
 
 
-def configs(
-    linked: LinkedComponent, documents: list[LinkedValues], table: Callable[[], Ports]
-) -> Iterator[FilePlan]:
+def configs(linked: LinkedComponent, documents: list[LinkedValues], table: Callable[[], Ports]) -> Iterator[FilePlan]:
     """The property files of a component; the documents have been found right. `table` has the ports of the workspace,
     asked for where a document leaves some open."""
     for values in documents:
@@ -54,9 +52,7 @@ def configs(
         )  # fmt: skip
 
 
-def _with_connections(
-    sections: list[Section], linked: LinkedComponent, table: Callable[[], Ports]
-) -> list[Section]:
+def _with_connections(sections: list[Section], linked: LinkedComponent, table: Callable[[], Ports]) -> list[Section]:
     """The endpoints and proxies that the document does not give, as a first `etc/config` would have them: without them
     nothing would start."""
     given = {made.key for section in sections for made in section.properties}

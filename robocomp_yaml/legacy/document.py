@@ -176,8 +176,12 @@ def _block_text(value: str, indent: str) -> tuple[str, list[str]]:
         return "|", [(indent + line).rstrip() for line in value.split("\n")]
     width = max(WIDTH - len(indent), 40)
     return ">", textwrap.wrap(
-        value, width + len(indent), initial_indent=indent, subsequent_indent=indent,
-        break_long_words=False, break_on_hyphens=False,
+        value,
+        width + len(indent),
+        initial_indent=indent,
+        subsequent_indent=indent,
+        break_long_words=False,
+        break_on_hyphens=False,
     )
 
 

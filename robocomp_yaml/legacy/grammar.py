@@ -65,8 +65,13 @@ def _parser(text: str) -> _Parser:
                 terminal.priority = 1
 
     lark = Lark(
-        text, parser="lalr", lexer="contextual", propagate_positions=True, maybe_placeholders=False,
-        lexer_callbacks=dict.fromkeys(_IGNORED.findall(text), keep), edit_terminals=edit,
+        text,
+        parser="lalr",
+        lexer="contextual",
+        propagate_positions=True,
+        maybe_placeholders=False,
+        lexer_callbacks=dict.fromkeys(_IGNORED.findall(text), keep),
+        edit_terminals=edit,
     )
     return _Parser(lark, trivia, literals)
 

@@ -86,14 +86,16 @@ def as_json(entries: Sequence[Entry]) -> str:
     for entry in entries:
         own = entry.lines()
         lines += own
-        files.append({
-            "source": entry.file.path,
-            "format": entry.file.rules.name if entry.file.rules is not None else None,
-            "status": entry.status,
-            "outputs": entry.outputs,
-            "lines": _counts(own),
-            "diagnostics": [as_data(diagnostic) for diagnostic in entry.diagnostics],
-        })
+        files.append(
+            {
+                "source": entry.file.path,
+                "format": entry.file.rules.name if entry.file.rules is not None else None,
+                "status": entry.status,
+                "outputs": entry.outputs,
+                "lines": _counts(own),
+                "diagnostics": [as_data(diagnostic) for diagnostic in entry.diagnostics],
+            }
+        )
     totals["lines"] = _counts(lines)
     return dumps({"files": files, "totals": totals})
 

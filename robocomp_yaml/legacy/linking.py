@@ -64,9 +64,7 @@ def _imports(file: Converted) -> tuple[ImportDraft, ...]:
     return file.draft.imports if isinstance(file.draft, ModuleDraft | ComponentDraft) else ()
 
 
-def name_imports(
-    file: Converted, document: str, workspace: Workspace, neighbours: Neighbours
-) -> Iterable[Diagnostic]:
+def name_imports(file: Converted, document: str, workspace: Workspace, neighbours: Neighbours) -> Iterable[Diagnostic]:
     """Puts each import's name into the document; warns of those found in another spelling, or not at all."""
     for wanted in _imports(file):
         name = _name(wanted, file, document, workspace, neighbours)

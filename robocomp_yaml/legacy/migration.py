@@ -103,9 +103,11 @@ def look_back(run: Migration, extra: Sequence[str]) -> None:
         errors = [told for told in found.get(os.path.realpath(path), []) if not _is_said(told, entry.diagnostics)]
         if errors:
             first, more = errors[0], f" (and {len(errors) - 1} more)" if errors[1:] else ""
-            entry.diagnostics.append(codes.NOT_ACCEPTED.at(
-                Span(entry.file.path), path=path, line=first.span.line, reason=first.message + more, hint=first.hint
-            ))
+            entry.diagnostics.append(
+                codes.NOT_ACCEPTED.at(
+                    Span(entry.file.path), path=path, line=first.span.line, reason=first.message + more, hint=first.hint
+                )
+            )
 
 
 def _is_said(error: Diagnostic, said: Sequence[Diagnostic]) -> bool:

@@ -126,8 +126,10 @@ class Attachments(msgspec.Struct):
             is_name = os.path.basename(name) == name and not name.endswith((".yaml", ".yml"))
             found = self._called(name, root) if is_name else []
             is_plain = is_parameters and "/" not in name and not name.endswith(".yaml")
-            advice = self._references.advice_for_name(name, folder) if is_plain else (
-                self._references.advice(name, folder, "component", kinds)
+            advice = (
+                self._references.advice_for_name(name, folder)
+                if is_plain
+                else (self._references.advice(name, folder, "component", kinds))
             )
             if found:
                 told = codes.NAMED.at(span, name=name, hint=references.write(found, folder, "component", name))
@@ -205,7 +207,9 @@ class Attachments(msgspec.Struct):
                 if not is_beside and not own.parameters:
                     folder = os.path.dirname(own.path)
                     yield codes.NOT_BESIDE.at(
-                        span, component=own.name, related=[Related("the component", own.span)],
+                        span,
+                        component=own.name,
+                        related=[Related("the component", own.span)],
                         hint=f"{references.write([path], folder, 'parameters')} in {own.path}, or move this document "
                         "beside it",
                     )
@@ -217,7 +221,9 @@ class Attachments(msgspec.Struct):
         component = self.tables.components.get(os.path.realpath(beside[0])) if len(beside) == 1 else None
         if component is not None and not document.component and component.parameters.document is None:
             yield codes.UNCLAIMED.at(
-                document.span, component=component.component.name, hint=references.write(beside, folder, "component"),
+                document.span,
+                component=component.component.name,
+                hint=references.write(beside, folder, "component"),
                 related=[Related("the component", component.component.span)],
             )
 
@@ -227,10 +233,15 @@ class Attachments(msgspec.Struct):
         for other, span in named[1:]:
             if other != reals[0]:
                 first, name = self.documents.read[reals[0]], component.component.name
-                self.diagnostics.append(codes.DISAGREEMENT.at(
-                    span, component=name, other=os.path.basename(first.path), hint="leave one of them out",
-                    related=[Related("named here", named[0][1])],
-                ))
+                self.diagnostics.append(
+                    codes.DISAGREEMENT.at(
+                        span,
+                        component=name,
+                        other=os.path.basename(first.path),
+                        hint="leave one of them out",
+                        related=[Related("named here", named[0][1])],
+                    )
+                )
         period = component.component.period
         document = self.documents.read[reals[0]].model if reals else None
         if reals and not isinstance(document, ParameterDocument):
@@ -309,8 +320,11 @@ def _misplaced(linked: LinkedValues, home: list[str], here: Sequence[LinkedCompo
         return
     folder, whose = os.path.dirname(linked.document.path), own.component.component.name
     yield codes.MISPLACED.at(
-        linked.document.span, component=here[0].component.name, other=whose,
-        hint=references.write(home, folder, "component"), related=[Related("the component", here[0].component.span)],
+        linked.document.span,
+        component=here[0].component.name,
+        other=whose,
+        hint=references.write(home, folder, "component"),
+        related=[Related("the component", here[0].component.span)],
     )
 
 

@@ -70,9 +70,9 @@ class DeploymentDocuments(msgspec.Struct):
             self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
         elif not found:
             path = paths.joined(paths.folder_of(model), target.text)
-            self.diagnostics.append(codes.NO_COMPONENT.at(
-                target.span, path=target.text, hint=self._nearby(path, ".cdsl.yaml", "cdsl.yaml")
-            ))
+            self.diagnostics.append(
+                codes.NO_COMPONENT.at(target.span, path=target.text, hint=self._nearby(path, ".cdsl.yaml", "cdsl.yaml"))
+            )
         return found[0] if len(found) == 1 else None
 
     def _config(self, model: Deployment, place: str, config: Text) -> str | None:
@@ -80,10 +80,14 @@ class DeploymentDocuments(msgspec.Struct):
         for path in places:
             if self.documents.disk.has_file(path):
                 return path
-        self.diagnostics.append(codes.NO_CONFIG.at(
-            config.span, path=config.text, places=" and no ".join(dict.fromkeys(places)),
-            hint=self._nearby(places[0]) or self._nearby(places[1]),
-        ))
+        self.diagnostics.append(
+            codes.NO_CONFIG.at(
+                config.span,
+                path=config.text,
+                places=" and no ".join(dict.fromkeys(places)),
+                hint=self._nearby(places[0]) or self._nearby(places[1]),
+            )
+        )
         return None
 
     def _follow_include(self, model: Deployment, include: Text) -> Iterator[Document]:

@@ -35,7 +35,10 @@ def _group(root: LinkedDeployment, group: LinkedGroup) -> Iterator[Diagnostic]:
         port = next((p for p in facade.implements if p.name == rule.name), None) if facade else None
         if facade is not None and port is None and not facade.broken:
             yield codes.UNKNOWN_PORT.at(
-                rule.span, component=facade.component.name, what="interface", name=rule.name,
+                rule.span,
+                component=facade.component.name,
+                what="interface",
+                name=rule.name,
                 hint=did_you_mean(rule.name, [p.name for p in facade.implements], rules),
                 related=[Related("the group is to act as this component", facade.component.span)],
             )
@@ -54,14 +57,21 @@ def _by_interface(group: LinkedGroup, port: Port) -> Iterator[Diagnostic]:
     elif fitting:
         names = [_name(group, served.instance) for served in fitting]
         yield codes.SEVERAL_SERVE.at(
-            span, group=group.group.name, name=port.name, members=", ".join(names),
+            span,
+            group=group.group.name,
+            name=port.name,
+            members=", ".join(names),
             hint=f"add `expose: {{{port.name}: {names[0]}}}`, or another",
-            related=[Related(f"'{name}' stands here", s.instance.entry.span)
-                     for name, s in zip(names, fitting, strict=True)],
+            related=[
+                Related(f"'{name}' stands here", s.instance.entry.span) for name, s in zip(names, fitting, strict=True)
+            ],
         )
     elif not group.broken:
         yield codes.NOT_SERVED.at(
-            span, group=group.group.name, name=port.name, hint="add the member that implements it",
+            span,
+            group=group.group.name,
+            name=port.name,
+            hint="add the member that implements it",
             related=[Related("it is to be offered", port.use.span)],
         )
 
@@ -77,7 +87,9 @@ def _by_rule(root: LinkedDeployment, group: LinkedGroup, rule: Exposed, port: Po
         if not group.broken:
             names = [_name(group, member) for member in group.members]
             yield codes.UNKNOWN_NAME.at(
-                rule.member.span, where=f"the group '{group.group.name}'", name=rule.member.text,
+                rule.member.span,
+                where=f"the group '{group.group.name}'",
+                name=rule.member.text,
                 hint=did_you_mean(rule.member.text, names, otherwise="it is no member of the group"),
             )
         return
@@ -95,7 +107,9 @@ def _by_rule(root: LinkedDeployment, group: LinkedGroup, rule: Exposed, port: Po
     elif not group.broken:
         there = ", ".join(served.adapter for served in every)
         yield codes.NOT_SERVED.at(
-            rule.member.span, group=group.group.name, name=rule.name,
+            rule.member.span,
+            group=group.group.name,
+            name=rule.name,
             hint=f"'{rule.member.text}' serves {there}" if there else f"'{rule.member.text}' serves nothing",
         )
 
@@ -109,7 +123,9 @@ def _methods(rule: Exposed, served: Served) -> Iterator[Diagnostic]:
         if method.text not in names:
             given = {other.text for other in rule.allow or ()}
             yield codes.UNKNOWN_METHOD.at(
-                method.span, interface=interface.name, name=method.text,
+                method.span,
+                interface=interface.name,
+                name=method.text,
                 hint=did_you_mean(method.text, names, given, otherwise=f"there are {', '.join(names)}"),
                 related=[Related("the interface", interface.span)],
             )

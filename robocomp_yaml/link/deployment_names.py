@@ -110,8 +110,11 @@ class Names(msgspec.Struct):
         if INDEX in text:
             return Hint(f"{INDEX} counts in an entry that has `instances:` itself")
         names = [
-            scope.removeprefix(here.scope) + name for scope, names in self.root.names.items()
-            if scope.startswith(here.scope) for name in names if scope + name != own
+            scope.removeprefix(here.scope) + name
+            for scope, names in self.root.names.items()
+            if scope.startswith(here.scope)
+            for name in names
+            if scope + name != own
         ]
         return did_you_mean(text, names)
 
@@ -141,7 +144,10 @@ def _ports(instance: LinkedInstance) -> Iterator[Diagnostic]:
         for key in keys:
             if key.name not in names:
                 yield codes.UNKNOWN_PORT.at(
-                    key.name_span, component=linked.component.name, what=what, name=key.name,
+                    key.name_span,
+                    component=linked.component.name,
+                    what=what,
+                    name=key.name,
                     hint=_meant(key.name, names, {other.name for other in keys}),
                     related=[Related("the component", linked.component.span)],
                 )

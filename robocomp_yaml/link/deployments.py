@@ -149,8 +149,11 @@ class LinkedDeployment(msgspec.Struct, frozen=True, eq=False):
         """The closed groups that hold the target but not `source`, the outermost first."""
         held = _instances(target)
         around = [
-            group for group in (held[0].groups if held else ())
-            if group is not target and group.is_closed and group not in source.groups
+            group
+            for group in (held[0].groups if held else ())
+            if group is not target
+            and group.is_closed
+            and group not in source.groups
             and all(group in member.groups for member in held)
             and not (isinstance(target, LinkedGroup) and group.breadth <= target.breadth)
         ]

@@ -70,8 +70,13 @@ class Expansion(msgspec.Struct):
     def run(self) -> None:
         self._place(Placed(self.root.deployment))
         tie(
-            self.root, hosts=self._hosts, instances={one.name: one for one in self._in_order}, storms=self._storms,
-            groups=self._groups, names=self._names, documents=tuple(here.document for here in self.placed),
+            self.root,
+            hosts=self._hosts,
+            instances={one.name: one for one in self._in_order},
+            storms=self._storms,
+            groups=self._groups,
+            names=self._names,
+            documents=tuple(here.document for here in self.placed),
         )
 
     def _place(self, here: Placed) -> None:
@@ -162,15 +167,16 @@ class Expansion(msgspec.Struct):
         elif values.parameters is component.parameters:
             pass
         elif _is_for(values, component):
-            own = LinkedValues(
-                values.document, values.extends, component.parameters, values.is_extended, values.broken
-            )
+            own = LinkedValues(values.document, values.extends, component.parameters, values.is_extended, values.broken)
             tie(linked, values=own)
         else:
             config, other = linked.entry.config, values.parameters.component
             self._say(
-                here, codes.OTHER_VALUES, config.span if config else linked.entry.span,
-                other=other.component.name if other else "another component", component=component.component.name,
+                here,
+                codes.OTHER_VALUES,
+                config.span if config else linked.entry.span,
+                other=other.component.name if other else "another component",
+                component=component.component.name,
                 hint="each component has values of its own: see `component:` in this document",
             )
             tie(linked, values=None, broken=True)
@@ -196,9 +202,7 @@ class Expansion(msgspec.Struct):
             here.is_whole = whole
             self.included[linked] = self._in_order[before:]
 
-    def _place_include(
-        self, here: Placed, include: Text, scope: str, host: Host | None, seen: set[str]
-    ) -> str:
+    def _place_include(self, here: Placed, include: Text, scope: str, host: Host | None, seen: set[str]) -> str:
         """Puts an included deployment into a scope; its real path, or '' where it cannot be used."""
         path = paths.include_at(here.document, include.text, self.disk)
         real = os.path.realpath(path) if path else ""
@@ -207,9 +211,11 @@ class Expansion(msgspec.Struct):
         if target is not None and real in chain:
             if real == chain[0] == min(chain):  # each cycle is told once
                 cycle = " → ".join(os.path.basename(one) for one in (*chain, real))
-                self.diagnostics.append(codes.INCLUDE_CYCLE.at(
-                    include.span, path=include.text, cycle=cycle, hint="leave one of these includes out"
-                ))
+                self.diagnostics.append(
+                    codes.INCLUDE_CYCLE.at(
+                        include.span, path=include.text, cycle=cycle, hint="leave one of these includes out"
+                    )
+                )
             target = None
         if target is None:
             tie(self.root, broken=True)
@@ -237,11 +243,17 @@ class Expansion(msgspec.Struct):
     def _merge_host(self, host: Host, here: Placed) -> None:
         known = self._hosts.setdefault(host.name, host)
         if (known.address.text, known.user) != (host.address.text, host.user) and here.span is not None:
-            self.diagnostics.append(codes.HOST_DIFFERS.at(
-                host.address.span, name=host.name, address=host.address.text, other=known.address.text,
-                document=os.path.basename(host.address.span.file), hint="one of the two needs another name",
-                related=[Related("the other one", known.address.span), Related("included here", here.span)],
-            ))
+            self.diagnostics.append(
+                codes.HOST_DIFFERS.at(
+                    host.address.span,
+                    name=host.name,
+                    address=host.address.text,
+                    other=known.address.text,
+                    document=os.path.basename(host.address.span.file),
+                    hint="one of the two needs another name",
+                    related=[Related("the other one", known.address.span), Related("included here", here.span)],
+                )
+            )
 
     def _host(self, here: Placed, named: Text | None, name: str, span: Span) -> tuple[Host | None, bool]:
         """The host of an entry or service, and whether that could not be told."""
@@ -252,8 +264,11 @@ class Expansion(msgspec.Struct):
         own = here.hosts if here.document.hosts else {}
         if named.text not in own:
             hint = did_you_mean(
-                named.text, own, otherwise=f"there are {', '.join(own)}" if own else
-                "`hosts:` names machines; without it all run on this one",
+                named.text,
+                own,
+                otherwise=f"there are {', '.join(own)}"
+                if own
+                else "`hosts:` names machines; without it all run on this one",
             )
             self._say(here, codes.UNKNOWN_HOST, named.span, name=named.text, hint=hint)
         return own.get(named.text), named.text not in own
@@ -267,10 +282,13 @@ class Expansion(msgspec.Struct):
             here.is_homeless = True
             path = os.path.basename(here.document.path)
             group = here.scope.rstrip(".").rpartition(".")[2] or path.partition(".")[0]
-            self.diagnostics.append(codes.NO_HOST.at(
-                here.span, name=here.scope.rstrip(".") or path,
-                hint=f"write `groups: {{{group}: {{include: {path}, host: {host}}}}}`, or `hosts:` in {path}",
-            ))
+            self.diagnostics.append(
+                codes.NO_HOST.at(
+                    here.span,
+                    name=here.scope.rstrip(".") or path,
+                    hint=f"write `groups: {{{group}: {{include: {path}, host: {host}}}}}`, or `hosts:` in {path}",
+                )
+            )
 
     def _say(self, here: Placed, code: Code, span: Span, *, hint: str | Hint = "", **facts: str) -> None:
         if here.is_own:

@@ -78,9 +78,11 @@ def _range(type_: Type, node: Node, found: Found) -> Type:
     joined = _joined(type_.range, new)
     if _is_empty(joined, type_.is_integer):
         assert type_.range is not None
-        found.append(codes.EMPTY_LIMIT.at(
-            node.span, problem=f"no number is {new.in_words} and {type_.range.in_words}, as its type says"
-        ))
+        found.append(
+            codes.EMPTY_LIMIT.at(
+                node.span, problem=f"no number is {new.in_words} and {type_.range.in_words}, as its type says"
+            )
+        )
         return type_
     kept = tuple(value for value in type_.values if joined.holds(value.value))  # type: ignore[arg-type]
     if type_.values and not kept:
@@ -169,13 +171,18 @@ def _values(type_: Type, node: Node, found: Found) -> Type:
     if isinstance(type_, EnumType):
         unknown = [item for item in items if item.lexeme not in type_.allowed]
         found += [
-            _unknown_enumerator(item, type_, "values") if item.lexeme not in type_.names else codes.UNREACHABLE.at(
-                item.span, problem=f"'{item.lexeme}' lies outside of the range")
+            _unknown_enumerator(item, type_, "values")
+            if item.lexeme not in type_.names
+            else codes.UNREACHABLE.at(item.span, problem=f"'{item.lexeme}' lies outside of the range")
             for item in unknown
         ]
-        return type_ if unknown else replace(type_, allowed=tuple(
-            name for name in type_.allowed if name in {item.lexeme for item in items}
-        ))
+        return (
+            type_
+            if unknown
+            else replace(
+                type_, allowed=tuple(name for name in type_.allowed if name in {item.lexeme for item in items})
+            )
+        )
     if not isinstance(type_, BasicType) or type_.name == "bool":
         return _misfit("values", type_, node, found)
     kept: list[Literal] = []
@@ -255,19 +262,27 @@ def _unique(type_: Type, node: Node, found: Found) -> Type:
     if node.data is not True:
         return type_
     if not isinstance(type_, ListType) or not isinstance(type_.element, BasicType | EnumType):
-        found.append(codes.LIMIT_MISFIT.at(
-            node.span, key="unique", problem="is for lists of plain values",
-            hint="for records, a constraint says it: unique(m.name for m in motors)",
-        ))
+        found.append(
+            codes.LIMIT_MISFIT.at(
+                node.span,
+                key="unique",
+                problem="is for lists of plain values",
+                hint="for records, a constraint says it: unique(m.name for m in motors)",
+            )
+        )
         return type_
     element = type_.element
-    count = len(element.allowed) if isinstance(element, EnumType) else len(element.values) or (
-        2 if element.name == "bool" else None
+    count = (
+        len(element.allowed)
+        if isinstance(element, EnumType)
+        else len(element.values) or (2 if element.name == "bool" else None)
     )
     if count is not None and type_.size.least > count:
-        found.append(codes.EMPTY_LIMIT.at(
-            node.span, problem=f"{type_.size.least} entries, all different, of only {count} values"
-        ))
+        found.append(
+            codes.EMPTY_LIMIT.at(
+                node.span, problem=f"{type_.size.least} entries, all different, of only {count} values"
+            )
+        )
         return type_
     return replace(type_, unique=True)
 

@@ -81,8 +81,15 @@ class Linker(msgspec.Struct):
             deployments.join()
         tables = self.tables
         return Program(
-            tables.modules, tables.components, tables.parameters, tables.values, tables.deployments, asked,
-            len(self.documents.read), self.documents.disk, self._plugins_of,
+            tables.modules,
+            tables.components,
+            tables.parameters,
+            tables.values,
+            tables.deployments,
+            asked,
+            len(self.documents.read),
+            self.documents.disk,
+            self._plugins_of,
         )
 
     def _plugins_of(self, path: str) -> Plugins:
@@ -163,14 +170,20 @@ class Linker(msgspec.Struct):
             target = self.documents.get(path)
             name = os.path.basename(path).removesuffix(SUFFIX)
             if other_case:
-                self.diagnostics.append(codes.IMPORT_CASE.at(
-                    imported.span, name=imported.text, found=name,
-                    hint=Hint(f"write '{name}'", os.path.basename(imported.text).removesuffix(SUFFIX), name, safe=True),
-                ))
+                self.diagnostics.append(
+                    codes.IMPORT_CASE.at(
+                        imported.span,
+                        name=imported.text,
+                        found=name,
+                        hint=Hint(
+                            f"write '{name}'", os.path.basename(imported.text).removesuffix(SUFFIX), name, safe=True
+                        ),
+                    )
+                )
             if target.real in found or target.real == document.real:
-                self.diagnostics.append(codes.DUPLICATE_IMPORT.at(
-                    imported.span, name=imported.text, fixes=[removal(imported.span)]
-                ))
+                self.diagnostics.append(
+                    codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text, fixes=[removal(imported.span)])
+                )
                 continue
             found[target.real] = target
             if not isinstance(target.model, Module):
@@ -184,7 +197,10 @@ class Linker(msgspec.Struct):
         itself = os.path.basename(document.path).removesuffix(SUFFIX)
         known = [name for name in self.search.known(document.path, workspace) if name != itself]
         hint = did_you_mean(
-            imported.text, known, given, open_=True,
+            imported.text,
+            known,
+            given,
+            open_=True,
             otherwise="put its document beside this one, or name its folder under `interfaces:` in rcyaml.yaml, or "
             "with -I",
         )
@@ -228,10 +244,14 @@ class Linker(msgspec.Struct):
                 Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
                 for one, next_ in pairwise(around)
             ]
-            self.diagnostics.append(idsl.IMPORT_CYCLE.at(
-                places[0].span, cycle=" → ".join(module.stem for module in around), related=places[1:],
-                hint="move what both need to a third document",
-            ))
+            self.diagnostics.append(
+                idsl.IMPORT_CYCLE.at(
+                    places[0].span,
+                    cycle=" → ".join(module.stem for module in around),
+                    related=places[1:],
+                    hint="move what both need to a third document",
+                )
+            )
         return circles
 
     def _suggest_import(self, document: Document) -> Callable[[str], str | None]:

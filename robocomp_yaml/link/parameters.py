@@ -49,9 +49,9 @@ def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Par
     resolver.unused()
     root = RecordType("", members, document.doc)
     if resolver.found == [] and _size(root, {}) > MAX_VALUES:
-        resolver.found.append(codes.TOO_LARGE.at(
-            document.span, name="parameters", limit=MAX_VALUES, what="values of plain types"
-        ))
+        resolver.found.append(
+            codes.TOO_LARGE.at(document.span, name="parameters", limit=MAX_VALUES, what="values of plain types")
+        )
     root, problems = with_period(root, period)
     return Parameters(
         root,
@@ -101,9 +101,9 @@ class _Resolver:
             names = tuple(literal.lexeme for literal, _ in spec.enumerators)
             for place, (literal, _) in enumerate(spec.enumerators):
                 if literal.lexeme in names[:place]:
-                    self.found.append(codes.UNREACHABLE.at(
-                        literal.span, problem=f"the enumerator '{literal.lexeme}' stands twice"
-                    ))
+                    self.found.append(
+                        codes.UNREACHABLE.at(literal.span, problem=f"the enumerator '{literal.lexeme}' stands twice")
+                    )
             enumerators = tuple((literal.lexeme, doc) for literal, doc in spec.enumerators)
             return limited(EnumType(name, enumerators, names, spec.doc), spec.limits, self.found)
         if spec.kind == "struct":
@@ -182,8 +182,15 @@ class _Resolver:
                 self.found.append(codes.DEFAULT_AND_OPTIONAL.at(entry.default_span or entry.span, name=entry.name))
             default = None if entry.default is None else Default(entry.default.data, entry.default)
             yield Member(
-                entry.name, type_, entry.doc, default, entry.optional, bool(own), entry.secret is not None,
-                entry.code_name or entry.name, span=entry.span,
+                entry.name,
+                type_,
+                entry.doc,
+                default,
+                entry.optional,
+                bool(own),
+                entry.secret is not None,
+                entry.code_name or entry.name,
+                span=entry.span,
             )
 
     def group(self, entry: Entry, type_: RecordType) -> None:
@@ -216,9 +223,9 @@ class _Resolver:
             try:
                 tree = expression.parse(rule.that.lexeme)
             except expression.NotInLanguage as refused:
-                self.found.append(codes.BAD_EXPRESSION.at(
-                    inside(rule.that, refused.index), problem=str(refused), hint=refused.hint
-                ))
+                self.found.append(
+                    codes.BAD_EXPRESSION.at(inside(rule.that, refused.index), problem=str(refused), hint=refused.hint)
+                )
                 continue
             yield Constraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
 
@@ -271,10 +278,13 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
     found: list[Diagnostic] = []
     given = root.member("period")
     if given is not None and not given.is_group:
-        found.append(codes.PERIOD.at(
-            given.span, problem="'period' is the group of the worker's periods",
-            hint="write period: {group: {compute: …}}, or give the parameter another name",
-        ))
+        found.append(
+            codes.PERIOD.at(
+                given.span,
+                problem="'period' is the group of the worker's periods",
+                hint="write period: {group: {compute: …}}, or give the parameter another name",
+            )
+        )
         return root, found
     own = given.type.members if given is not None and isinstance(given.type, RecordType) else ()
     by_name = {member.name: member for member in own}
@@ -289,16 +299,22 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
     elif period is not None and compute.default is not None and compute.default.data != period and by_name:
         node = compute.default.node
         if node is not None:
-            found.append(codes.PERIOD.at(
-                node.span, problem=f"the component's 'period:' says {period} ms", hint="leave one of the two out"
-            ))
+            found.append(
+                codes.PERIOD.at(
+                    node.span, problem=f"the component's 'period:' says {period} ms", hint="leave one of the two out"
+                )
+            )
     emergency = by_name.get("emergency") or _period(
         "emergency", "The period of RoboComp's emergency(); in other components, for their own code.", DEFAULT_EMERGENCY
     )
     others = [member for member in own if member.name not in ("compute", "emergency")]
     group = RecordType("", (compute, emergency, *others), "How often the component works.")
     member = Member(
-        "period", group, given.doc if given else group.doc, code_name="period", editable=True,
+        "period",
+        group,
+        given.doc if given else group.doc,
+        code_name="period",
+        editable=True,
         span=given.span if given else Span(""),
     )
     rest = [other for other in root.members if other.name != "period"]
@@ -308,4 +324,3 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
 def _period(name: str, doc: str, default: int) -> Member:
     type_ = BasicType("int", Range(Bound(1, False, "1"), None), unit="ms")
     return Member(name, type_, doc, Default(default), editable=True, code_name=name)
-

@@ -14,7 +14,10 @@ from robocomp_yaml.model.component import Use
 from robocomp_yaml.model.interface import Interface
 
 _VERBS = {
-    "implements": "implements", "requires": "requires", "publishes": "publishes", "subscribes": "subscribes to",
+    "implements": "implements",
+    "requires": "requires",
+    "publishes": "publishes",
+    "subscribes": "subscribes to",
 }
 
 
@@ -34,7 +37,10 @@ def link_ports(linked: LinkedComponent, importable: Callable[[str], str | None])
                 yield codes.AMBIGUOUS_INTERFACE.at(use.span, name=use.interface, hint=f"write {names}")
             elif not linked.broken or not _may_be_missing(linked):
                 yield codes.UNKNOWN_INTERFACE.at(
-                    use.span, component=component.name, verb=verb, name=use.interface,
+                    use.span,
+                    component=component.name,
+                    verb=verb,
+                    name=use.interface,
                     hint=_hint(linked, use, importable, {other.interface for other in getattr(component, list_)}),
                 )
             tie(linked, broken=True)

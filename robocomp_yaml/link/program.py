@@ -58,9 +58,13 @@ class LinkedModule(msgspec.Struct, frozen=True, eq=False):
     def _look_up(self, ref: TypeRef) -> tuple[LinkedModule, Definition] | None:
         qualifier = ref.module
         for scope in (self, *self.imports):
-            known_as = ("", scope.module.name, scope.module.stem) if scope is self else (
-                scope.module.name,
-                scope.module.stem,
+            known_as = (
+                ("", scope.module.name, scope.module.stem)
+                if scope is self
+                else (
+                    scope.module.name,
+                    scope.module.stem,
+                )
             )
             if qualifier in known_as and ref.name in scope._own:
                 return scope, scope._own[ref.name]
@@ -192,7 +196,8 @@ class Program(msgspec.Struct, frozen=True):
         documents = self.documents_of_components()
         wanted = {documents[real] for real in self.asked & documents.keys()}
         wanted |= {
-            instance.component for real in self.asked & self.deployments.keys()
+            instance.component
+            for real in self.asked & self.deployments.keys()
             for instance in self.deployments[real].instances.values()
         }
         named = {real for real, linked in self.components.items() if linked in wanted}

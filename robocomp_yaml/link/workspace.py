@@ -66,9 +66,12 @@ def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnosti
     slice_folder = text(tree.get("output"), "slice")
     plugins, said = _plugins(tree)
     workspace = Workspace(
-        root, True, tuple(os.path.normpath(os.path.join(root, folder)) for folder in named),
+        root,
+        True,
+        tuple(os.path.normpath(os.path.join(root, folder)) for folder in named),
         os.path.normpath(os.path.join(root, slice_folder)) if slice_folder else "",
-        {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None}, plugins,
+        {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None},
+        plugins,
     )
     return workspace, [*said, *_idle_settings(tree, workspace, disk)]
 

@@ -87,8 +87,12 @@ def _language(root: Mapping) -> Language:
     node = root.get("language")
     if isinstance(node, Mapping):
         standard = node.data.get("standard")  # type: ignore[attr-defined]
-        return Language(text(node, "name"), None if standard is None else int(standard), span=node.span,
-                        standard_span=span_of(node, "standard"))
+        return Language(
+            text(node, "name"),
+            None if standard is None else int(standard),
+            span=node.span,
+            standard_span=span_of(node, "standard"),
+        )
     assert isinstance(node, Scalar)
     return Language(node.lexeme, span=node.span)
 

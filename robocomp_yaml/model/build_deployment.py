@@ -79,7 +79,11 @@ def _storm(key: Scalar, node: Node) -> Storm:
     if not isinstance(inner, Mapping):
         return Storm(key.lexeme, doc=doc(node), span=key.span, port_span=key.span)
     return Storm(
-        key.lexeme, _text(inner, "host"), _integer(inner, "port"), doc(node), span=key.span,
+        key.lexeme,
+        _text(inner, "host"),
+        _integer(inner, "port"),
+        doc(node),
+        span=key.span,
         port_span=span_of(inner, "port"),
     )
 
@@ -153,7 +157,10 @@ def _ready(node: Node | None) -> Ready | None:
         return Ready(seconds(node), span=node.span)
     assert isinstance(node, Mapping)
     return Ready(
-        seconds(node.get("within")), _integer(node, "port"), _command(node.get("command")), text(node, "log"),
+        seconds(node.get("within")),
+        _integer(node, "port"),
+        _command(node.get("command")),
+        text(node, "log"),
         span=_said(node),
     )
 

@@ -36,8 +36,9 @@ def build(root: Mapping, path: str) -> ParameterDocument:
 
 def build_values(root: Mapping, path: str) -> ValuesDocument:
     """A values document that fits `config.schema.json`."""
-    extends = [Literal(node.lexeme, node.lexeme, span=node.span) for node in items(root, "extends")
-               if isinstance(node, Scalar)]
+    extends = [
+        Literal(node.lexeme, node.lexeme, span=node.span) for node in items(root, "extends") if isinstance(node, Scalar)
+    ]
     after = root.get("legacy")
     first = after.get("after") if isinstance(after, Mapping) else None
     if isinstance(first, Scalar):  # what comes first in the file is what later properties replace: a layer
@@ -81,8 +82,9 @@ def _spec(node: Node, key: Scalar | None = None) -> Spec:
         kinds,
         name=named.lexeme if isinstance(named, Scalar) else "",
         element=_spec(element) if element is not None else None,
-        members=tuple(_entry(k, v) for k, v in _named(node, kinds[0][0])) if kinds and kinds[0][0] in (
-            "group", "struct") else (),
+        members=tuple(_entry(k, v) for k, v in _named(node, kinds[0][0]))
+        if kinds and kinds[0][0] in ("group", "struct")
+        else (),
         enumerators=tuple(_enumerators(found.get("enum"))),
         limits=Limits(*(node.get(name) for name in ("range", "values", "pattern", "size", "unique", "unit"))),
         doc=doc(node),

@@ -27,8 +27,12 @@ _COMPARE = {
     ast.NotIn: "not in",
 }  # fmt: skip
 _TRUTHS = {"true": True, "false": False}
-_FOREIGN = ((re.compile(r"&&"), "and"), (re.compile(r"\|\|"), "or"), (re.compile(r"!(?!=)"), "not"),
-            (re.compile(r"(?<![=<>!])=(?!=)"), "=="))
+_FOREIGN = (
+    (re.compile(r"&&"), "and"),
+    (re.compile(r"\|\|"), "or"),
+    (re.compile(r"!(?!=)"), "not"),
+    (re.compile(r"(?<![=<>!])=(?!=)"), "=="),
+)
 
 _RESERVED = re.compile(
     r"\b(?:" + "|".join(sorted(set(kwlist) - {"and", "or", "not", "in", "for", "if", "True", "False"})) + r")\b"
@@ -222,8 +226,11 @@ class _Reader:
                 )
             case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
                 return self.call(function, arguments, at)
-        raise NotInLanguage(_refusal(node), at, "comparisons, arithmetic, and, or, not, in, and functions may stand "
-                            "here; docs/pdsl.md lists them")
+        raise NotInLanguage(
+            _refusal(node),
+            at,
+            "comparisons, arithmetic, and, or, not, in, and functions may stand here; docs/pdsl.md lists them",
+        )
 
     def call(self, function: str, arguments: list[ast.expr], at: int) -> Call:
         from robocomp_yaml.diag.suggest import did_you_mean

@@ -169,9 +169,7 @@ def _index(expression: Index, scope: Scope) -> Type:
     owner = type_of(expression.of, scope)
     if isinstance(owner, ListType):
         index = expression.index
-        if isinstance(index, Unary) or not (
-            isinstance(found := type_of(index, scope), BasicType) and found.is_integer
-        ):
+        if isinstance(index, Unary) or not (isinstance(found := type_of(index, scope), BasicType) and found.is_integer):
             raise NotInLanguage("an entry of a list is taken by its number, from 0", index.at)
         return owner.element
     if isinstance(owner, MapType):
@@ -228,8 +226,11 @@ def _call(call: Call, scope: Scope) -> Type:
     if isinstance(first, Each):
         element = _each(first, scope)
     elif len(call.arguments) > 1:
-        types = [_want(one, is_number, "a number", f"{function}()", scope)
-                 for one in call.arguments if not isinstance(one, Each)]
+        types = [
+            _want(one, is_number, "a number", f"{function}()", scope)
+            for one in call.arguments
+            if not isinstance(one, Each)
+        ]
         return WHOLE if all(isinstance(t, BasicType) and t.is_integer for t in types) else NUMBER
     else:
         operand = type_of(first, scope)

@@ -163,8 +163,11 @@ class Configuration(msgspec.Struct):
         if names:
             span = next(iter(names.values())).span
             made["name"] = _entry("name", mapping_at(span, {name: _entry(name, to) for name, to in names.items()}))
-            none = {f"{name}{end}": _entry(f"{name}{end}", Given("", to.span)) for name, to in names.items()
-                    for end in ("", "Pub")}
+            none = {
+                f"{name}{end}": _entry(f"{name}{end}", Given("", to.span))
+                for name, to in names.items()
+                for end in ("", "Pub")
+            }
             made["prefix"] = _entry("prefix", mapping_at(span, none))
         return made
 

@@ -67,9 +67,7 @@ class Connections(msgspec.Struct):
         if target is None:
             return
         behind = target.interface
-        fitting = [
-            offer for offer in target.chosen() if offer.interface == interface or (port is None and behind)
-        ]
+        fitting = [offer for offer in target.chosen() if offer.interface == interface or (port is None and behind)]
         equal = [offer for offer in fitting if port is None or self._is_equal(port, offer)]
         exact = [offer for offer in equal if offer.adapter in (behind, pair.name)]
         if len(equal) > 1 and len(exact) == 1:
@@ -82,10 +80,14 @@ class Connections(msgspec.Struct):
             self._mismatch(draft, port, fitting[0], pair.span)
         else:
             served = ", ".join(dict.fromkeys(name for name, _ in target.served))
-            self.diagnostics.append(codes.NOT_SERVED.at(
-                pair.span, target=pair.text, interface=interface,
-                hint=f"it serves {served}" if served else "it serves nothing",
-            ))
+            self.diagnostics.append(
+                codes.NOT_SERVED.at(
+                    pair.span,
+                    target=pair.text,
+                    interface=interface,
+                    hint=f"it serves {served}" if served else "it serves nothing",
+                )
+            )
 
     def _look_for(self, draft: Draft, port: Port) -> None:
         """Connects a port that nothing is said of: the nearest that serve an equal interface decide."""
@@ -111,9 +113,7 @@ class Connections(msgspec.Struct):
             return module in ("", *name_of(port)[:1], port.scope.module.stem)
         return name_of(offer.port) == name_of(port) and self.contents.difference(port, offer.port) is None
 
-    def _connect(
-        self, draft: Draft, name: str, interface: str, offer: Offer, span: Span, port: Port | None
-    ) -> None:
+    def _connect(self, draft: Draft, name: str, interface: str, offer: Offer, span: Span, port: Port | None) -> None:
         offer = self.gates.through(offer, draft.instance)
         target = offer.owner
         if offer.endpoint is None:  # the document's endpoint is none, which has been said
@@ -123,10 +123,15 @@ class Connections(msgspec.Struct):
         if target is not draft:
             self.needs.append(Need(draft.name, target.name, port.use.absent if port else "", name, span))
         if draft.instance.entry.enabled and not target.instance.entry.enabled and not _may_be_absent(port):
-            self.diagnostics.append(codes.NOT_ENABLED.at(
-                span, source=draft.name, interface=interface, target=target.name,
-                related=[Related("not enabled here", target.span)],
-            ))
+            self.diagnostics.append(
+                codes.NOT_ENABLED.at(
+                    span,
+                    source=draft.name,
+                    interface=interface,
+                    target=target.name,
+                    related=[Related("not enabled here", target.span)],
+                )
+            )
 
     def _ambiguous(
         self, draft: Draft, name: str, interface: str, offers: list[Offer], span: Span, port: Port | None = None
@@ -135,11 +140,17 @@ class Connections(msgspec.Struct):
         more = f" and {len(shown) - _MANY} more" if len(shown) > _MANY else ""
         places = {offer.span: word for word, offer in reversed(list(zip(shown, offers[:_MANY], strict=False)))}
         related = [Related(f"'{word}' serves it", span) for span, word in reversed(places.items())]
-        self.diagnostics.append(codes.AMBIGUOUS.at(
-            span, source=draft.name, port=name, interface=interface,
-            candidates=", ".join(shown[:_MANY]) + more, hint=f"write `connect: {{{name}: {shown[0]}}}`, or another",
-            related=related + _required(port),
-        ))
+        self.diagnostics.append(
+            codes.AMBIGUOUS.at(
+                span,
+                source=draft.name,
+                port=name,
+                interface=interface,
+                candidates=", ".join(shown[:_MANY]) + more,
+                hint=f"write `connect: {{{name}: {shown[0]}}}`, or another",
+                related=related + _required(port),
+            )
+        )
 
     def _called(self, offer: Offer, draft: Draft) -> str:
         """As `connect:` may name it: a member of a closed group by the group."""
@@ -155,12 +166,20 @@ class Connections(msgspec.Struct):
             return
         found = self.contents.difference(port, offer.port)
         if found is not None:
-            self.diagnostics.append(codes.MISMATCH.at(
-                span, interface=port.interface.name, source=draft.name, target=offer.owner.name,
-                difference=found.message, hint="let both import the same document",
-                related=[Related(f"as '{draft.name}' knows it", found.first),
-                         Related(f"as '{offer.owner.name}' knows it", found.second)],
-            ))
+            self.diagnostics.append(
+                codes.MISMATCH.at(
+                    span,
+                    interface=port.interface.name,
+                    source=draft.name,
+                    target=offer.owner.name,
+                    difference=found.message,
+                    hint="let both import the same document",
+                    related=[
+                        Related(f"as '{draft.name}' knows it", found.first),
+                        Related(f"as '{offer.owner.name}' knows it", found.second),
+                    ],
+                )
+            )
 
     def _unresolved(self, draft: Draft, port: Port) -> None:
         linked, name = self.drafts.linked, port.interface.name
@@ -168,7 +187,10 @@ class Connections(msgspec.Struct):
         if linked.is_included or not self.drafts.complete:
             return
         told = codes.UNRESOLVED.at(
-            draft.span, source=draft.name, interface=name, related=_required(port),
+            draft.span,
+            source=draft.name,
+            interface=name,
+            related=_required(port),
             hint=f"add a component that implements {name}, or say where it is: "
             f'`connect: {{{port.name}: "{name.lower()}:tcp -h HOST -p PORT"}}`',
         )
@@ -187,13 +209,16 @@ def _faults(draft: Draft, pair: Pair) -> Iterator[Diagnostic]:
     except Refused as refused:
         usual = f'a proxy is spelled as Ice has it: `"{pair.name.lower()}:tcp -h HOST -p PORT"`'
         yield codes.BAD_PROXY.at(
-            ice_texts.place(draft, pair.span, pair.text, refused), text=pair.text, problem=refused.problem,
+            ice_texts.place(draft, pair.span, pair.text, refused),
+            text=pair.text,
+            problem=refused.problem,
             hint=ice_texts.hint(draft, pair.text, refused, usual),
         )
         return
     for unknown in found.unknown:
         yield codes.PASSED_OVER.at(
-            ice_texts.place(draft, pair.span, pair.text, unknown), problem=unknown.problem,
+            ice_texts.place(draft, pair.span, pair.text, unknown),
+            problem=unknown.problem,
             hint=ice_texts.hint(draft, pair.text, unknown, ""),
         )
 

@@ -129,7 +129,11 @@ class StormDraft(msgspec.Struct, eq=False):
     def endpoints(self) -> tuple[Endpoint, ...]:
         storm = self.linked.storm
         manager = Endpoint(
-            MANAGER, f"{STORM_INSTANCE}/{MANAGER}", self.manager, listening(self.host, self.manager), module="IceStorm",
+            MANAGER,
+            f"{STORM_INSTANCE}/{MANAGER}",
+            self.manager,
+            listening(self.host, self.manager),
+            module="IceStorm",
             span=storm.port_span if storm.port else storm.span,
         )
         return manager, Endpoint(PUBLISH, "", self.publish, listening(self.host, self.publish), span=storm.span)

@@ -20,7 +20,9 @@ def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
                 yield from _of_text(draft, offer)
             elif offer.number > LAST_PORT:
                 yield codes.PORT_TOO_HIGH.at(
-                    offer.span, name=draft.name, port=offer.number,
+                    offer.span,
+                    name=draft.name,
+                    port=offer.number,
                     hint="begin with a lower one, or use fewer instances",
                 )
 
@@ -31,6 +33,9 @@ def _of_text(draft: Draft, offer: Offer) -> Iterator[Diagnostic]:
     except Refused as refused:
         usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
         yield codes.BAD_ENDPOINT.at(
-            ice_texts.place(draft, offer.span, offer.given, refused), name=offer.adapter, text=offer.given,
-            problem=refused.problem, hint=ice_texts.hint(draft, offer.given, refused, usual),
+            ice_texts.place(draft, offer.span, offer.given, refused),
+            name=offer.adapter,
+            text=offer.given,
+            problem=refused.problem,
+            hint=ice_texts.hint(draft, offer.given, refused, usual),
         )

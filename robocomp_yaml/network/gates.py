@@ -42,8 +42,12 @@ class Gates(msgspec.Struct):
             while name in self.drafts.linked.instances:
                 name += "_"
             entry = model.Entry(
-                name, model.PROGRAM, model.Text("python3"), config_as=model.Text(model.ARGUMENT),
-                enabled=any(owner.instance.entry.enabled for _, owner in ruled), span=group.group.span,
+                name,
+                model.PROGRAM,
+                model.Text("python3"),
+                config_as=model.Text(model.ARGUMENT),
+                enabled=any(owner.instance.entry.enabled for _, owner in ruled),
+                span=group.group.span,
             )
             instance = LinkedInstance(
                 name, entry, group.document, group.scope, folder=first.instance.folder, groups=(group,)
@@ -95,9 +99,16 @@ class Gates(msgspec.Struct):
                 if offer.endpoint is None:
                     continue
                 gate.proxies[served.name] = Given(offer.proxy, _place(served))
-                self.found.append(Connection(
-                    gate.name, served.name, offer.interface, offer.owner.name, proxy=offer.proxy, span=_place(served)
-                ))
+                self.found.append(
+                    Connection(
+                        gate.name,
+                        served.name,
+                        offer.interface,
+                        offer.owner.name,
+                        proxy=offer.proxy,
+                        span=_place(served),
+                    )
+                )
                 self.needs.append(Need(gate.name, offer.owner.name, "", served.name, _place(served)))
 
     def _behind(self, group: LinkedGroup) -> Iterator[tuple[Served, Offer]]:
@@ -117,7 +128,11 @@ class Gates(msgspec.Struct):
                 continue
             allowed = None if served.rule.allow is None else tuple(method.text for method in served.rule.allow)
             row = (
-                served.name, offer.interface.lower(), offer.text, draft.proxies[served.name].text, served.rule.rate,
+                served.name,
+                offer.interface.lower(),
+                offer.text,
+                draft.proxies[served.name].text,
+                served.rule.rate,
                 allowed,
             )
             rows.append(f"    {row!r},\n")

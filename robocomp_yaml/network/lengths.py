@@ -37,7 +37,12 @@ def length_faults(linked: LinkedDeployment, drafts: Drafts, network: Network) ->
 
 def _too_long(what: str, name: str, file: str, span: Span) -> Diagnostic:
     return codes.NAME_TOO_LONG.at(
-        span, what=what, name=shortened(name), file=shortened(file), size=size(file), limit=LONGEST_NAME,
+        span,
+        what=what,
+        name=shortened(name),
+        file=shortened(file),
+        size=size(file),
+        limit=LONGEST_NAME,
         hint=f"shorten it by {size(file) - LONGEST_NAME}",
     )
 

@@ -39,7 +39,11 @@ def of_draft(
     command = tuple(_command(draft, program))
     is_told = any(CONFIG in part for part in command[1:])
     return Process(
-        draft.name, draft.host.name, command, folder, PROGRAM if component is None else COMPONENT,
+        draft.name,
+        draft.host.name,
+        command,
+        folder,
+        PROGRAM if component is None else COMPONENT,
         env=tuple(_variable(one, instance.document.path) for one in entry.env),
         config=ConfigFile(f"config/{draft.name}", text, secrets) if text is not None and is_told else None,
         endpoints=tuple(adapter.resolved() for adapter in draft.adapters),
@@ -134,7 +138,9 @@ def _restart(given: model.Restart | None) -> Restart:
         return _DEFAULTS
     delay = _DEFAULTS.delay if given.delay is None else given.delay
     return Restart(
-        given.policy, delay, max(delay, _DEFAULTS.longest),
+        given.policy,
+        delay,
+        max(delay, _DEFAULTS.longest),
         _DEFAULTS.tries if given.tries is None else given.tries,
         _DEFAULTS.window if given.within is None else given.within,
     )
@@ -146,12 +152,15 @@ def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple
     if not loaded:
         return ()
     if folder not in known:
-        known[folder] = tuple(sorted(
-            os.path.abspath(os.path.join(where, name))
-            for below, endings in loaded.items()
-            for where, _, names in os.walk(os.path.join(folder, below))
-            for name in names if name.endswith(endings)
-        ))
+        known[folder] = tuple(
+            sorted(
+                os.path.abspath(os.path.join(where, name))
+                for below, endings in loaded.items()
+                for where, _, names in os.walk(os.path.join(folder, below))
+                for name in names
+                if name.endswith(endings)
+            )
+        )
     return known[folder]
 
 
@@ -170,7 +179,11 @@ def of_storm(storm: StormDraft, folder: str, *, enabled: bool) -> Process:
     }
     text = "".join(f"{entry_line(key, value)}\n" for key, value in settings.items())
     return Process(
-        storm.name, storm.host.name, ("icebox", f"--Ice.Config={CONFIG}"), "/", ICESTORM,  # its paths are absolute
+        storm.name,
+        storm.host.name,
+        ("icebox", f"--Ice.Config={CONFIG}"),
+        "/",
+        ICESTORM,  # its paths are absolute
         config=ConfigFile(f"config/{storm.name}", text),
         endpoints=(manager, publish),
         ready=Readiness(pings=(storm.proxy,)),

@@ -49,8 +49,10 @@ def _reaches(draft: Draft, offer: Offer) -> bool:
     """Whether an offer is another one's, and every closed group around it that the draft is outside of exposes it."""
     source, target = draft.instance, offer.owner.instance
     return offer.owner is not draft and all(
-        any((served.instance.process or served.instance) is target and served.adapter == offer.adapter
-            for served in group.serves)
+        any(
+            (served.instance.process or served.instance) is target and served.adapter == offer.adapter
+            for served in group.serves
+        )
         for group in target.groups
         if group.is_closed and not is_broken(group) and group not in source.groups
     )

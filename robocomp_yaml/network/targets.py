@@ -25,7 +25,8 @@ class Named(msgspec.Struct, frozen=True):
     def chosen(self) -> list[Offer]:
         """Those that are meant: all, where no interface is named."""
         return [
-            offer for name, offer in self.served
+            offer
+            for name, offer in self.served
             if not self.interface or self.interface in (name, offer.adapter, offer.interface)
         ]
 
@@ -46,15 +47,22 @@ class Targets(msgspec.Struct):
         for target in targets:
             around = linked.closed_around(target, instance)
             if isinstance(target, LinkedStorm):
-                self.diagnostics.append(codes.NOT_SERVED.at(
-                    pair.span, target=pair.text, interface=pair.name, hint="it is an IceStorm, which carries topics"
-                ))
+                self.diagnostics.append(
+                    codes.NOT_SERVED.at(
+                        pair.span, target=pair.text, interface=pair.name, hint="it is an IceStorm, which carries topics"
+                    )
+                )
                 return None
             if around:
                 group = around[0].name
-                self.diagnostics.append(codes.CLOSED_GROUP.at(
-                    pair.span, target=pair.text, group=group, hint=f"connect to '{group}', which serves what it exposes"
-                ))
+                self.diagnostics.append(
+                    codes.CLOSED_GROUP.at(
+                        pair.span,
+                        target=pair.text,
+                        group=group,
+                        hint=f"connect to '{group}', which serves what it exposes",
+                    )
+                )
                 return None
             if self._lacks_something(target):
                 return None
@@ -64,9 +72,11 @@ class Targets(msgspec.Struct):
     def _not_there(self, draft: Draft, pair: Pair) -> Diagnostic:
         proxy = f'"{pair.name.lower()}:tcp -h HOST -p PORT"'
         return codes.NO_TARGET.at(
-            pair.span, name=pair.text,
+            pair.span,
+            name=pair.text,
             hint=did_you_mean(
-                pair.text, self.drafts.linked.names.get(draft.instance.scope, {}),
+                pair.text,
+                self.drafts.linked.names.get(draft.instance.scope, {}),
                 otherwise=f"what is outside is named by its proxy, in quotes: {proxy}",
             ),
         )

@@ -84,11 +84,15 @@ class Topics(msgspec.Struct):
         manager = self.base_of(draft).manager
         if nearest and nearest not in self._several:
             self._several.append(nearest)
-            self.diagnostics.append(codes.TWO_STORMS.at(
-                draft.span, source=draft.name, storms=", ".join(storm.name for storm in nearest),
-                hint="leave one of them: it serves all hosts",
-                related=[Related(f"'{storm.name}'", storm.storm.span) for storm in nearest],
-            ))
+            self.diagnostics.append(
+                codes.TWO_STORMS.at(
+                    draft.span,
+                    source=draft.name,
+                    storms=", ".join(storm.name for storm in nearest),
+                    hint="leave one of them: it serves all hosts",
+                    related=[Related(f"'{storm.name}'", storm.storm.span) for storm in nearest],
+                )
+            )
         elif not nearest and not manager and not self.drafts.linked.is_included and self.drafts.complete:
             self._without.append(draft)
         return None, manager
@@ -100,8 +104,11 @@ class Topics(msgspec.Struct):
         assert component is not None
         port = (*component.publishes, *component.subscribes)[0]
         return codes.NO_STORM.at(
-            first.span, source=first.name, does="publishes" if port in component.publishes else "subscribes to",
-            topic=port.name, hint="add an IceStorm: `services: {storm: {icestorm: {}}}`" + _too(others),
+            first.span,
+            source=first.name,
+            does="publishes" if port in component.publishes else "subscribes to",
+            topic=port.name,
+            hint="add an IceStorm: `services: {storm: {icestorm: {}}}`" + _too(others),
             related=[Related(f"{port.name} stands here", port.use.span)],
         )
 
@@ -130,10 +137,19 @@ class Topics(msgspec.Struct):
         if topic != end.name:
             draft.topics[port.name] = Given(topic, end.span)
         carrier = storm.name if storm else ""
-        self.found.append(Connection(
-            draft.name, port.name, port.interface.name, carrier, TOPIC, topic, end.is_out,
-            storm.proxy if storm else end.manager, end.span,
-        ))
+        self.found.append(
+            Connection(
+                draft.name,
+                port.name,
+                port.interface.name,
+                carrier,
+                TOPIC,
+                topic,
+                end.is_out,
+                storm.proxy if storm else end.manager,
+                end.span,
+            )
+        )
         self._ends.setdefault((carrier or f":{end.manager}", topic), []).append(end)
 
     def _compare(self, topic: str, ends: list[_End]) -> None:
@@ -142,20 +158,32 @@ class Topics(msgspec.Struct):
         for end in ends:
             found = self.contents.difference(first.port, end.port)
             if found is not None:
-                self.diagnostics.append(codes.TOPIC_MISMATCH.at(
-                    end.span, topic=topic, source=end.draft.name, target=first.draft.name, difference=found.message,
-                    hint="let both import the same document, or rename one topic",
-                    related=[Related(f"as '{first.draft.name}' knows it", found.first),
-                             Related(f"as '{end.draft.name}' knows it", found.second)],
-                ))
+                self.diagnostics.append(
+                    codes.TOPIC_MISMATCH.at(
+                        end.span,
+                        topic=topic,
+                        source=end.draft.name,
+                        target=first.draft.name,
+                        difference=found.message,
+                        hint="let both import the same document, or rename one topic",
+                        related=[
+                            Related(f"as '{first.draft.name}' knows it", found.first),
+                            Related(f"as '{end.draft.name}' knows it", found.second),
+                        ],
+                    )
+                )
         is_closed = self.drafts.complete and not self.drafts.linked.is_included
         if first.is_out or not is_closed or not all(c.target for c in self.found if c.topic == topic):
             return
-        self.diagnostics.append(codes.NOBODY_PUBLISHES.at(
-            first.span, source=first.draft.name, topic=topic,
-            hint=self._other_names(first) + _too([end.draft for end in ends[1:]]),
-            related=[Related(f"{first.port.name} is subscribed to here", first.port.use.span)],
-        ))
+        self.diagnostics.append(
+            codes.NOBODY_PUBLISHES.at(
+                first.span,
+                source=first.draft.name,
+                topic=topic,
+                hint=self._other_names(first) + _too([end.draft for end in ends[1:]]),
+                related=[Related(f"{first.port.name} is subscribed to here", first.port.use.span)],
+            )
+        )
 
     def _other_names(self, end: _End) -> str:
         """Where the same interface is published: under another name, or with another IceStorm."""

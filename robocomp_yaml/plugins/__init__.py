@@ -49,10 +49,17 @@ class Plugin(msgspec.Struct, frozen=True, eq=False):
             raise
         except Exception as error:
             where = _place_of(error)
-            raise Faulty([codes.PLUGIN_FAILED.at(
-                self.span, name=self.name, what=what, reason=reason_of(error),
-                hint=f"in {where}: tell its authors, or take it out of `plugins:`",
-            )]) from error
+            raise Faulty(
+                [
+                    codes.PLUGIN_FAILED.at(
+                        self.span,
+                        name=self.name,
+                        what=what,
+                        reason=reason_of(error),
+                        hint=f"in {where}: tell its authors, or take it out of `plugins:`",
+                    )
+                ]
+            ) from error
 
 
 class Plugins(msgspec.Struct, frozen=True, eq=False):

@@ -78,9 +78,7 @@ def allowances(
     return found, said
 
 
-def _read(
-    text: Text, comment: re.Match[str], more: Collection[str]
-) -> tuple[list[tuple[str, Span]], list[Diagnostic]]:
+def _read(text: Text, comment: re.Match[str], more: Collection[str]) -> tuple[list[tuple[str, Span]], list[Diagnostic]]:
     """The codes that a comment names, each with its place, and what is wrong with it."""
     whole = text.span(*comment.span())
     parts = _PARTS.fullmatch(comment[0].rstrip())
@@ -89,9 +87,14 @@ def _read(
     if parts["colon"] is None:
         at = comment.start() + parts.start("verb")
         colon = text.edit(comment.start() + comment[0].index("rcyaml") + len("rcyaml"), at, ": ")
-        said.append(codes.ALLOW_MALFORMED.at(
-            whole, problem="a ':' is missing behind `rcyaml`", hint=_FORM, fixes=[Fix("put it there", (colon,), True)]
-        ))
+        said.append(
+            codes.ALLOW_MALFORMED.at(
+                whole,
+                problem="a ':' is missing behind `rcyaml`",
+                hint=_FORM,
+                fixes=[Fix("put it there", (colon,), True)],
+            )
+        )
     if parts["verb"] != "allow":
         verb = text.span(comment.start() + parts.start("verb"), comment.start() + parts.end("verb"))
         hint = Hint(_FORM, parts["verb"], "allow") if _CODE.search(parts["codes"]) and parts["verb"] else _FORM
@@ -103,10 +106,14 @@ def _read(
         place = [comment.start() + parts.start("codes") + at for at in word.span()]
         if _CODE.fullmatch(word[0]) is None and word[0].upper() not in more:
             before = Fix("put -- before it", (text.edit(place[0], place[0], "-- "),), True)
-            said.append(codes.ALLOW_MALFORMED.at(
-                text.span(*place), problem=f"'{word[0]}' is no code", hint="a reason stands behind `--`",
-                fixes=[before] if made and parts["reason"] is None else [],
-            ))
+            said.append(
+                codes.ALLOW_MALFORMED.at(
+                    text.span(*place),
+                    problem=f"'{word[0]}' is no code",
+                    hint="a reason stands behind `--`",
+                    fixes=[before] if made and parts["reason"] is None else [],
+                )
+            )
             return (made if parts["colon"] else []), said
         if word[0].upper() not in table() and word[0].upper() not in more:
             said.append(codes.ALLOW_UNKNOWN.at(text.span(*place), name=word[0], hint="`rcyaml explain` lists them"))

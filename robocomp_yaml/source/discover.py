@@ -74,17 +74,18 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Fo
                 for error in closed
             ]
             if not below and not closed:
-                said.append(codes.NOTHING_FOUND.at(
-                    Span(path), hint="`rcyaml new interface NAME` writes a first one, "
-                    f"`{typed('rcyaml', 'migrate', path)}` carries over what you have",
-                ))
+                said.append(
+                    codes.NOTHING_FOUND.at(
+                        Span(path),
+                        hint="`rcyaml new interface NAME` writes a first one, "
+                        f"`{typed('rcyaml', 'migrate', path)}` carries over what you have",
+                    )
+                )
         elif kind_of(path, disk) is None and disk.state(path) != NOTHING:
             expected = " or ".join(f".{kind}.yaml" for kind in KINDS)
             migrate = f"`{typed('rcyaml', 'migrate', path)}` carries legacy files over"
             hint = migrate if not path.endswith(".yaml") else ""
-            said.append(codes.UNKNOWN_KIND.at(
-                Span(path), name=os.path.basename(path), kinds=expected, hint=hint
-            ))
+            said.append(codes.UNKNOWN_KIND.at(Span(path), name=os.path.basename(path), kinds=expected, hint=hint))
             continue
         else:
             below = [os.path.normpath(path)]

@@ -98,6 +98,7 @@ class Disk:
         self, folder: str, on_error: Callable[[OSError], None] | None = None
     ) -> Iterator[tuple[str, list[str], list[str]]]:
         """As `os.walk` from the top, each list sorted; the caller may take folders out of the second list."""
+
         def closed(error: OSError) -> None:
             self.unreadable = True
             if on_error is not None:

@@ -97,7 +97,8 @@ def _options(text: str, at: int) -> tuple[str, int]:
         if option.text not in _OPTIONS:
             raise Refused(
                 f"a proxy has no option '{option.text}'; it takes {', '.join(_OPTIONS[:-1])} and {_OPTIONS[-1]}",
-                option.start, option.end,
+                option.start,
+                option.end,
             )
         _check(option, argument)
         letters += option.text[1]

@@ -70,6 +70,6 @@ def _insert(text: str, plain: str, brace: int, members: Mapping[str, object], de
     block = "\n".join(f"{indent}{row[2:]}" for row in rows)
     first = _skip(plain, brace + 1)
     if plain[first] != "}":
-        return f"{text[:brace + 1]}\n{block},{text[brace + 1:]}"
-    between = text[brace + 1:first]
-    return f"{text[:brace + 1]}\n{block}{between if between.strip() else chr(10) + indent[2:]}{text[first:]}"
+        return f"{text[: brace + 1]}\n{block},{text[brace + 1 :]}"
+    between = text[brace + 1 : first]
+    return f"{text[: brace + 1]}\n{block}{between if between.strip() else chr(10) + indent[2:]}{text[first:]}"

@@ -25,8 +25,13 @@ from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 _IN_WORDS = {
-    "string": "text", "integer": "a whole number", "number": "a number", "boolean": "true or false",
-    "array": "a list", "object": "a mapping", "null": "nothing",
+    "string": "text",
+    "integer": "a whole number",
+    "number": "a number",
+    "boolean": "true or false",
+    "array": "a list",
+    "object": "a mapping",
+    "null": "nothing",
 }
 NAME = "^[A-Za-z_][A-Za-z0-9_]*$"
 _NO_NUL = "^[^\\u0000]*$"
@@ -84,9 +89,7 @@ _KEY_CODES = (codes.UNKNOWN_KEY.id, codes.MISSING_KEY.id, codes.WRONG_NAME.id)
 def _without_misspelled(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
     """A missing key whose misspelling stands there is one cause, not two."""
     meant = {d.fact("meant") for d in diagnostics if d.code == codes.UNKNOWN_KEY.id}
-    return list(dict.fromkeys(
-        d for d in diagnostics if d.code != codes.MISSING_KEY.id or d.fact("key") not in meant
-    ))
+    return list(dict.fromkeys(d for d in diagnostics if d.code != codes.MISSING_KEY.id or d.fact("key") not in meant))
 
 
 def _explain(
@@ -122,7 +125,11 @@ def _explain(
             problem = message or _in_words(kind.name, facts, node, place)
             span = key.span if forbidden and key else _span(node, key)
             yield codes.WRONG_SHAPE.at(
-                span, problem=problem, key=_key_of(place), rule=kind.name, hint=_nearest(facts.get("options"), node),
+                span,
+                problem=problem,
+                key=_key_of(place),
+                rule=kind.name,
+                hint=_nearest(facts.get("options"), node),
                 fixes=_fixes(kind.name, facts, node, _subschema(whole, path[:-1])),
             )
 
@@ -146,8 +153,11 @@ def _impossible(pattern: str, node: Scalar, place: Path[str | int], *, span: Spa
     is_at_end = found[0] == "\n" and found.end() == len(node.lexeme)
     hint = "it is one line of text" + (_AT_END if is_at_end else "") if found[0] in _ENDS_A_LINE else "leave it out"
     return codes.IMPOSSIBLE.at(
-        span, key=_key_of(place), what=_CALLED.get(found[0], "a control character"),
-        character=f"U+{ord(found[0]):04X}", hint=hint,
+        span,
+        key=_key_of(place),
+        what=_CALLED.get(found[0], "a control character"),
+        character=f"U+{ord(found[0]):04X}",
+        hint=hint,
     )
 
 

@@ -202,7 +202,7 @@ class Text:
             line = self.index(last.span.line, 1)
             at = self._end_of_line(end_of(last))
             is_plain = _ITEM.fullmatch(self.text[line : last.start]) and isinstance(last, Scalar)
-            return [self.edit(at, at, f"{self._line_end}{self.text[line:last.start]}{new}")] if is_plain else []
+            return [self.edit(at, at, f"{self._line_end}{self.text[line : last.start]}{new}")] if is_plain else []
         return []
 
     @property

@@ -41,8 +41,11 @@ _DEEP_BLOCK = re.compile(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
 # The parsers' words, by a part of them: what a user is told, and how to mend it.
 _WORDS = (
     ("cannot start any token", "{found} cannot start a value here", "put the text in quotes"),
-    ("mapping values are not allowed", "a ':' makes a mapping here, where none can stand",
-     "put text that holds ': ' in quotes, and check that the lines above line up"),
+    (
+        "mapping values are not allowed",
+        "a ':' makes a mapping here, where none can stand",
+        "put text that holds ': ' in quotes, and check that the lines above line up",
+    ),
     ("could not find expected ':'", "this line has no ':' after its key", "write 'key: value'"),
     ("expected <block end>", "this line does not line up with the lines before it", "check the indentation"),
     ("did not find expected key", "this line does not line up with the lines before it", "check the indentation"),

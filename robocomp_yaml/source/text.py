@@ -42,9 +42,11 @@ def decode(path: str, raw: bytes) -> tuple[str | None, list[Diagnostic]]:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         before = raw[: error.start].decode("utf-8-sig")
-        return None, [codes.NOT_UTF8.at(
-            _at(path, before, len(before)), byte=f"0x{raw[error.start]:02X}", hint="save the file as UTF-8"
-        )]
+        return None, [
+            codes.NOT_UTF8.at(
+                _at(path, before, len(before)), byte=f"0x{raw[error.start]:02X}", hint="save the file as UTF-8"
+            )
+        ]
     control = _CONTROL.search(text)
     if control:
         return None, [codes.BINARY.at(_at(path, text, control.start()), byte=f"U+{ord(control[0]):04X}")]
@@ -60,9 +62,11 @@ def read_bytes(path: str, limit: int = MAX_DOCUMENT) -> tuple[bytes | None, list
             raw = file.read(limit + 1) if status.st_size <= limit else b""
             size = max(status.st_size, len(raw))
             if size > limit:
-                return None, [codes.TOO_LARGE.at(
-                    Span(path), what="the file", size=size_in_words(size), limit=size_in_words(limit)
-                )]
+                return None, [
+                    codes.TOO_LARGE.at(
+                        Span(path), what="the file", size=size_in_words(size), limit=size_in_words(limit)
+                    )
+                ]
             return raw, []
     except OSError as error:
         return None, [codes.UNREADABLE.at(Span(path), reason=(error.strerror or str(error)).lower())]

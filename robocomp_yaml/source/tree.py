@@ -188,8 +188,10 @@ class _Builder:
             return Scalar(self.path, ScalarNode(None, "", node.start_mark, node.end_mark), None)
         else:
             self.open.add(id(node))
-            built = self._mapping(node) if isinstance(node, MappingNode) else Sequence(
-                self.path, cast("SequenceNode", node), [self.build(item) for item in node.value]
+            built = (
+                self._mapping(node)
+                if isinstance(node, MappingNode)
+                else Sequence(self.path, cast("SequenceNode", node), [self.build(item) for item in node.value])
             )
             self.open.discard(id(node))
         if self.last is not None and built._end.line > self.last.line:
@@ -204,15 +206,21 @@ class _Builder:
         self.aliased += size
         if too_many:
             self._say(
-                codes.ALIASES, node, problem=f"aliases of this anchor make the document too large: more than "
-                f"{MAX_ALIASED} values are repeats", hint="write the values out, or repeat less",
+                codes.ALIASES,
+                node,
+                problem=f"aliases of this anchor make the document too large: more than "
+                f"{MAX_ALIASED} values are repeats",
+                hint="write the values out, or repeat less",
             )
 
     def _scalar(self, node: ScalarNode) -> Scalar:
         lexeme = node.value
         if len(lexeme) > MAX_SCALAR:
             self._say(
-                codes.TOO_LARGE, node, what="this text", size=size_in_words(len(lexeme)),
+                codes.TOO_LARGE,
+                node,
+                what="this text",
+                size=size_in_words(len(lexeme)),
                 limit=size_in_words(MAX_SCALAR),
             )
         if node.style is not None and node.style != "":
@@ -237,7 +245,9 @@ class _Builder:
             if digits[0] == "0" and len(digits) > 1:
                 zeros = digits.lstrip("0") or "0"
                 self._say(
-                    codes.LEADING_ZEROS, node, lexeme=lexeme,
+                    codes.LEADING_ZEROS,
+                    node,
+                    lexeme=lexeme,
                     hint=f'write "{lexeme}" for text, or {lexeme[: len(lexeme) - len(digits)]}{zeros} for a number',
                     fixes=[quoting(self._span(node), safe=False)],
                 )
@@ -264,7 +274,9 @@ class _Builder:
             if key.lexeme in entries:
                 first = entries[key.lexeme][0]
                 self._say(
-                    codes.DUPLICATE_KEY, key_node, key=key.lexeme,
+                    codes.DUPLICATE_KEY,
+                    key_node,
+                    key=key.lexeme,
                     related=[Related("it stands here first", first.span)],
                     fixes=self._without_second(first, entries[key.lexeme][1], key, value),
                 )
@@ -286,7 +298,10 @@ class _Builder:
                 behind = Span(span.file, span.line, span.column, span.line, span.column)
                 is_plain = tail.strip(":") and not tail.startswith(":") and span.column != node.start_mark.column + 1
                 self._say(
-                    codes.KEY_COLON, node, key=node.value, hint=f"write '{head}: {tail.lstrip(':')}'".rstrip(),
+                    codes.KEY_COLON,
+                    node,
+                    key=node.value,
+                    hint=f"write '{head}: {tail.lstrip(':')}'".rstrip(),
                     fixes=[Fix("put a blank behind the colon", (Edit(behind, " "),), True)] if is_plain else [],
                 )
         return self._quoted(node)
@@ -294,7 +309,10 @@ class _Builder:
     def _explicit_tag(self, node: YamlNode) -> None:
         tag = str(node.tag).replace("tag:yaml.org,2002:", "!!")
         self._say(
-            codes.TAG, node, tag=tag, hint="leave the tag out" + (", and use quotes" if tag == "!!str" else ""),
+            codes.TAG,
+            node,
+            tag=tag,
+            hint="leave the tag out" + (", and use quotes" if tag == "!!str" else ""),
             fixes=[Fix("leave the tag out", (Edit(self._span(node), how=UNTAG),), True)] if tag in _PLAIN_TAGS else [],
         )
 
@@ -316,7 +334,14 @@ class _Builder:
         end = self.last if self.last is not None and end.line > self.last.line else end
         return Span(self.path, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
 
-    def _say(self, code: Code, node: YamlNode, *, hint: str = "", related: list[Related] | None = None,
-             fixes: Iterable[Fix] = (), **facts: Any) -> None:
+    def _say(
+        self,
+        code: Code,
+        node: YamlNode,
+        *,
+        hint: str = "",
+        related: list[Related] | None = None,
+        fixes: Iterable[Fix] = (),
+        **facts: Any,
+    ) -> None:
         self.diagnostics.append(code.at(self._span(node), hint=hint, related=related or (), fixes=fixes, **facts))
-

@@ -43,7 +43,8 @@ class Change(msgspec.Struct, frozen=True):
         are `properties`, secrets in them are hidden."""
         before, after = ((data or b"").decode("utf-8", "surrogateescape") for data in (self.before, self.after))
         found = unified(
-            before, after,
+            before,
+            after,
             os.devnull if self.before is None else f"a/{self.path}",
             os.devnull if self.after is None else f"b/{self.path}",
         )

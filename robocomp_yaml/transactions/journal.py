@@ -103,9 +103,9 @@ def clean_up(root: str, journal: Journal) -> None:
 
 
 def _undo(root: str, mark: Mark) -> None:
-    target, new, old, orig = (os.path.join(root, name) if name else "" for name in (
-        mark.path, mark.new, mark.old, mark.orig
-    ))
+    target, new, old, orig = (
+        os.path.join(root, name) if name else "" for name in (mark.path, mark.new, mark.old, mark.orig)
+    )
     if old and os.path.lexists(old):
         if _changed_since(target, old, mark.hash):
             if not (orig and os.path.lexists(orig)):

@@ -39,9 +39,7 @@ class Manifest(msgspec.Struct, frozen=True):
 
     def text(self) -> str:
         """One line a file, so that versions compare well."""
-        lines = [
-            f"    {_json(path)}: {_json(_fields(entry))}" for path, entry in sorted(self.files.items())
-        ]
+        lines = [f"    {_json(path)}: {_json(_fields(entry))}" for path, entry in sorted(self.files.items())]
         return f'{{\n  "version": {VERSION},\n  "files": {{\n' + ",\n".join(lines) + "\n  }\n}\n"
 
 

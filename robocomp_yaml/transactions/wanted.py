@@ -36,7 +36,10 @@ class WantedRoot(msgspec.Struct, frozen=True):
             documents = [self.root.shown(owner) for owner in (first, second)]
             more = f" and {len(paths) - 1} more" if len(paths) > 1 else ""
             yield codes.CONTESTED.at(
-                Span(documents[1]), path=f"'{self.root.shown(paths[0])}'{more}", one=documents[0], other=documents[1],
+                Span(documents[1]),
+                path=f"'{self.root.shown(paths[0])}'{more}",
+                one=documents[0],
+                other=documents[1],
                 related=[Related("the other document", Span(documents[0]))],
                 hint=codes.APART,
             )

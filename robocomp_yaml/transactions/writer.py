@@ -62,9 +62,11 @@ def recover(plans: Iterable[RootPlan], others: Iterable[str] = ()) -> list[Diagn
     for wanted in by_root(plans, others):
         try:
             if atomic.recover(wanted.root.real):
-                diagnostics.append(codes.INTERRUPTED.at(
-                    Span(wanted.root.shown(JOURNAL)), what="the folder was put back as it was before"
-                ))
+                diagnostics.append(
+                    codes.INTERRUPTED.at(
+                        Span(wanted.root.shown(JOURNAL)), what="the folder was put back as it was before"
+                    )
+                )
         except atomic.WriteFailed as failure:
             diagnostics.append(_cannot_write(wanted, failure.path, failure.reason))
         except OSError as error:
@@ -128,16 +130,22 @@ class _Root:
         try:
             self.old = manifest.read(found.data)
         except manifest.Unusable as unusable:
-            self.diagnostics.append(codes.BAD_MANIFEST.at(
-                Span(self.root.shown(manifest.PATH)), reason=str(unusable),
-                hint="update rcyaml" if isinstance(unusable, manifest.Newer) else
-                "take it back from version control, or delete it",
-            ))
+            self.diagnostics.append(
+                codes.BAD_MANIFEST.at(
+                    Span(self.root.shown(manifest.PATH)),
+                    reason=str(unusable),
+                    hint="update rcyaml"
+                    if isinstance(unusable, manifest.Newer)
+                    else "take it back from version control, or delete it",
+                )
+            )
             return False
         if any(os.path.lexists(f"{self.root.real}/{name}") for name in (JOURNAL, JOURNAL_DONE)):
-            self.diagnostics.append(codes.INTERRUPTED.at(
-                Span(self.root.shown(JOURNAL)), what="the next `rcyaml compile` puts the folder in order"
-            ))
+            self.diagnostics.append(
+                codes.INTERRUPTED.at(
+                    Span(self.root.shown(JOURNAL)), what="the next `rcyaml compile` puts the folder in order"
+                )
+            )
         return True
 
     def _once(self, plan: FilePlan, entry: Entry | None) -> None:
@@ -230,7 +238,9 @@ class _Root:
             return codes.NOT_OURS.at(span, path=plan.path, hint=f"`{adopt}` writes it, and keeps yours as .orig")
         keys = ", ".join(ownership.lost(self._base(plan.path), data, text) or ["them"])
         return codes.CHANGED.at(
-            span, path=plan.path, hint=f"bring {keys} into {self.root.shown(plan.stated_in)}; `{adopt}` then rewrites "
+            span,
+            path=plan.path,
+            hint=f"bring {keys} into {self.root.shown(plan.stated_in)}; `{adopt}` then rewrites "
             "the file, and keeps yours as .orig",
         )
 
@@ -270,10 +280,17 @@ class _Root:
             # Whoever may read it may run it.
             mode |= (mode & 0o444) >> 2
         if not self._has_another(plan):
-            self.steps.append(atomic.Step(
-                plan.path, found.data if found.exists else None, text, plan.executable, mode, orig,
-                rights_of(plan.sources),
-            ))
+            self.steps.append(
+                atomic.Step(
+                    plan.path,
+                    found.data if found.exists else None,
+                    text,
+                    plan.executable,
+                    mode,
+                    orig,
+                    rights_of(plan.sources),
+                )
+            )
         return self._note(plan.path, action, found.data, text, orig)
 
     def _note(
@@ -297,9 +314,9 @@ class _Root:
             self.diagnostics.append(code.at(Span(self.root.shown(path)), path=path, reason=found.problem))
 
     def _warn_edited(self, path: str, what: str) -> None:
-        self.diagnostics.append(codes.EDITED.at(
-            Span(self.root.shown(path)), path=path, what=what, hint=codes.USERS_PLACES
-        ))
+        self.diagnostics.append(
+            codes.EDITED.at(Span(self.root.shown(path)), path=path, what=what, hint=codes.USERS_PLACES)
+        )
 
     def _keep_base(self, plan: FilePlan, text: bytes) -> None:
         """The text as generated, which a later merge starts from."""

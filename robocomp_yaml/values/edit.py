@@ -54,8 +54,10 @@ def set_value(
                 raise NotEditable("there is no list here to add to; give the whole list", node)
             spelled = scalar(new) if is_text else new
             left_out = _left_out(text, node, key, steps[depth], lines_above(steps[: depth + 1]))
-            change = _uncommented(text, left_out, steps[depth:], spelled) if left_out is not None else (
-                _insert(text, node, key, steps[depth:], spelled)
+            change = (
+                _uncommented(text, left_out, steps[depth:], spelled)
+                if left_out is not None
+                else (_insert(text, node, key, steps[depth:], spelled))
             )
             break
         key, node = found[0] or key, found[1]

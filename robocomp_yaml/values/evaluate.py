@@ -142,9 +142,7 @@ _COMPARE: dict[str, Callable[[Any, Any], bool]] = {
 }
 
 
-def _compared(
-    first: Expression, rest: tuple[tuple[str, Expression], ...], scope: Mapping[str, Any]
-) -> Iterator[Any]:
+def _compared(first: Expression, rest: tuple[tuple[str, Expression], ...], scope: Mapping[str, Any]) -> Iterator[Any]:
     left = value(first, scope)
     for operator, expression in rest:
         right = value(expression, scope)
@@ -176,7 +174,10 @@ def _call(function: str, arguments: tuple[Expression | Each, ...], scope: Mappin
 
 
 _SIMPLE: dict[str, Callable[[Any], Any]] = {
-    "len": len, "abs": abs, "keys": list, "values": lambda mapping: list(mapping.values()),
+    "len": len,
+    "abs": abs,
+    "keys": list,
+    "values": lambda mapping: list(mapping.values()),
 }
 
 

@@ -114,8 +114,10 @@ def fits(type_: ScalarType, value: Any) -> bool:
         return value in type_.allowed
     if type_.name == "string":
         allowed = [str(literal.value) for literal in type_.values]
-        return isinstance(value, str) and (type_.pattern is None or type_.pattern.matches(value)) and (
-            not allowed or value in allowed
+        return (
+            isinstance(value, str)
+            and (type_.pattern is None or type_.pattern.matches(value))
+            and (not allowed or value in allowed)
         )
     if type_.name == "bool" or isinstance(value, bool):
         return type_.name == "bool" and isinstance(value, bool)

@@ -139,7 +139,11 @@ class _Search:
         return path in self.named
 
     def solve(
-        self, paths: Sequence[Path], optional: Sequence[Path] = (), *, both: Mapping[Path, Any] | None = None,
+        self,
+        paths: Sequence[Path],
+        optional: Sequence[Path] = (),
+        *,
+        both: Mapping[Path, Any] | None = None,
         others: bool = True,
     ) -> dict[Path, Any] | None:
         """Values for these parameters with which the constraints hold, beside those that stand, and beside `both`
@@ -165,7 +169,10 @@ class _Search:
                     yield _Form(count, is_full, tuple(self.texts))
 
     def _fill(
-        self, shapes: dict[Path, Any], optional: Sequence[Path], constraints: Sequence[Constraint],
+        self,
+        shapes: dict[Path, Any],
+        optional: Sequence[Path],
+        constraints: Sequence[Constraint],
         both: Mapping[Path, Any] | None,
     ) -> dict[Path, Any] | None:
         data = {path: shape for path, shape in shapes.items() if path not in optional}
@@ -202,7 +209,7 @@ class _Search:
                 return goes_well()
             place = places[at]
             path = tuple(str(step) for step in place.steps[: _depth(place, self.members)])
-            inside = place.steps[len(path):]
+            inside = place.steps[len(path) :]
             if place.is_optional and not inside:
                 data.pop(path, None)
                 if search(at + 1):
@@ -243,7 +250,8 @@ class _Search:
                 _put(data, path, _UNKNOWN)
         named = evaluate.by_code_names(root, as_data(root, data))
         return all(
-            evaluate.holds(each.expression, named) for each in constraints
+            evaluate.holds(each.expression, named)
+            for each in constraints
             if not self.is_careful or not any(_is_open(_at(named, path)) for path in evaluate.paths(each.expression))
         )
 
@@ -286,7 +294,8 @@ def _shape(type_: Type, form: _Form) -> Any:
         case RecordType(members=members):
             return {
                 m.name: _shape(m.type, form) if m.default is None else m.default.data
-                for m in members if form.is_full or not m.optional
+                for m in members
+                if form.is_full or not m.optional
             }
         case _:
             return dict(_UNKNOWN)

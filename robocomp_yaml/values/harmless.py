@@ -25,8 +25,10 @@ _ODD = frozenset('\r\n\0\t\ufeff$"')
 def is_harmless(parameters: Parameters, data: dict[str, Any]) -> bool:
     """Whether every value has a property that says it, whatever else there is."""
     spelled = {spelling.path for spelling in parameters.spellings}
-    if any(path in spelled and not isinstance(member.type, BasicType | EnumType) for path, member in
-           leaves(parameters.root)):
+    if any(
+        path in spelled and not isinstance(member.type, BasicType | EnumType)
+        for path, member in leaves(parameters.root)
+    ):
         return False
     return _record(parameters.root, data, {})
 

@@ -47,22 +47,38 @@ _REFERENCE: Schema = {
     "errorMessage": "a value is referred to by {env: NAME} or by {file: PATH}",
     "properties": {
         "env": {
-            "title": "Variable", "description": "The name of the environment variable.", "type": "string",
+            "title": "Variable",
+            "description": "The name of the environment variable.",
+            "type": "string",
             "pattern": "^[A-Za-z_][A-Za-z0-9_]*$(?!\\n)",
             "errorMessage": "env: is the name of an environment variable: letters, digits and underscores",
         },
         "file": {
-            "title": "File", "description": "The path of a file, from the folder of this document. One line end at the "
-            "end of its text does not count.", "type": "string",
-            "pattern": "^[^\\r\\n\\x00]*[^ \\t/\\r\\n\\x00]$(?!\\n)", "errorMessage": "file: is the path of a file",
+            "title": "File",
+            "description": "The path of a file, from the folder of this document. One line end at the "
+            "end of its text does not count.",
+            "type": "string",
+            "pattern": "^[^\\r\\n\\x00]*[^ \\t/\\r\\n\\x00]$(?!\\n)",
+            "errorMessage": "file: is the path of a file",
         },
     },
     "additionalProperties": False,
 }
-_REFERENCE_CHOICE = {"type": "object", "defaultSnippets": [
-    {"label": "from the environment", "description": "taken when the component starts", "body": {"env": "${1:NAME}"}},
-    {"label": "from a file", "description": "read when the component starts", "body": {"file": "${1:secrets/name}"}},
-]}
+_REFERENCE_CHOICE = {
+    "type": "object",
+    "defaultSnippets": [
+        {
+            "label": "from the environment",
+            "description": "taken when the component starts",
+            "body": {"env": "${1:NAME}"},
+        },
+        {
+            "label": "from a file",
+            "description": "read when the component starts",
+            "body": {"file": "${1:secrets/name}"},
+        },
+    ],
+}
 
 
 def values_schema(parameters: Parameters, mode: str) -> Schema:
@@ -188,8 +204,7 @@ class _Maker(msgspec.Struct):
             otherwise = {"type": _types(kind, nullable), **limits, **said}
         made: Schema = {"if": {"type": "object"}, "then": {"$ref": "#/definitions/reference"}, "else": otherwise}
         if self.for_editors:
-            made["anyOf"] = [{"enum": limits["enum"]} if "enum" in limits else {"type": kind},
-                             _REFERENCE_CHOICE, {}]
+            made["anyOf"] = [{"enum": limits["enum"]} if "enum" in limits else {"type": kind}, _REFERENCE_CHOICE, {}]
         return made
 
     def limits(self, type_: ScalarType) -> Schema:

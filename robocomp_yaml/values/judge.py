@@ -68,8 +68,9 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 
-def _at(code: Code, node: Node, key: Scalar | None, *, hint: str | Hint = "", fixes: Iterable[Fix] = (),
-        **facts: str) -> Diagnostic:
+def _at(
+    code: Code, node: Node, key: Scalar | None, *, hint: str | Hint = "", fixes: Iterable[Fix] = (), **facts: str
+) -> Diagnostic:
     """At the value; at its key where the value is empty or fills many lines."""
     span = node.span
     empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
@@ -95,7 +96,13 @@ def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diag
         hint = f'text needs quotes here: "{node.lexeme}"'
     wanted = f"{kind_in_words(type_)}{_unit(type_)}"
     return _at(
-        codes.WRONG_TYPE, node, key, path=in_words(path), wanted=wanted, found=shown(node, type_), hint=hint,
+        codes.WRONG_TYPE,
+        node,
+        key,
+        path=in_words(path),
+        wanted=wanted,
+        found=shown(node, type_),
+        hint=hint,
         fixes=_retyped(type_, node),
     )
 
@@ -103,8 +110,12 @@ def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diag
 def _retyped(type_: Type, node: Node) -> tuple[Fix, ...]:
     if not isinstance(node, Scalar) or not isinstance(type_, BasicType) or is_secret(type_):
         return ()
-    wanted = BOOL if type_.name == "bool" else STRING if type_.name == "string" else (
-        INTEGER if type_.is_integer else NUMBER
+    wanted = (
+        BOOL
+        if type_.name == "bool"
+        else STRING
+        if type_.name == "string"
+        else (INTEGER if type_.is_integer else NUMBER)
     )
     return retyped([wanted], node.lexeme, node.data, node.span)
 
@@ -153,7 +164,12 @@ def _enumerated(type_: EnumType, node: Node, path: Path, key: Scalar | None) -> 
         return
     value = HIDDEN if type_.secret else f"'{node.data}'"
     yield _at(
-        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=kind_in_words(type_),
+        codes.OUT_OF_RANGE,
+        node,
+        key,
+        path=in_words(path),
+        value=value,
+        wanted=kind_in_words(type_),
         hint=NO_HINT if type_.secret else did_you_mean(node.data, type_.allowed),
     )
 
@@ -181,9 +197,7 @@ def _basic(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Iter
         yield from _number(type_, value, node, path, key)
 
 
-def _number(
-    type_: BasicType, value: int | float, node: Node, path: Path, key: Scalar | None
-) -> Iterator[Diagnostic]:
+def _number(type_: BasicType, value: int | float, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
     if type_.values:
         if all(value != allowed.value for allowed in type_.values):
             yield _not_allowed(type_, node, path, key)
@@ -197,9 +211,7 @@ def _number(
         wanted = f"from {least} to {most} ({type_.name})"
     if wanted:
         lexeme = HIDDEN if type_.secret else node.lexeme if isinstance(node, Scalar) else str(value)
-        yield _at(
-            codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{_short(lexeme)}{unit}", wanted=wanted
-        )
+        yield _at(codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{_short(lexeme)}{unit}", wanted=wanted)
 
 
 def _not_allowed(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
@@ -209,7 +221,12 @@ def _not_allowed(type_: BasicType, node: Node, path: Path, key: Scalar | None) -
     value = f"{found!r}" if type_.name == "string" and not type_.secret else f"{found}{unit}"
     wanted = f"{one_of(allowed, type_.secret)}{unit}"
     return _at(
-        codes.OUT_OF_RANGE, node, key, path=in_words(path), value=value, wanted=wanted,
+        codes.OUT_OF_RANGE,
+        node,
+        key,
+        path=in_words(path),
+        value=value,
+        wanted=wanted,
         hint=did_you_mean(str(node.data), allowed) if type_.name == "string" and not type_.secret else NO_HINT,
     )
 
@@ -226,7 +243,9 @@ def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar |
             known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
             if known in seen:
                 yield codes.NOT_UNIQUE.at(
-                    item.span, path=in_words(path), value=shown(item, type_.element),
+                    item.span,
+                    path=in_words(path),
+                    value=shown(item, type_.element),
                     fixes=[removal(item.span, safe=False)],
                 )
             seen.add(known)

@@ -105,7 +105,8 @@ def _without_null(data: Any, type_: Type) -> Any:
             return kept
         return {
             name: _without_null(value, _entry_type(type_, name) or type_)
-            for name, value in kept.items() if value is not None
+            for name, value in kept.items()
+            if value is not None
         }
     return data
 

@@ -11,8 +11,16 @@ from math import isfinite
 
 from robocomp_yaml.model.parameters import EnumType, ScalarType
 
-TRUTHS = {"true": True, "True": True, "TRUE": True, "1": True, "false": False, "False": False, "FALSE": False,
-          "0": False}
+TRUTHS = {
+    "true": True,
+    "True": True,
+    "TRUE": True,
+    "1": True,
+    "false": False,
+    "False": False,
+    "FALSE": False,
+    "0": False,
+}
 _WHOLE = r"[-+]?[0-9]{1,40}(?:\.0*)?\Z"
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z"
 

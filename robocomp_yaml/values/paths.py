@@ -55,9 +55,9 @@ def escaped(key: str) -> str:
     if key == "keys":
         return "%6Beys"
     return "".join(
-        char if char.isprintable() and not char.isspace() and char not in ".=%\ufeff" else "".join(
-            f"%{byte:02X}" for byte in char.encode("utf-8", "surrogatepass")
-        )
+        char
+        if char.isprintable() and not char.isspace() and char not in ".=%\ufeff"
+        else "".join(f"%{byte:02X}" for byte in char.encode("utf-8", "surrogatepass"))
         for char in key
     )
 

@@ -128,8 +128,12 @@ def _type(type_: Type, from_text: bool) -> Rules:
             rules = {"type": "list", "schema": _type(element, from_text), **_size(size)}
             return {**rules, "distinct": True} if unique else rules
         case MapType(element=element, size=size):
-            return {"type": "dict", "keysrules": {"type": "string"}, "valuesrules": _type(element, from_text),
-                    **_size(size)}
+            return {
+                "type": "dict",
+                "keysrules": {"type": "string"},
+                "valuesrules": _type(element, from_text),
+                **_size(size),
+            }
         case _:
             return {"type": "dict", "schema": rules_of(type_, from_text=from_text)}
 

@@ -92,14 +92,16 @@ def _record(
             own = step(default, member.name) if default is not None else None
             fallback = own if own is not None else member.default.node if member.default else None
             yield from _value(
-                member.type, data[member.name], given, node_of(fallback), (*path, member.name),
+                member.type,
+                data[member.name],
+                given,
+                node_of(fallback),
+                (*path, member.name),
                 editable or member.editable,
             )
 
 
-def _value(
-    type_: Type, data: Any, where: Where, default: Node | None, path: Path, editable: bool
-) -> Iterator[Value]:
+def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Path, editable: bool) -> Iterator[Value]:
     if isinstance(type_, RecordType) and isinstance(data, dict):
         yield from _record(type_, data, where, default, path, editable)
     elif isinstance(type_, ListType | MapType) and data:

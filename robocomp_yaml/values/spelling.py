@@ -62,8 +62,9 @@ def fault(spelling: Spelling, type_: Type) -> str:
         plain = not (spelling.fields or spelling.columns or spelling.separators or spelling.count or holes)
         return "" if plain else "is for rows, and the parameter is one plain value"
     if isinstance(type_, RecordType):
-        return "is for a list, and the parameter is one record" if holes or spelling.count else _row(
-            spelling, type_, ())
+        return (
+            "is for a list, and the parameter is one record" if holes or spelling.count else _row(spelling, type_, ())
+        )
     element = type_.element
     if spelling.separators:
         return _separated(spelling, type_, holes)

@@ -237,10 +237,19 @@ class Writer(msgspec.Struct):
             self.fault(where, path, f"its row{said} would be read differently")
             return
         if text:
-            yield from self.checked(Property(
-                key, text, span_of(where), lambda other: self.meaning(record, rows.read_row(
-                    record, spelling.columns, other, spelling.separator)), holds_secret(record),
-            ), where, path)
+            yield from self.checked(
+                Property(
+                    key,
+                    text,
+                    span_of(where),
+                    lambda other: self.meaning(
+                        record, rows.read_row(record, spelling.columns, other, spelling.separator)
+                    ),
+                    holds_secret(record),
+                ),
+                where,
+                path,
+            )
 
     def columns(
         self, spelling: Spelling, record: RecordType, item: Any, where: Where, path: Path
@@ -314,10 +323,17 @@ class Writer(msgspec.Struct):
             said = "it" if holds_secret(type_) else f"'{text}'"
             self.fault(where, path, f"its separators cannot say {said}")
         elif text:
-            yield from self.checked(Property(
-                spelling.key, text, span_of(where),
-                lambda other: self.typed(type_, rows.read_parts(type_, other, spelling)), holds_secret(type_),
-            ), where, path)
+            yield from self.checked(
+                Property(
+                    spelling.key,
+                    text,
+                    span_of(where),
+                    lambda other: self.typed(type_, rows.read_parts(type_, other, spelling)),
+                    holds_secret(type_),
+                ),
+                where,
+                path,
+            )
 
     def texts(self, spelling: Spelling, type_: Type, data: Any, where: Where, path: Path) -> Any:
         """Nested lists of texts, a record as the list of its columns; None where one cannot be."""
@@ -327,8 +343,10 @@ class Writer(msgspec.Struct):
         if not isinstance(type_, ListType):
             assert isinstance(type_, BasicType | EnumType)
             return self.text(type_, data, where, path)
-        parts = [self.texts(spelling, type_.element, item, step(where, index), (*path, index))
-                 for index, item in enumerate(data)]
+        parts = [
+            self.texts(spelling, type_.element, item, step(where, index), (*path, index))
+            for index, item in enumerate(data)
+        ]
         return None if any(part is None for part in parts) else parts
 
     def as_read(self, spelling: Spelling, type_: Type, texts: Any) -> Any:

@@ -42,9 +42,7 @@ def load(path: Path) -> Case:
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
-def test_case(
-    path: Path, rcyaml: Callable[..., Result], tmp_path: Path, request: pytest.FixtureRequest
-) -> None:
+def test_case(path: Path, rcyaml: Callable[..., Result], tmp_path: Path, request: pytest.FixtureRequest) -> None:
     case = load(path)
     write_tree(tmp_path, case.files)
     before = {name: (tmp_path / name).read_bytes() for name in case.files if (tmp_path / name).is_file()}

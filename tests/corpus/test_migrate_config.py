@@ -140,7 +140,8 @@ def test_negative_samples_are_refused_or_flagged(repositories: Path, ledger: lis
         "config/robolab__CGR__kinect_parameters.cfg", "config/robolab__CGR__localization_parameters.cfg"
     }  # fmt: skip
     assert {name for name, how in odd.items() if how == "converted"} <= {
-        "config/robolab__CGR__config", "config/robolab__CGR__configRCIS"
+        "config/robolab__CGR__config",
+        "config/robolab__CGR__configRCIS",
     }  # fmt: skip -- these two are good Ice properties
 
 
@@ -149,7 +150,7 @@ def test_nearly_everything_stands_in_its_own_section(ledger: list[dict[str, Any]
     for file in ledger:
         if file["format"] != "config" or not file["outputs"]:
             continue
-        (linked, _), = values(file["outputs"][:1]).values()
+        ((linked, _),) = values(file["outputs"][:1]).values()
         verbatim = linked.document.root.data.get("properties", {})
         for key, value in by_ice(Path(file["source"])).items():
             kind = _kind(key, value)

@@ -159,5 +159,3 @@ def readable_by_others(folder: str) -> list[str]:
     """Everything below a folder into which others may look."""
     paths = [os.path.join(top, name) for top, folders, files in os.walk(folder) for name in (*folders, *files)]
     return [path for path in [folder, *paths] if os.lstat(path).st_mode & 0o077]
-
-

@@ -80,9 +80,7 @@ def test_a_plan_says_field_by_field(robot: Path, rcyaml: Rcyaml) -> None:
     assert said.splitlines()[0] == "~ arm   restart: env SPEED: 2 (new), and 1 more"
     assert said.splitlines()[-1] == "1 to restart, 1 to keep"
     (step,) = (
-        step
-        for step in json.loads(deploy(rcyaml, "plan", "--format", "json").stdout)["plan"]
-        if step["name"] == "arm"
+        step for step in json.loads(deploy(rcyaml, "plan", "--format", "json").stdout)["plan"] if step["name"] == "arm"
     )
     assert step["changes"][0] == {"field": "env SPEED", "old": "", "new": "2", "needs_restart": True}
 
@@ -262,7 +260,7 @@ def test_attached_and_interrupted_while_it_comes_up(robot: Path, place: Place) -
 
 
 def test_attached_it_ends_when_all_have_ended(robot: Path, rcyaml: Rcyaml, place: Place) -> None:
-    write_tree(robot, {"robot.ddsl.yaml": 'deployment: Robot\ncomponents:\n  a: {program: echo, args: [done]}\n'})
+    write_tree(robot, {"robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  a: {program: echo, args: [done]}\n"})
     result = deploy(rcyaml, "up", "--attach")
     assert result.exit_code == 0 and "a | done" in result.stdout
     place.wait_gone()
@@ -323,7 +321,10 @@ def test_a_killed_supervisor_is_reported_once(robot: Path, rcyaml: Rcyaml, place
 
 
 def test_an_address_that_does_not_resolve(robot: Path, rcyaml: Rcyaml) -> None:
-    write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("components:", "hosts: {moon: {address: nowhere.invalid}}\ncomponents:")})
+    write_tree(
+        robot,
+        {"robot.ddsl.yaml": ROBOT.replace("components:", "hosts: {moon: {address: nowhere.invalid}}\ncomponents:")},
+    )
     result = deploy(rcyaml, "up", "--engine", "local")
     assert result.exit_code == 1
     assert "error[RC7008]: 'base' belongs on the host 'moon' (nowhere.invalid)" in result.stderr

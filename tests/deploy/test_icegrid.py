@@ -161,9 +161,7 @@ def test_a_killed_icestorm_is_back_with_its_subscribers(talk: Deployment, ready:
     test_a_topic_crosses_hosts(talk)
 
 
-def test_a_killed_runner_takes_its_component_with_it_and_both_are_back(
-    talk: Deployment, ready: dict[str, int]
-) -> None:
+def test_a_killed_runner_takes_its_component_with_it_and_both_are_back(talk: Deployment, ready: dict[str, int]) -> None:
     runner = int((talk.state / "status" / "speech").read_text().split("|")[1])
     os.kill(runner, signal.SIGKILL)
     until(lambda: talk.pids()["speech"] not in (0, ready["speech"]), lambda: talk.logs())

@@ -111,7 +111,7 @@ def test_a_crash_loop(hosts: Deployment) -> None:
 def test_a_secret_is_nowhere(hosts: Deployment) -> None:
     """Neither one of the environment nor one of the document is in a command, which everybody can see."""
     own = "TOKEN: {env: ROBOT_TOKEN}, PASSWORD: 'swordfish $HOME \\\\ ''q'''"
-    script = "echo $(printf %s $TOKEN | wc -c) $(printf %s \"$PASSWORD\" | wc -c); exec sleep 600"
+    script = 'echo $(printf %s $TOKEN | wc -c) $(printf %s "$PASSWORD" | wc -c); exec sleep 600'
     write_document(hosts, f"bad: {{program: sh, args: [-c, '{script}'], host: arm, env: {{{own}}}}}",
                    f"good: {{program: sh, args: [-c, '{script}'], host: onboard, env: {{{own}}}}}")  # fmt: skip
     said = hosts.deploy("up", code=None)

@@ -140,7 +140,9 @@ def _greets(talk: Deployment) -> None:
 
 def _move(talk: Deployment, old: str, new: str) -> None:
     document = talk.root / "talk.ddsl.yaml"
-    document.write_text(document.read_text().replace(f"components/mouth, host: {old}", f"components/mouth, host: {new}"))
+    document.write_text(
+        document.read_text().replace(f"components/mouth, host: {old}", f"components/mouth, host: {new}")
+    )
 
 
 def _hosts(talk: Deployment) -> dict[str, str]:

@@ -53,7 +53,9 @@ def reached_by_ssh(tmp_path: Path) -> Iterator[Deployment]:
             )
         })  # fmt: skip
         os.makedirs("/run/sshd", exist_ok=True)  # where sshd, run by root, wants to be locked in
-        sshd = subprocess.Popen(["ip", "netns", "exec", f"{hosts.prefix}arm", SSHD, "-D", "-e", "-f", server / "config"])
+        sshd = subprocess.Popen(
+            ["ip", "netns", "exec", f"{hosts.prefix}arm", SSHD, "-D", "-e", "-f", server / "config"]
+        )
         deployment = Deployment(hosts, tmp_path, {"HOME": str(tmp_path / "home"), "SSH_AUTH_SOCK": ""})
         write_tree(tmp_path, {"talk.ddsl.yaml": NETWORK.format(**hosts.addresses)})
         try:

@@ -196,7 +196,9 @@ def test_asked_to_end_it_takes_all_it_started_with_it(runner: Runner) -> None:
 
 
 def test_one_that_does_not_listen_is_killed(runner: Runner) -> None:
-    process = runner.start("=sh", "=-c", "=trap '' TERM; echo deaf; while :; do sleep 0.1; done", RCYAML_STOP_WITHIN="0.3")
+    process = runner.start(
+        "=sh", "=-c", "=trap '' TERM; echo deaf; while :; do sleep 0.1; done", RCYAML_STOP_WITHIN="0.3"
+    )
     until(lambda: "deaf" in runner.log, lambda: runner.log)
     process.terminate()
     assert process.wait(20) == 0
@@ -257,7 +259,16 @@ def test_nothing_of_icegrid_stays_open(runner: Runner) -> None:
     """Else it would take a process for alive as long as something that it started lives."""
     ours, theirs = os.pipe()
     os.set_inheritable(theirs, True)
-    command = ["bash", str(SCRIPT), "arm", str(runner.folder), "=sh", "=-c", "=setsid sleep 600 & exit 0", "--Ice.Config=x"]
+    command = [
+        "bash",
+        str(SCRIPT),
+        "arm",
+        str(runner.folder),
+        "=sh",
+        "=-c",
+        "=setsid sleep 600 & exit 0",
+        "--Ice.Config=x",
+    ]
     process = subprocess.Popen(command, env={**os.environ, "RCYAML_RESTART": ONCE}, pass_fds=[theirs])
     os.close(theirs)
     assert process.wait(20) == 0
@@ -280,5 +291,3 @@ def _is_alive(pid: int) -> bool:
         return "\nState:\tZ" not in Path("/proc", str(pid), "status").read_text()
     except OSError:
         return False
-
-

@@ -160,7 +160,9 @@ class Deployment:
 
     def rcyaml(self, *words: str, code: int | None = 0) -> str:
         """What a command prints, run on the first host; its exit code must be `code`, if that is not None."""
-        done = self.hosts.run("onboard", [sys.executable, "-m", "robocomp_yaml", *words], cwd=self.root, env=self.environment)
+        done = self.hosts.run(
+            "onboard", [sys.executable, "-m", "robocomp_yaml", *words], cwd=self.root, env=self.environment
+        )
         assert code in (None, done.returncode), done.stdout + done.stderr
         return done.stdout + done.stderr
 

@@ -196,9 +196,7 @@ WORKSPACE = [
     ("lint:\n  RC2003: |", ["error", "warning", "note", '"off"']),
 ]
 
-ROWS = [
-    (kind, *row) for kind, rows in (("idsl", IDSL), ("cdsl", CDSL), ("workspace", WORKSPACE)) for row in rows
-]
+ROWS = [(kind, *row) for kind, rows in (("idsl", IDSL), ("cdsl", CDSL), ("workspace", WORKSPACE)) for row in rows]
 
 
 def named(row: object) -> str:

@@ -16,9 +16,32 @@ D = "deployment: A\n"
 E = D + "components:\n  a:\n    component: b\n    "
 P = D + "components:\n  a:\n    program: b\n    "
 IN_ENTRY = [
-    "connect: {…}", "set: {…}", "ready: 10 s", "restart: …", "component", "program", "process", "doc", "host",
-    "executable", "args", "cwd", "env", "port", "ports", "config", "config-as", "connect", "topics", "set", "endpoints",
-    "restart", "ready", "after", "enabled", "instances",
+    "connect: {…}",
+    "set: {…}",
+    "ready: 10 s",
+    "restart: …",
+    "component",
+    "program",
+    "process",
+    "doc",
+    "host",
+    "executable",
+    "args",
+    "cwd",
+    "env",
+    "port",
+    "ports",
+    "config",
+    "config-as",
+    "connect",
+    "topics",
+    "set",
+    "endpoints",
+    "restart",
+    "ready",
+    "after",
+    "enabled",
+    "instances",
 ]
 COMPLETIONS = [
     ("|", ["deployment document", "hosts: …", "services: …", "components: …", "groups: …", "include: […]", "deployment",
@@ -71,47 +94,78 @@ MESSAGES = [
     ("deployment: a b", ["1:13 deployment: is a name: letters, digits, _ and -, not starting with a digit"]),
     (D + "component: {}", ["2:1 Property component is not allowed."]),
     (D + "hosts: {a b: 10.0.0.2}", [f"2:9 {A_NAME}"]),
-    (D + "hosts: {a: [10.0.0.2]}",
-     ["2:12 behind a host's name stands its address, onboard: 10.0.0.2, or more, onboard: {address: 10.0.0.2, "
-      "user: robot}"]),
+    (
+        D + "hosts: {a: [10.0.0.2]}",
+        [
+            "2:12 behind a host's name stands its address, onboard: 10.0.0.2, or more, onboard: {address: 10.0.0.2, "
+            "user: robot}"
+        ],
+    ),
     (D + "hosts: {a: {user: me}}", ["2:9 the key 'address' is missing"]),
     (D + "services: {s: icestorm}", ["2:15 a service is {icestorm: {host: onboard, port: 9999}}"]),
     (D + "services: {s: {icestorm: {port: 0}}}", ["2:33 a port is a whole number from 1 to 65535"]),
-    (D + "components: [a]",
-     ["2:13 components: is a mapping of names to what runs, such as speech: {component: ../speech/speech.cdsl.yaml}"]),
-    (D + "components: {a: b}",
-     ["2:17 an entry is a mapping, such as {component: ../speech/speech.cdsl.yaml, host: onboard}"]),
+    (
+        D + "components: [a]",
+        [
+            "2:13 components: is a mapping of names to what runs, such as speech: {component: ../speech/speech.cdsl.yaml}"
+        ],
+    ),
+    (
+        D + "components: {a: b}",
+        ["2:17 an entry is a mapping, such as {component: ../speech/speech.cdsl.yaml, host: onboard}"],
+    ),
     (D + "components: {a: {host: b}}", ["2:14 the key 'component' is missing (or 'program', or 'process')"]),
     (D + "components: {a: {component: b, program: c}}", [f"2:17 {ONE}"]),
-    (D + "components: {a: {process: b, port: 1}}",
-     ["2:30 a second name of a process has only endpoints:; all else stands with the first"]),
-    (D + "components: {a: {program: b, set: {c: 1}}}",
-     ["2:30 this is for a component; a program has args:, config: and endpoints:"]),
+    (
+        D + "components: {a: {process: b, port: 1}}",
+        ["2:30 a second name of a process has only endpoints:; all else stands with the first"],
+    ),
+    (
+        D + "components: {a: {program: b, set: {c: 1}}}",
+        ["2:30 this is for a component; a program has args:, config: and endpoints:"],
+    ),
     (E + "prot: 1", ["5:5 Property prot is not allowed."]),
     (E + "port: 70000", ["5:11 a port is a whole number from 1 to 65535"]),
-    (E + "ports: 10001",
-     ["5:12 ports: is a mapping of interfaces to ports, such as {Speech: 10001, CommonBehavior: 10002}"]),
+    (
+        E + "ports: 10001",
+        ["5:12 ports: is a mapping of interfaces to ports, such as {Speech: 10001, CommonBehavior: 10002}"],
+    ),
     (E + "args: -f", ['5:11 args: is a list of texts, such as [simulation.xml, -f, "100"]']),
-    (E + "connect: {A: [b]}",
-     ['5:18 a connection leads to an entry, such as mouth or mouth.Mouth, or to a proxy in quotes, such as '
-      '"mouth:tcp -h 10.0.0.9 -p 10002"']),
+    (
+        E + "connect: {A: [b]}",
+        [
+            "5:18 a connection leads to an entry, such as mouth or mouth.Mouth, or to a proxy in quotes, such as "
+            '"mouth:tcp -h 10.0.0.9 -p 10002"'
+        ],
+    ),
     (E + "restart: no", []),
-    (E + "restart: sometimes",
-     ["5:14 restart: is no, on-failure or always, or a mapping, such as {policy: on-failure, delay: 1 s, tries: 5, "
-      "within: 1 min}"]),
-    (E + "ready: 10 sec",
-     ["5:12 ready: is a time, such as 10 s, or says how to tell: {port: 10003, within: 10 s}, {command: […]} or "
-      "{log: …}"]),
+    (
+        E + "restart: sometimes",
+        [
+            "5:14 restart: is no, on-failure or always, or a mapping, such as {policy: on-failure, delay: 1 s, tries: 5, "
+            "within: 1 min}"
+        ],
+    ),
+    (
+        E + "ready: 10 sec",
+        [
+            "5:12 ready: is a time, such as 10 s, or says how to tell: {port: 10003, within: 10 s}, {command: […]} or "
+            "{log: …}"
+        ],
+    ),
     (E + "ready: {within: soon}", [f"5:21 {TIME}"]),
     (E + "instances: 0", ["5:16 instances: is a whole number from 1 to 10000"]),
     (E + "enabled: yes", ["5:14 enabled: is true or false"]),
-    (D + "groups: {a: [b]}",
-     ["2:13 a group is a mapping, such as {components: [speech, mouth], as: face.cdsl.yaml}"]),
+    (D + "groups: {a: [b]}", ["2:13 a group is a mapping, such as {components: [speech, mouth], as: face.cdsl.yaml}"]),
     (D + "groups: {a: {components: [b], expose: {C: {rate: 1}}}}", ["2:40 the key 'member' is missing"]),
-    (D + "groups: {a: {components: [b], expose: {C: {member: b, rate: 0}}}}",
-     ["2:61 rate: is a number of calls a second, above 0"]),
-    (D + "include: arm",
-     ["2:10 include: is a list of deployments, [arm.ddsl.yaml], or a mapping with names, {left: arm.ddsl.yaml}"]),
+    (
+        D + "groups: {a: {components: [b], expose: {C: {member: b, rate: 0}}}}",
+        ["2:61 rate: is a number of calls a second, above 0"],
+    ),
+    (
+        D + "include: arm",
+        ["2:10 include: is a list of deployments, [arm.ddsl.yaml], or a mapping with names, {left: arm.ddsl.yaml}"],
+    ),
 ]
 HOVERS = [
     ("deploy|ment: A", "Deployment"),
@@ -222,9 +276,7 @@ def texts() -> dict[str, set[str]]:
 
 
 @pytest.mark.parametrize(("text", "title"), HOVERS, ids=lambda value: repr(value))
-def test_the_construct_explains_itself(
-    editor: Workbench, texts: dict[str, set[str]], text: str, title: str
-) -> None:
+def test_the_construct_explains_itself(editor: Workbench, texts: dict[str, set[str]], text: str, title: str) -> None:
     shown = editor.hover("ddsl", text)
     [expected] = texts[title]
     assert shown.startswith(f"#### {title}\n\n{expected}\n"), shown

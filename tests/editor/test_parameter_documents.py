@@ -16,8 +16,22 @@ BASIC = ["bool", "int", "long", "float", "double", "string"]
 IN_MEMBER = ["doc", "type", "list", "map", "range", "values", "pattern", "size", "unique", "unit", "default", "optional",
              "secret", "as"]  # fmt: skip
 COMPLETIONS = [
-    ("|", ["parameters document", "types: …", "parameters: …", "constraints: …", "legacy: …", "component", "doc",
-           "types", "parameters", "constraints", "legacy"]),
+    (
+        "|",
+        [
+            "parameters document",
+            "types: …",
+            "parameters: …",
+            "constraints: …",
+            "legacy: …",
+            "component",
+            "doc",
+            "types",
+            "parameters",
+            "constraints",
+            "legacy",
+        ],
+    ),
     ("parameters: |", ["number", "text", "list of records"]),
     (P + "  |", ["number", "text", "list of records"]),
     (P + "  a: |", [*BASIC, *FORMS, "group"]),
@@ -38,9 +52,17 @@ COMPLETIONS = [
 ]
 MESSAGES = [
     (P + "  a: {type: int, rnge: [0, 1]}", ["2:18 Property rnge is not allowed."]),
-    (P + "  a: 3", ["2:6 a parameter is a type, such as float or Motor, or a mapping, such as {type: float, range: [0, 2], "
-     "default: 0.9}"]),
-    (P + "  a: {type: int, range: 3}", ["2:25 range: is [smallest, largest], or a mapping of from or above, and to or below"]),
+    (
+        P + "  a: 3",
+        [
+            "2:6 a parameter is a type, such as float or Motor, or a mapping, such as {type: float, range: [0, 2], "
+            "default: 0.9}"
+        ],
+    ),
+    (
+        P + "  a: {type: int, range: 3}",
+        ["2:25 range: is [smallest, largest], or a mapping of from or above, and to or below"],
+    ),
     (P + "  a: {type: int, size: -1}", ["2:24 a size is a whole number, from 0"]),
     ("doc: x", ["1:1 the key 'parameters' is missing"]),
 ]
@@ -72,7 +94,9 @@ def test_one_message_for_each_fault(editor: Workbench) -> None:
 @pytest.fixture(scope="module")
 def modeline(editor: Workbench, tmp_path_factory: pytest.TempPathFactory) -> str:
     """The first line of values of a component, whose schema stands in the editor's workspace."""
-    folder = write_tree(tmp_path_factory.mktemp("c"), {"c.cdsl.yaml": "component: C\nlanguage: cpp\n", "c.pdsl.yaml": PDSL})
+    folder = write_tree(
+        tmp_path_factory.mktemp("c"), {"c.cdsl.yaml": "component: C\nlanguage: cpp\n", "c.pdsl.yaml": PDSL}
+    )
     program = analyse([str(folder)]).program
     made = {plan.path: plan.text for plan in schemas(next(iter(program.components.values())))}
     write_tree(editor.folder, {"documents/c/" + SCHEMA: made[SCHEMA]})

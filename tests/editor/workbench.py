@@ -16,7 +16,11 @@ from editor.yaml_language_server import LanguageServer
 from robocomp_yaml.link import workspace_files
 
 SUFFIX = {
-    "idsl": ".idsl.yaml", "cdsl": ".cdsl.yaml", "pdsl": ".pdsl.yaml", "ddsl": ".ddsl.yaml", "config": ".config.yaml",
+    "idsl": ".idsl.yaml",
+    "cdsl": ".cdsl.yaml",
+    "pdsl": ".pdsl.yaml",
+    "ddsl": ".ddsl.yaml",
+    "config": ".config.yaml",
     "workspace": "/rcyaml.yaml",
 }
 
@@ -65,7 +69,9 @@ class Workbench:
         All are opened at once, since the server waits a while before it looks at a document.
         """
         paths = [self._document(kind) for _ in texts]
-        return self.marked((path, self._with_modeline(kind, path, text)) for path, text in zip(paths, texts, strict=True))
+        return self.marked(
+            (path, self._with_modeline(kind, path, text)) for path, text in zip(paths, texts, strict=True)
+        )
 
     def marked(self, documents: Iterable[tuple[Path, str]]) -> list[list[str]]:
         """The same for whole documents, first line and all."""

@@ -7,14 +7,29 @@ from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.page import Repeated
 
 LARGE = 20_000
-LEGACY = (".idsl", ".ice", ".cdsl", ".smdsl", ".jcdsl", ".pdsl", ".pconf", ".conf", ".toml", ".xml", ".launcher", "config")
+LEGACY = (
+    ".idsl",
+    ".ice",
+    ".cdsl",
+    ".smdsl",
+    ".jcdsl",
+    ".pdsl",
+    ".pconf",
+    ".conf",
+    ".toml",
+    ".xml",
+    ".launcher",
+    "config",
+)
 
 
 def _trees() -> list[tuple[str, Tree]]:
     found: list[tuple[str, Tree]] = []
     for row in table().values():
         for files in (row.wrong, row.right):
-            large = any(isinstance(text, Repeated) or (text is not None and len(text) > LARGE) for text in files.values())
+            large = any(
+                isinstance(text, Repeated) or (text is not None and len(text) > LARGE) for text in files.values()
+            )
             if not large and not any(isinstance(text, str) and text.startswith("-> ") for text in files.values()):
                 found.append((row.command, files))  # type: ignore[arg-type]
     return found
@@ -26,6 +41,8 @@ def _editor() -> Tree:
 
 
 DOCUMENTS: list[Tree] = [
-    files for command, files in _trees() if not command.startswith("migrate") and any(n.endswith(".yaml") for n in files)
+    files
+    for command, files in _trees()
+    if not command.startswith("migrate") and any(n.endswith(".yaml") for n in files)
 ] + [_editor()]
 LEGACY_FILES: list[Tree] = [files for command, files in _trees() if command.startswith("migrate")]

@@ -22,7 +22,9 @@ from robocomp_yaml.cli import group
 
 def examples(count: int, times: int = 10) -> settings:
     """So many examples as a part of all tests, and so many times as many when new ones are looked for."""
-    return settings(max_examples=count * times if FUZZING else count, deadline=None, suppress_health_check=list(HealthCheck))
+    return settings(
+        max_examples=count * times if FUZZING else count, deadline=None, suppress_health_check=list(HealthCheck)
+    )
 
 
 @contextmanager

@@ -41,7 +41,7 @@ ROBOT: Tree = {
         'Period = {Compute = 100}\n[Endpoints]\nMouth = "tcp -p 10003"\n[Group]\nvalues = [1, 2.5, 3]\nname = "x"\n'
         'motors = [{name = "a", id = 1}, {name = "b", id = 2}]\n'
     ),
-    "old/speech.pdsl": "ComponentParams Speech{\n  volume int 5 0:10;\n  device string \"a\" ;\n}\n",
+    "old/speech.pdsl": 'ComponentParams Speech{\n  volume int 5 0:10;\n  device string "a" ;\n}\n',
     "old/speech.pconf": 'import "speech.pdsl";\nConfigFile Speech{\n  volume = 3\n}\n',
     "java/thing.jcdsl": (
         'import "Mouth.idsl";\nComponent ThingComp\n{\n    Communications\n    {\n        implements Mouth;\n    };\n'

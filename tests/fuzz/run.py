@@ -29,7 +29,9 @@ _PASSED = re.compile(r"\b(\d+) passed")
 
 def harnesses(words: list[str]) -> list[Path]:
     """Every test file that asks Hypothesis for examples; ours first."""
-    found = [path for path in sorted((ROOT / "tests").rglob("test_*.py")) if "@given" in path.read_text(encoding="utf-8")]
+    found = [
+        path for path in sorted((ROOT / "tests").rglob("test_*.py")) if "@given" in path.read_text(encoding="utf-8")
+    ]
     found = [path for path in found if not words or any(word in path.name for word in words)]
     return sorted(found, key=lambda path: path.parent != ROOT / "tests" / "fuzz")
 
@@ -99,7 +101,10 @@ class Run:
                 log = FOUND / f"{re.sub(r'[^A-Za-z0-9_]+', '-', test)}.txt"
                 log.parent.mkdir(exist_ok=True)
                 log.write_text(output, encoding="utf-8", errors="backslashreplace")
-                self.finds[test] = (f"RCYAML_FUZZ=1 {sys.executable} -m pytest '{test}' -n 0 --hypothesis-seed={seed}", log)
+                self.finds[test] = (
+                    f"RCYAML_FUZZ=1 {sys.executable} -m pytest '{test}' -n 0 --hypothesis-seed={seed}",
+                    log,
+                )
                 print(f"           found: {test}: {why}", flush=True)
 
 

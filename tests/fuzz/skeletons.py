@@ -182,7 +182,7 @@ def of_unit(text: str) -> Any:
     return found
 
 
-_WORD = re.compile(r'''\s*(?:"((?:\\.|[^"\\])*)"|((?:\\.|[^\s"\\])+))(?=\s|\Z)''', re.DOTALL)
+_WORD = re.compile(r"""\s*(?:"((?:\\.|[^"\\])*)"|((?:\\.|[^\s"\\])+))(?=\s|\Z)""", re.DOTALL)
 _ESCAPE = re.compile(r"\\(x[0-9a-fA-F]{2}|u[0-9a-fA-F]{4}|U[0-9a-fA-F]{8}|[0-7]{3}|.)", re.DOTALL)
 _SIMPLE = {"n": "\n", "t": "\t", "r": "\r", "s": " ", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
 

@@ -46,7 +46,9 @@ def _replaced(draw: st.DrawFn, data: Any) -> Any:
             case "remove":
                 return {name: value for name, value in data.items() if name != key}
             case "rename":
-                to = draw(st.text(max_size=4) | st.sampled_from(("x-a", "doc", "type", "{i}", "a-b", "é", "class", "..")))
+                to = draw(
+                    st.text(max_size=4) | st.sampled_from(("x-a", "doc", "type", "{i}", "a-b", "é", "class", ".."))
+                )
                 return {to if name == key else name: value for name, value in data.items()}
         return {**data, draw(st.text(max_size=3)): draw(JUNK)}
     if isinstance(data, list) and data and draw(st.integers(0, 4)):

@@ -18,7 +18,20 @@ ALLOW = (
     "# rcyaml: allow RC1104 -- so\n", "  # rcyaml: allow RC2103, RC2007\n", " # rcyaml: allow RC2003 -- x", "# rcyaml:",
     " # rcyaml: allow", "# rcyaml allow RC1006 ", " #rcyaml:allow,rc0060,,RC9999 -- ", "# rcyaml: allow RC0063 RC0062 so\n",
 )  # fmt: skip
-FAULTS = ("Module", "Imports", "Speach", "@", "yes", "strng", "'5'", "5", "Speech, Speech", "implement", "doc: a: b\n", "true")
+FAULTS = (
+    "Module",
+    "Imports",
+    "Speach",
+    "@",
+    "yes",
+    "strng",
+    "'5'",
+    "5",
+    "Speech, Speech",
+    "implement",
+    "doc: a: b\n",
+    "true",
+)
 
 
 TREES = [files for files in DOCUMENTS if any(isinstance(text, str) for text in files.values())]
@@ -38,7 +51,11 @@ def comments(path: Path) -> int:
 
 def levels(found: list[dict[str, object]]) -> set[object]:
     """The documents that could not be understood as they stand."""
-    return {each["file"] for each in found if str(each["code"])[:4] in ("RC00", "RC01", "RC02") and each["severity"] == "error"}
+    return {
+        each["file"]
+        for each in found
+        if str(each["code"])[:4] in ("RC00", "RC01", "RC02") and each["severity"] == "error"
+    }
 
 
 @example({"M.idsl.yaml": "module: M  # rcyaml: allow RC1006 -- x\r# a\rimports: [M, M]\r"})

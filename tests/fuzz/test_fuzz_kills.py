@@ -61,7 +61,11 @@ def touches(folder: Path, then: Then) -> None:
     def hook(event: str, args: tuple[Any, ...]) -> None:
         nonlocal count
         is_open = event == "open" and isinstance(args[2], int) and args[2] & WRITES
-        if (is_open or event in TOUCHES) and not isinstance(args[0], int) and os.path.abspath(os.fsdecode(args[0])).startswith(str(folder)):
+        if (
+            (is_open or event in TOUCHES)
+            and not isinstance(args[0], int)
+            and os.path.abspath(os.fsdecode(args[0])).startswith(str(folder))
+        ):
             count += 1
             then(count, event)
 

@@ -32,7 +32,12 @@ def test_a_find_is_told_with_the_way_to_see_it_again(
     made = run.Run([], time.monotonic())
     name = Path("tests/fuzz/test_x.py")
     made.tell(name, 1, "2 passed in 1.00s", 0)
-    made.tell(name, 2, "E  it is so\nFAILED tests/fuzz/test_x.py::test_y - AssertionError: it\n1 failed, 1 passed in 1.0s\n", 1)
+    made.tell(
+        name,
+        2,
+        "E  it is so\nFAILED tests/fuzz/test_x.py::test_y - AssertionError: it\n1 failed, 1 passed in 1.0s\n",
+        1,
+    )
     made.tell(name, 3, "FAILED tests/fuzz/test_x.py::test_y - AssertionError: it again\n", 1)
     made.tell(name, 4, "Interrupted", 2)
     made.tell(name, 5, "Segmentation fault", -11)
@@ -43,5 +48,7 @@ def test_a_find_is_told_with_the_way_to_see_it_again(
 
 
 def test_no_file_of_that_name() -> None:
-    done = subprocess.run([sys.executable, "tests/fuzz/run.py", "nothing-like-it"], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "tests/fuzz/run.py", "nothing-like-it"], cwd=ROOT, capture_output=True, text=True
+    )
     assert done.returncode == 2 and "no test file" in done.stderr

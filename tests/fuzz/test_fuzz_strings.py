@@ -61,7 +61,8 @@ def documents(texts: Texts) -> dict[str, bytes]:
     def made(name: str, node: Any, steps: tuple[str | int, ...]) -> Any:
         if isinstance(node, dict):
             return {
-                texts.get((name, (*steps, key, "")), key): made(name, value, (*steps, key)) for key, value in node.items()
+                texts.get((name, (*steps, key, "")), key): made(name, value, (*steps, key))
+                for key, value in node.items()
             }
         if isinstance(node, list):
             return [made(name, value, (*steps, at)) for at, value in enumerate(node)]
@@ -118,9 +119,12 @@ def refused(errors: list[dict[str, Any]], written: dict[str, bytes], texts: Text
     for error in errors:
         root, _ = parse(error["file"], written[error["file"]].decode("utf-8", "replace"))
         steps = tuple(_steps(root, (error["line"], error["column"])))
-        inner = [place for place in texts if place[0] == error["file"] and (
-            steps[: len(place[1])] == place[1] or place[1][: len(steps)] == steps or place[1][:-1] == steps
-        )]
+        inner = [
+            place
+            for place in texts
+            if place[0] == error["file"]
+            and (steps[: len(place[1])] == place[1] or place[1][: len(steps)] == steps or place[1][:-1] == steps)
+        ]
         found.update(inner or texts)  # it may follow from any of them
     return found
 

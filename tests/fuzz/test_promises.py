@@ -31,7 +31,16 @@ VICTIM: Tree = {
 EVIL = "open('EXECUTED', 'w').write('x')"
 PYTHON = "import os\nopen(os.path.join(os.path.dirname(__file__), 'EXECUTED'), 'w').write('x')\n"
 JOURNAL = {
-    "marks": [{"path": "../victim/mine.py", "new": "", "old": "../victim/.rcyaml-1-1.old", "orig": "", "hash": "", "created": True}],
+    "marks": [
+        {
+            "path": "../victim/mine.py",
+            "new": "",
+            "old": "../victim/.rcyaml-1-1.old",
+            "orig": "",
+            "hash": "",
+            "created": True,
+        }
+    ],
     "folders": ["../victim/etc"],
 }
 MANIFEST = {"version": 1, "files": {name: {"hash": "0", "owners": ["gone.cdsl.yaml"]} for name in
@@ -104,7 +113,9 @@ def watched(lines: tuple[str, ...], robot: Path) -> dict[str, Any]:
         "PYTHONDONTWRITEBYTECODE": "1", "TMPDIR": str(robot.parent / "tmp"),
     }  # fmt: skip
     script = str(Path(__file__).with_name("watched.py"))
-    done = subprocess.run([sys.executable, script, *lines], cwd=robot, env=environment, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [sys.executable, script, *lines], cwd=robot, env=environment, capture_output=True, text=True, timeout=120
+    )
     assert report.is_file(), done.stderr
     found: dict[str, Any] = json.loads(report.read_text())
     report.unlink()

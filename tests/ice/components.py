@@ -49,7 +49,9 @@ def build(documents: Mapping[str, str], folder: Path, *search: Path) -> dict[str
     for linked in analysis.program.components.values():
         component = linked.component
         root = Path(component.path).parent
-        files = [(file.path, file.text, file.executable) for file in component.language.target.part("plan").plan(linked)]
+        files = [
+            (file.path, file.text, file.executable) for file in component.language.target.part("plan").plan(linked)
+        ]
         files += [(f"slice/{slice_target.file_name(m)}", slice_target.text(m), False) for m in linked.modules()]
         files.append(("slice/CommonBehavior.ice", resources.text("templates/slice/CommonBehavior.ice"), False))
         for path, text, executable in files:

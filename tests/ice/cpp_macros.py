@@ -80,7 +80,9 @@ def found_globals() -> set[str]:
         words = {word for word in words if _can_be_named(word)}
         asked = "".join(f'#line 1 "@{word}"\nnamespace {word} {{ struct Of; }}\n' for word in sorted(words))
         flags = [f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-fsyntax-only", "-fmax-errors=0"]
-        said = subprocess.run(["g++", *flags, "-x", "c++", "-"], input=source + asked, capture_output=True, text=True).stderr
+        said = subprocess.run(
+            ["g++", *flags, "-x", "c++", "-"], input=source + asked, capture_output=True, text=True
+        ).stderr
         names |= set(re.findall(r"^@(\w+):\d+:\d+: error", said, re.MULTILINE))
     return names
 

@@ -64,8 +64,10 @@ FAST = (
 def cmake(root: Path, *options: str) -> None:
     """Configures and builds; any warning fails."""
     folder = str(root / "build")
-    for command in (["cmake", "-S", str(root), "-B", folder, "-DCMAKE_CXX_FLAGS=-Werror", *options],
-                    ["cmake", "--build", folder, "-j", str(1 if "PYTEST_XDIST_WORKER" in os.environ else 2)]):
+    for command in (
+        ["cmake", "-S", str(root), "-B", folder, "-DCMAKE_CXX_FLAGS=-Werror", *options],
+        ["cmake", "--build", folder, "-j", str(1 if "PYTEST_XDIST_WORKER" in os.environ else 2)],
+    ):
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, f"{' '.join(command)}\n{done.stdout}\n{done.stderr}"
 

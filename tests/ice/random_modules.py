@@ -152,9 +152,7 @@ class Maker:
             type_, value = TypeRef("int"), Literal(7, "7")
         return Constant(name, type_, value, self.doc())
 
-    def methods(
-        self, types: tuple[TypeDefinition, ...], exceptions: tuple[ExceptionType, ...]
-    ) -> tuple[Method, ...]:
+    def methods(self, types: tuple[TypeDefinition, ...], exceptions: tuple[ExceptionType, ...]) -> tuple[Method, ...]:
         made = []
         for name in self.names(self.random.randint(0, 5)):
             parameters = [Member(n, self.type(types), self.doc()) for n in self.names(self.random.randint(0, 5))]

@@ -23,7 +23,7 @@ MACHINE = """\
 """
 EXPECTED = ["initialize", "turn 1", "turn 2", "turn 3", "resting", "still", "moving", "finalize"]
 
-PYTHON = '''
+PYTHON = """
 import threading
 
 from genericworker import *
@@ -86,7 +86,7 @@ class SpecificWorker(GenericWorker):
     @QtCore.Slot()
     def sm_finalize(self):
         self.say("finalize")
-'''
+"""
 
 HEADER = """
 #ifndef SPECIFICWORKER_H

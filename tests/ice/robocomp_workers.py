@@ -71,7 +71,7 @@ class SpecificWorker(GenericWorker):
         return image[::-1]
 '''
 
-SERVER_2020 = '''
+SERVER_2020 = """
 import sys, os, traceback, time
 from PySide2 import QtCore
 from PySide2.QtCore import QMutex, QMutexLocker
@@ -133,9 +133,9 @@ class SpecificWorker(GenericWorker):
 
 	def Hand_grasp(self, image):
 		return image[::-1]
-'''
+"""
 
-CLIENT_2025 = '''
+CLIENT_2025 = """
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 from genericworker import *
@@ -180,4 +180,4 @@ class SpecificWorker(GenericWorker):
 
     def ArmEvents_count(self, n):
         self.counts.append(n)
-'''
+"""

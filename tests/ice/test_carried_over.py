@@ -25,7 +25,7 @@ Component EchoComp
     language python;
 };
 """
-WORKER = '''
+WORKER = """
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 from genericworker import *
@@ -49,7 +49,7 @@ class SpecificWorker(GenericWorker):
 
     def Echo_say(self, text):
         return [text + "!", len(text)]
-'''
+"""
 STALE = "raise SystemExit('what RoboComp generated is of no use here')\n"
 
 

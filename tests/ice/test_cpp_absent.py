@@ -100,9 +100,7 @@ def test_it_does_not_mind(client: Program, start: Start, served: str, nobody: st
         ("arm", "it has no endpoint, and there is no locator to ask"),
     ],
 )
-def test_why_it_is_absent(
-    client: Program, start: Start, served: str, tmp_path: Path, address: str, why: str
-) -> None:
+def test_why_it_is_absent(client: Program, start: Start, served: str, tmp_path: Path, address: str, why: str) -> None:
     text = address.format(endpoint=served.partition(":")[2])
     failing = start(client.command(tmp_path, proxies(served, Arm2=text)))
     assert failing.exit_code() == 1

@@ -45,7 +45,9 @@ def test_from_the_command_line_on(rcyaml: Callable[..., Result], tmp_path: Path,
     more = subprocess.run(["cmake", "--build", "build"], cwd=root, capture_output=True, text=True, check=True)
     assert more.stdout.count("Building CXX") == 1 and "more.cpp" in more.stdout
 
-    assert rcyaml("compile", "a component", "-I", ".", "--check").exit_code == 0, "what is built is no concern of rcyaml"
+    assert rcyaml("compile", "a component", "-I", ".", "--check").exit_code == 0, (
+        "what is built is no concern of rcyaml"
+    )
 
 
 def test_ice_is_missing(tmp_path: Path) -> None:

@@ -20,7 +20,10 @@ class Addresses:
 
     def __init__(self, free_port: Ports) -> None:
         arm, hand = free_port(), free_port()
-        self.endpoints = {"Arm.Endpoints": f"tcp -h 127.0.0.1 -p {arm}", "Hand.Endpoints": f"tcp -h 127.0.0.1 -p {hand}"}
+        self.endpoints = {
+            "Arm.Endpoints": f"tcp -h 127.0.0.1 -p {arm}",
+            "Hand.Endpoints": f"tcp -h 127.0.0.1 -p {hand}",
+        }
         to_arm = f"arm:tcp -h 127.0.0.1 -p {arm}"
         self.proxies = {"ArmProxy": to_arm, "Arm2Proxy": to_arm, "LateProxy": to_arm}
         self.proxies["HandProxy"] = f"hand:tcp -h 127.0.0.1 -p {hand}"

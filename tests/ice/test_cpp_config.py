@@ -108,9 +108,7 @@ def test_a_missing_proxy(programs: Programs, start: Start, tmp_path: Path) -> No
 
 def test_no_topic_manager(programs: Programs, start: Start, tmp_path: Path) -> None:
     write(tmp_path, "Other = 1\n")
-    message = (
-        "IceStorm's topic manager is not configured: set TopicManager.Proxy or Proxies.TopicManager in my.config"
-    )
+    message = "IceStorm's topic manager is not configured: set TopicManager.Proxy or Proxies.TopicManager in my.config"
     assert fails(start, programs("Radio"), tmp_path, "my.config") == message
 
 
@@ -146,9 +144,7 @@ def test_a_wrong_period(server: Program, start: Start, tmp_path: Path, wrong: st
     assert fails(start, server, tmp_path, "my.config") == f"my.config: period.compute {said}"
 
 
-def test_bytes_that_are_no_text(
-    server: Program, start: Start, endpoints: dict[str, str], tmp_path: Path
-) -> None:
+def test_bytes_that_are_no_text(server: Program, start: Start, endpoints: dict[str, str], tmp_path: Path) -> None:
     """In a comment they do not matter; nor do a BOM and CRLF."""
     write(tmp_path, b"# \xe1rbol\nArm.Endpoints = tcp -p \xff\xfe\n")
     assert fails(start, server, tmp_path, "my.config") == "my.config:2: this line is not in UTF-8"

@@ -47,7 +47,9 @@ def component(linked: LinkedModule) -> LinkedComponent:
     """Implements, requires, publishes and subscribes all that the module defines."""
     ports = tuple(Port(Use(i.name, i.name), i, linked) for i in linked.module.all_interfaces)
     topics = tuple(port for port in ports if any(m.can_be_published for m in port.interface.methods))
-    return LinkedComponent(Component("Sample", "sample.cdsl.yaml", Language("cpp")), [linked], ports, ports, topics, topics)
+    return LinkedComponent(
+        Component("Sample", "sample.cdsl.yaml", Language("cpp")), [linked], ports, ports, topics, topics
+    )
 
 
 def compile_slice(modules: list[LinkedModule], folder: Path) -> None:
@@ -76,7 +78,9 @@ def operations(header: str, own: str) -> Iterator[str]:
 
 
 @needs_corpus
-@pytest.mark.skipif(shutil.which("slice2cpp") is None, reason="slice2cpp is not installed (Debian: zeroc-ice-compilers)")
+@pytest.mark.skipif(
+    shutil.which("slice2cpp") is None, reason="slice2cpp is not installed (Debian: zeroc-ice-compilers)"
+)
 def test_every_operation_is_declared_as_ice_declares_it(modules: list[LinkedModule], tmp_path: Path) -> None:
     compile_slice(modules, tmp_path)
     checked = 0

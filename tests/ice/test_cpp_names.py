@@ -27,7 +27,9 @@ OTHERS = """
 NAMES = sorted(name for name in {*ICE_ESCAPES, *OTHERS} - SLICE - {"union"} if not name.endswith("_"))
 
 
-@pytest.mark.skipif(shutil.which("slice2cpp") is None, reason="slice2cpp is not installed (Debian: zeroc-ice-compilers)")
+@pytest.mark.skipif(
+    shutil.which("slice2cpp") is None, reason="slice2cpp is not installed (Debian: zeroc-ice-compilers)"
+)
 def test_what_ice_escapes(tmp_path: Path) -> None:
     names = sorted({*ICE_ESCAPES, *OTHERS})
     members = "".join(f"int \\{name};\n" for name in names if not name.endswith("_"))
@@ -80,13 +82,12 @@ subscribes: [goto]
 }
 
 BODIES = "".join(
-    f'std::string SpecificWorker::union_{name}(int number, const std::string& x)\n{{\n'
+    f"std::string SpecificWorker::union_{name}(int number, const std::string& x)\n{{\n"
     f'    return "{name} " + std::to_string(number) + " " + x;\n}}\n'
     for name in NAMES
 )
 CALLS = "".join(
-    f'    said = this_proxy->{ice_name(name)}(7, "n");\n'
-    f'    complain(said == "{name} 7 n", "{name}: " + said);\n'
+    f'    said = this_proxy->{ice_name(name)}(7, "n");\n    complain(said == "{name} 7 n", "{name}: " + said);\n'
     for name in NAMES
 )
 WORKER = f"""

@@ -71,7 +71,9 @@ def port(free_port: Ports) -> int:
 def turns(programs: Programs, port: int, tmp_path: Path) -> list[str | Path]:
     """The command that starts a component whose worker says when it has a turn."""
     endpoint = f"tcp -h 127.0.0.1 -p {port}"
-    return programs("Turns").command(tmp_path, {"CommonBehavior.Endpoints": endpoint, "Ice.Warn.Connections": 0, "a": 1})
+    return programs("Turns").command(
+        tmp_path, {"CommonBehavior.Endpoints": endpoint, "Ice.Warn.Connections": 0, "a": 1}
+    )
 
 
 def rows(running: Running) -> list[tuple[int, int]]:

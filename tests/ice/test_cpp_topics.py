@@ -35,8 +35,13 @@ DEAF_TO_ITSELF = {"Proxies.ArmEventsPubPrefix": "elsewhere"}
     ids=["renamed", "endpoint", "prefixed"],
 )
 def test_events_arrive_in_order(
-    radio: Program, start: Start, icestorm: Storm, tmp_path: Path,
-    for_both: dict[str, str], for_first: dict[str, str], for_second: dict[str, str],
+    radio: Program,
+    start: Start,
+    icestorm: Storm,
+    tmp_path: Path,
+    for_both: dict[str, str],
+    for_first: dict[str, str],
+    for_second: dict[str, str],
 ) -> None:
     manager = {"TopicManager.Proxy": icestorm.manager, **for_both}
     first = start(radio.command(tmp_path, {**manager, **DEAF_TO_ITSELF, **for_first})).wait_for("Radio is running")

@@ -20,7 +20,10 @@ def demo(folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
     for name in ("examples", "tools", "templates"):
         shutil.copytree(ROOT / name, folder / name)
     return subprocess.run(
-        [sys.executable, folder / "examples" / "demo.py"], env={**os.environ, **variables}, capture_output=True, text=True
+        [sys.executable, folder / "examples" / "demo.py"],
+        env={**os.environ, **variables},
+        capture_output=True,
+        text=True,
     )
 
 
@@ -55,7 +58,9 @@ def test_a_call_of_nobody_says_so(tmp_path: Path) -> None:
     early = called("speech:tcp -h 127.0.0.1 -p 9", "Hello")
     assert (early.returncode, early.stdout) == (1, "") and "talkinghead is not compiled" in early.stderr
     for command in ("migrate", "compile"):
-        subprocess.run([sys.executable, "-m", "robocomp_yaml", "-q", command, "examples/talkinghead"], cwd=tmp_path, check=True)
+        subprocess.run(
+            [sys.executable, "-m", "robocomp_yaml", "-q", command, "examples/talkinghead"], cwd=tmp_path, check=True
+        )
     nobody = called("speech:tcp -h 127.0.0.1 -p 9", "Hello")
     assert nobody.returncode == 1
     assert nobody.stderr == "say.py: nobody answers at 'speech:tcp -h 127.0.0.1 -p 9': Connection refused\n"

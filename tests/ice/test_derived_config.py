@@ -43,8 +43,10 @@ def loaded(process: Process, folder: Path) -> Ice.Properties:
 
 @settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
-    hosts=st.sampled_from(HOSTS), config=st.sampled_from(["values", "flat", "none"]),
-    ports=st.lists(numbers, min_size=3, max_size=3, unique=True), names=st.permutations(["x", "y-1", "z_2"]),
+    hosts=st.sampled_from(HOSTS),
+    config=st.sampled_from(["values", "flat", "none"]),
+    ports=st.lists(numbers, min_size=3, max_size=3, unique=True),
+    names=st.permutations(["x", "y-1", "z_2"]),
 )
 def test_ice_reads_what_was_derived(
     tmp_path: Path, hosts: str, config: str, ports: list[int], names: list[str]
@@ -54,11 +56,15 @@ def test_ice_reads_what_was_derived(
     given = {"values": "", "flat": ", config: etc/config", "none": ""}[config]
     folder = tmp_path / config
     (folder / "speech/etc/config.yaml").unlink(missing_ok=True)
-    found = network(folder, (
-        f"{hosts}services: {{storm: {{icestorm: {{port: {ports[2]}{on[1]}}}}}}}\ncomponents:\n"
-        f"  {speech}: {{component: speech, port: {ports[0]}{on[0]}{given}}}\n"
-        f"  {mouth}: {{component: mouth, port: {ports[1]}{on[1]}}}\n"
-    ), config)
+    found = network(
+        folder,
+        (
+            f"{hosts}services: {{storm: {{icestorm: {{port: {ports[2]}{on[1]}}}}}}}\ncomponents:\n"
+            f"  {speech}: {{component: speech, port: {ports[0]}{on[0]}{given}}}\n"
+            f"  {mouth}: {{component: mouth, port: {ports[1]}{on[1]}}}\n"
+        ),
+        config,
+    )
     communicator = Ice.initialize()
     try:
         for process in found.processes.values():
@@ -85,10 +91,14 @@ def test_ice_reads_what_was_derived(
 
 def test_an_adapter_listens_where_it_is_said(tmp_path: Path, free_port: Ports) -> None:
     port = free_port()
-    found = network(tmp_path, (
-        f"services: {{storm: {{icestorm: {{}}}}}}\ncomponents:\n  speech: {{component: speech, port: {port}}}\n"
-        "  mouth: {component: mouth}\n"
-    ), "none")
+    found = network(
+        tmp_path,
+        (
+            f"services: {{storm: {{icestorm: {{}}}}}}\ncomponents:\n  speech: {{component: speech, port: {port}}}\n"
+            "  mouth: {component: mouth}\n"
+        ),
+        "none",
+    )
     process = found.processes["speech"]
     data = Ice.InitializationData()
     data.properties = loaded(process, tmp_path)

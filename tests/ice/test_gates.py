@@ -72,10 +72,13 @@ def gate(tmp_path: Path, ice: Any, start: Start, member: Member) -> Callable[[st
     def run(rule: str) -> Gate:
         import Ice
 
-        write_tree(tmp_path, deployed(
-            f"components: {{mouth: {{component: mouth, port: {member.port}}}}}\n"
-            f"groups: {{face: {{components: [mouth], expose: {{Mouth: {{member: mouth, {rule}}}}}}}}}\n"
-        ))
+        write_tree(
+            tmp_path,
+            deployed(
+                f"components: {{mouth: {{component: mouth, port: {member.port}}}}}\n"
+                f"groups: {{face: {{components: [mouth], expose: {{Mouth: {{member: mouth, {rule}}}}}}}}}\n"
+            ),
+        )
         analysis = analyse([str(tmp_path / "robot.ddsl.yaml")])
         assert not analysis.diagnostics, analysis.diagnostics
         process = analysis.networks[os.path.realpath(tmp_path / "robot.ddsl.yaml")].processes["face.gate"]

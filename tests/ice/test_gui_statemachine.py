@@ -20,7 +20,10 @@ KEYS: dict[str, Any] = {
     "statemachine": {
         "initial": "waiting",
         "states": {"working": {"entry": [{"send": "done", "after": "50 ms"}]}, "leaving": {}},
-        "transitions": {"waiting": {"to": "working", "event": "pressed"}, "working": {"to": "leaving", "event": "done"}},
+        "transitions": {
+            "waiting": {"to": "working", "event": "pressed"},
+            "working": {"to": "leaving", "event": "done"},
+        },
     },
 }
 

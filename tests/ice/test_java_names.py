@@ -53,7 +53,8 @@ def listed(kind: str) -> list[str]:
 
 METHODS = "".join(
     f"      {name}: {{in: {{{name if name in listed('parameter') else 'x1'}: int, x: string}}, returns: string}}\n"
-    for name in listed("method") if name != "public"  # as the interface is called
+    for name in listed("method")
+    if name != "public"  # as the interface is called
 )
 MODULES = ("System", "java", "slice", "package", "Parameters", "String1")
 TYPE_NAMES = [name for name in NAMES if name not in TYPES and name not in ("Parameters", "Record")]

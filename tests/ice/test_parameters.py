@@ -134,7 +134,10 @@ def test_the_command_line_has_the_last_word(component: Component, start: Start) 
         ("--mode=fst", "mode is 'fst', and must be one of slow, fast"),
         ("--Arm.NumMotors=0", "motors has 0 entries, and must have from 1 to 4"),
         ("--motors.0.min=2", "a motor's min must be below its max"),
-        ("--token=${env:NOBODY_HAS_THIS}", "token comes from the environment variable NOBODY_HAS_THIS, which is not set"),
+        (
+            "--token=${env:NOBODY_HAS_THIS}",
+            "token comes from the environment variable NOBODY_HAS_THIS, which is not set",
+        ),
     ],
 )
 def test_it_does_not_start_with_wrong_values(component: Component, start: Start, option: str, said: str) -> None:
@@ -282,7 +285,10 @@ SECRETS = ("4711", "oak", "elm", "hunter2", "beech", "birch", "larch")
         (("--password=HUNTER2",), "password is ***, and must match [a-z0-9]+"),
         (("--door=unter2x",), "door is ***, and must be one of the 2 values allowed"),
         (("--speed=unter2",), "speed is ***, and must be one of the 2 values allowed"),
-        (("--pin=${file:/nowhere/pin}",), "comes from the file /nowhere/pin, which cannot be read: No such file or directory"),
+        (
+            ("--pin=${file:/nowhere/pin}",),
+            "comes from the file /nowhere/pin, which cannot be read: No such file or directory",
+        ),
         (("--mode=${file:/}",), "mode is '${file:/}', and must be one of slow, fast"),
         (("--mode=${file:/etc}",), "mode comes from the file /etc, which is no regular file"),
         (("--mode=${file:/dev/zero}",), "mode comes from the file /dev/zero, which is no regular file"),
@@ -310,7 +316,9 @@ def test_secrets_are_hidden_in_the_list(component: Component, start: Start, beha
 
 def test_what_is_hidden_stays_when_it_comes_back(component: Component, start: Start, behavior: Ask) -> None:
     component.write(**SAFE)
-    running = component.run(start).wait_for("safe: 4711 oak elm hunter2 http://bob:beech@there/x").wait_for("is running")
+    running = (
+        component.run(start).wait_for("safe: 4711 oak elm hunter2 http://bob:beech@there/x").wait_for("is running")
+    )
     asked = behavior(component.port)
     asked.setParameterList(changed(asked, basicPeriod="50"))
     running.wait_for("[basicPeriod] ").wait_for("parameters changed by setParameterList: basicPeriod\n")
@@ -370,7 +378,10 @@ def test_a_file_that_gives_no_value(component: Component, start: Start, content:
     component.write(token="${file:key}")
     running = component.run(start)
     assert running.exit_code() == 1
-    assert f"ParaComp: {component.config}: token comes from the file {component.folder / 'key'}, {said}\n" in running.output
+    assert (
+        f"ParaComp: {component.config}: token comes from the file {component.folder / 'key'}, {said}\n"
+        in running.output
+    )
 
 
 def test_a_value_in_a_file_is_judged_and_not_shown(component: Component, start: Start) -> None:
@@ -383,6 +394,8 @@ def test_a_value_in_a_file_is_judged_and_not_shown(component: Component, start: 
 
 
 PAPER = ROOT / "examples" / "jointmotor"
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_papers_component(rcyaml: Callable[..., Any], tmp_path: Path, start: Start, language: str) -> None:
     """JointMotorComp as it is in the paper: compiled with its values, it reads them."""

@@ -53,7 +53,9 @@ def components(tmp_path: Path, free_port: Ports, icestorm: Storm) -> dict[str, t
         interfaces = module.all_interfaces
         methods = [method for interface in interfaces for method in interface.methods]
         found[module.stem] = folder, len(methods) + sum(method.can_be_published for method in methods)
-        (folder / "x.cdsl.yaml").write_text(cdsl(f"X{len(found)}", imports=[module.stem], **lists(interfaces)), encoding="utf-8")
+        (folder / "x.cdsl.yaml").write_text(
+            cdsl(f"X{len(found)}", imports=[module.stem], **lists(interfaces)), encoding="utf-8"
+        )
         config = [f"TopicManager.Proxy={icestorm.manager}\nperiod.compute=1\n"]
         for interface, port in zip(interfaces, ports, strict=False):
             endpoint = f"tcp -h 127.0.0.1 -p {port}"

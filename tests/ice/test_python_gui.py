@@ -180,7 +180,9 @@ def test_without_pyside(build: Build, start: Start, tmp_path: Path) -> None:
         refused = start(built.command, env={"PYTHONPATH": str(tmp_path / "hidden")})
         assert refused.exit_code() == 1
         assert refused.output.count("\n") == 1, refused.output
-        assert "the window needs PySide6" in refused.output and 'pip install "PySide6-Essentials<6.11"' in refused.output
+        assert (
+            "the window needs PySide6" in refused.output and 'pip install "PySide6-Essentials<6.11"' in refused.output
+        )
 
 
 def test_without_a_screen(window: Callable[..., tuple[Built, int]], start: Start) -> None:

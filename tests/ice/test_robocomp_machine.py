@@ -98,9 +98,14 @@ def test_the_skeleton_in_cpp(build: Build, start: Start, free_port: Ports, behav
                                                   f"{guarded}</transition>")  # fmt: skip
     robot = configured(build(files)["Robot"], port)
     worker = robot.root / "src" / "specificworker.cpp"
-    worker.write_text(worker.read_text().replace("SpecificWorker::compute()\n{", """SpecificWorker::compute()
+    worker.write_text(
+        worker.read_text().replace(
+            "SpecificWorker::compute()\n{",
+            """SpecificWorker::compute()
 {
-    events.t_initialize_to_compute();"""))
+    events.t_initialize_to_compute();""",
+        )
+    )
     cmake(robot.root, *FAST)
     running = start(robot.command, cwd=robot.root, env=OFFSCREEN)
     running.wait_for("sm_initialize() is still to be written").wait_for("ready() is still to be written")

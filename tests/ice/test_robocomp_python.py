@@ -82,7 +82,10 @@ def test_interfaces_topics_and_parameters(
 
 
 def test_compute_fails_and_goes_on(
-    pair: Callable[[str], tuple[Built, Built, int]], robocomps_qt: Mapping[str, str], start: Start, behavior: Callable[[int], Any]
+    pair: Callable[[str], tuple[Built, Built, int]],
+    robocomps_qt: Mapping[str, str],
+    start: Start,
+    behavior: Callable[[int], Any],
 ) -> None:
     """An exception in a slot is shown, and the next turn comes; CommonBehavior and the user's code agree on the period."""
     server, _, port = pair(SERVER_2023)
@@ -97,7 +100,11 @@ def test_compute_fails_and_goes_on(
 
 
 def test_startup_check_and_user_stop(
-    pair: Callable[[str], tuple[Built, Built, int]], robocomps_qt: Mapping[str, str], start: Start, ice: Any, slices: None
+    pair: Callable[[str], tuple[Built, Built, int]],
+    robocomps_qt: Mapping[str, str],
+    start: Start,
+    ice: Any,
+    slices: None,
 ) -> None:
     import RoboCompArm
 

@@ -41,7 +41,12 @@ def test_words_that_are_refused(tmp_path: Path) -> None:
 
 
 def test_words_that_are_taken(tmp_path: Path) -> None:
-    words = [*keyword.kwlist, *keyword.softkwlist, *OTHERS, *(set(dir(builtins)) - {"staticmethod"})]  # which no method can be
+    words = [
+        *keyword.kwlist,
+        *keyword.softkwlist,
+        *OTHERS,
+        *(set(dir(builtins)) - {"staticmethod"}),
+    ]  # which no method can be
     words = [word for word in dict.fromkeys(words) if word.strip("_") == word and fault_of(word) is None]
     assert len(words) > 50
     files = _files(tmp_path, words)

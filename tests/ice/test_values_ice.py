@@ -19,7 +19,9 @@ from verdicts import CASES
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")
 RELAXED = settings(
-    max_examples=CASES, deadline=None, suppress_health_check=list(HealthCheck),
+    max_examples=CASES,
+    deadline=None,
+    suppress_health_check=list(HealthCheck),
     phases=[Phase.explicit, Phase.reuse, Phase.generate],  # a case is small as it is; shrinking one takes minutes
 )
 
@@ -71,23 +73,43 @@ def test_values_come_back_from_a_legacy_file(by_ice, case: tuple[Data, Data]) ->
 
 
 MOTOR = {
-    "types": {"Kind": {"enum": ["slow", "fast"]}, "Motor": {"struct": {
-        "name": "string", "kind": {"type": "Kind", "default": "slow"}, "min": "float", "tag": {"type": "string",
-        "optional": True}, "note": {"type": "string", "default": "none"}, "on": {"type": "bool", "default": True},
-    }}},
+    "types": {
+        "Kind": {"enum": ["slow", "fast"]},
+        "Motor": {
+            "struct": {
+                "name": "string",
+                "kind": {"type": "Kind", "default": "slow"},
+                "min": "float",
+                "tag": {"type": "string", "optional": True},
+                "note": {"type": "string", "default": "none"},
+                "on": {"type": "bool", "default": True},
+            }
+        },
+    },
     "parameters": {
-        "motors": {"list": "Motor"}, "cams": {"list": "Motor", "default": []}, "one": "Motor",
-        "groups": {"list": {"list": "string"}}, "table": {"list": "Motor"}, "ids": {"list": "string", "default": []},
-        "byKey": {"list": "Motor", "default": []}, "device": "string",
+        "motors": {"list": "Motor"},
+        "cams": {"list": "Motor", "default": []},
+        "one": "Motor",
+        "groups": {"list": {"list": "string"}},
+        "table": {"list": "Motor"},
+        "ids": {"list": "string", "default": []},
+        "byKey": {"list": "Motor", "default": []},
+        "device": "string",
     },
     "legacy": {
-        "motors": {"key": "Bus.M{i}", "first": 1, "columns": ["name", "kind", "min", "tag", "note", "on"],
-                   "count": "Bus.Count"},
+        "motors": {
+            "key": "Bus.M{i}",
+            "first": 1,
+            "columns": ["name", "kind", "min", "tag", "note", "on"],
+            "count": "Bus.Count",
+        },
         "cams": {"fields": {"name": "name_{i}", "min": "min_{i}", "tag": "tag_{i}"}, "count": "num_cams"},
         "one": {"key": "One", "columns": ["name", "min"], "separator": ";"},
         "groups": {"key": "Excluded", "separators": [";", ","], "trailing": True},
         "table": {"key": "Table", "separators": [";", ","], "columns": ["name", "min", "tag"]},
-        "ids": {"key": "Id{i}"}, "byKey": {"key": "ID:{name}-{kind}", "columns": ["min"]}, "device": "Bus.Device",
+        "ids": {"key": "Id{i}"},
+        "byKey": {"key": "ID:{name}-{kind}", "columns": ["min"]},
+        "device": "Bus.Device",
     },
 }
 WORDS = st.sampled_from(("a", "b c", "x#", "=", "\\", '"q"')) | TEXTS | HARD_TEXTS
@@ -96,15 +118,22 @@ MOTORS = st.fixed_dictionaries(
     optional={"kind": st.sampled_from(("slow", "fast")), "tag": WORDS, "note": WORDS, "on": st.booleans()},
 )
 PARAMETERS = {
-    "motors": st.lists(MOTORS, max_size=3), "cams": st.lists(MOTORS, max_size=2), "one": MOTORS,
-    "groups": st.lists(st.lists(WORDS, max_size=2), max_size=3), "table": st.lists(MOTORS, max_size=2),
-    "ids": st.lists(WORDS, max_size=3), "byKey": st.lists(MOTORS, max_size=1), "device": WORDS,
+    "motors": st.lists(MOTORS, max_size=3),
+    "cams": st.lists(MOTORS, max_size=2),
+    "one": MOTORS,
+    "groups": st.lists(st.lists(WORDS, max_size=2), max_size=3),
+    "table": st.lists(MOTORS, max_size=2),
+    "ids": st.lists(WORDS, max_size=3),
+    "byKey": st.lists(MOTORS, max_size=1),
+    "device": WORDS,
 }
 
 
 SIMPLE: Data = {"motors": [], "one": {"name": "x", "min": 1}, "groups": [], "table": [], "device": "d"}
 # One at a time: a fault of one hides nothing of another.
-SPELLED = st.one_of(*(value.map(lambda value, name=name: {**SIMPLE, name: value}) for name, value in PARAMETERS.items()))
+SPELLED = st.one_of(
+    *(value.map(lambda value, name=name: {**SIMPLE, name: value}) for name, value in PARAMETERS.items())
+)
 
 
 @given(SPELLED)
@@ -123,9 +152,14 @@ def test_a_plain_case_of_each_spelling_is_not_refused(by_ice) -> None:
     motor = {"name": "a", "kind": "fast", "min": 0.5, "tag": "t", "note": "n", "on": False}
     plain = {"name": "a", "min": 0.5}
     data = {
-        "motors": [motor, {**motor, "name": "b c"}, {**plain, "note": ""}], "cams": [{**plain, "tag": "t"}, plain],
-        "one": plain, "groups": [["a", "b"], ["c"]], "table": [plain, {**plain, "tag": "t"}], "ids": ["x", "y"],
-        "byKey": [{"name": "n", "min": 1, "kind": "fast"}], "device": "/dev/x",
+        "motors": [motor, {**motor, "name": "b c"}, {**plain, "note": ""}],
+        "cams": [{**plain, "tag": "t"}, plain],
+        "one": plain,
+        "groups": [["a", "b"], ["c"]],
+        "table": [plain, {**plain, "tag": "t"}],
+        "ids": ["x", "y"],
+        "byKey": [{"name": "n", "min": 1, "kind": "fast"}],
+        "device": "/dev/x",
     }
     assert comes_back(by_ice, linked(MOTOR), data) == []
 

@@ -63,9 +63,7 @@ def prepare(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     return module
 
 
-def test_root_has_them_installed(
-    prepare: ModuleType, machine: Machine, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_root_has_them_installed(prepare: ModuleType, machine: Machine, capsys: pytest.CaptureFixture[str]) -> None:
     prepare.main("system", "demo", "python3-zeroc-ice", "cowsay")
     words = shlex.join(prepare.APT)
     assert [line for line in machine.called if not line.startswith("dpkg")] == [

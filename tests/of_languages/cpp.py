@@ -161,6 +161,12 @@ def _stubs(skeleton: str) -> str:
 
 
 SPOKEN = Spoken(
-    "cpp", "src/specificworker.cpp", lambda root: cmake(root, *FAST), PARAMETERS, PAPER, _stubs,
-    marks=(pytest.mark.slow, needs_cpp), judge=Program,
+    "cpp",
+    "src/specificworker.cpp",
+    lambda root: cmake(root, *FAST),
+    PARAMETERS,
+    PAPER,
+    _stubs,
+    marks=(pytest.mark.slow, needs_cpp),
+    judge=Program,
 )

@@ -110,6 +110,12 @@ def _stubs(skeleton: str) -> str:
 
 
 SPOKEN = Spoken(
-    "java", "src/SpecificWorker.java", java_build, PARAMETERS, PAPER, _stubs, marks=(pytest.mark.slow, needs_java),
+    "java",
+    "src/SpecificWorker.java",
+    java_build,
+    PARAMETERS,
+    PAPER,
+    _stubs,
+    marks=(pytest.mark.slow, needs_java),
     judge=Program,
 )

@@ -64,5 +64,11 @@ class SpecificWorker(GenericWorker):
             print(m.name, m.id, int(m.invertedSign), f"{m.min:g} {m.max:g} {m.zero:g} {m.vel:g}", flush=True)
 """
 SPOKEN = Spoken(
-    "python", "src/specificworker.py", lambda root: None, PARAMETERS, PAPER, lambda skeleton: "", starts=(sys.executable,)
+    "python",
+    "src/specificworker.py",
+    lambda root: None,
+    PARAMETERS,
+    PAPER,
+    lambda skeleton: "",
+    starts=(sys.executable,),
 )

@@ -58,7 +58,9 @@ def test_the_wheel_has_all_data(built: Path) -> None:
     (wheel,) = built.glob("*.whl")
     names = set(zipfile.ZipFile(wheel).namelist())
     assert data_files("robocomp_yaml/_data/") | {"robocomp_yaml/py.typed"} <= names
-    of_languages = (path.relative_to(ROOT).as_posix() for path in ROOT.glob("robocomp_yaml/languages/*/templates/**/*.*"))
+    of_languages = (
+        path.relative_to(ROOT).as_posix() for path in ROOT.glob("robocomp_yaml/languages/*/templates/**/*.*")
+    )
     assert {path for path in of_languages if "__pycache__" not in path} <= names
     assert not [name for name in names if name.startswith(("tests/", "docs/", "examples/"))]
 
@@ -126,7 +128,9 @@ print(len(plan.files), "files,", sum(told.severity == api.ERROR for told in api.
 
 def python_of(version: str) -> str | None:
     """A Python of this version that makes environments: the first on the path, or one that pyenv keeps."""
-    kept = Path(os.environ.get("PYENV_ROOT") or Path.home() / ".pyenv").glob(f"versions/{version}.*/bin/python{version}")
+    kept = Path(os.environ.get("PYENV_ROOT") or Path.home() / ".pyenv").glob(
+        f"versions/{version}.*/bin/python{version}"
+    )
     for python in (shutil.which(f"python{version}"), *map(str, sorted(kept))):
         if python and subprocess.run([python, "-c", "import ensurepip, venv"], capture_output=True).returncode == 0:
             return python
@@ -159,7 +163,9 @@ def test_another_build_of_the_same_version_compiles_again(built: Path, bin_: Pat
     run(*compile_, cwd=work)
     assert "0 files written" in run(*compile_, cwd=work)
     (wheel,) = built.glob("*.whl")
-    other = rebuilt(wheel, tmp_path, "robocomp_yaml/languages/python/templates/runtime/log.py", b"Do not edit", b"DO NOT EDIT")
+    other = rebuilt(
+        wheel, tmp_path, "robocomp_yaml/languages/python/templates/runtime/log.py", b"Do not edit", b"DO NOT EDIT"
+    )
     install(bin_, other, "--force-reinstall", "--no-deps")
     assert "1 file written" in run(*compile_, cwd=work)
     assert "DO NOT EDIT" in (work / "generated/runtime/log.py").read_text(encoding="utf-8")

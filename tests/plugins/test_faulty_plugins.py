@@ -233,7 +233,9 @@ def test_a_picture_that_fails(rcyaml: Run, site: Path, tmp_path: Path) -> None:
     assert done.returncode == 1 and "it gives no text" in done.stderr
 
 
-@pytest.mark.parametrize("plan", ["", "def plan(linked):\n    return [linked.nothing]\n", "def plan(linked):\n    1 / 0\n"])
+@pytest.mark.parametrize(
+    "plan", ["", "def plan(linked):\n    return [linked.nothing]\n", "def plan(linked):\n    1 / 0\n"]
+)
 def test_a_language_that_fails(rcyaml: Run, site: Path, tmp_path: Path, plan: str) -> None:
     record = "name='odd', title='Odd', package=__name__, description='odd', has=frozenset()"
     text = f"from robocomp_yaml.api.plugins import TargetLanguage\nLANGUAGE = TargetLanguage({record})\n"

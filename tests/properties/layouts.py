@@ -55,8 +55,11 @@ class _Layout:
         if isinstance(value, dict | list) and value and (not indent or self.random.random() < 0.6):
             yield f"{head}{self.comment()}"
             inner = indent + self.random.choice(("  ", "    "))
-            yield from self.mapping(value, inner) if isinstance(value, dict) else self.sequence(
-                value, self.random.choice((inner, indent)))
+            yield from (
+                self.mapping(value, inner)
+                if isinstance(value, dict)
+                else self.sequence(value, self.random.choice((inner, indent)))
+            )
         else:
             yield f"{head}{self.random.choice((' ', ' ', '  '))}{self.plain(value)}{self.comment()}"
 
@@ -67,4 +70,8 @@ class _Layout:
         if isinstance(value, str) and self.random.random() < 0.3:
             return single_quoted(value)
         text = flow(value)
-        return text.replace(", ", " , ") if isinstance(value, list) and '"' not in text and self.random.random() < 0.2 else text
+        return (
+            text.replace(", ", " , ")
+            if isinstance(value, list) and '"' not in text and self.random.random() < 0.2
+            else text
+        )

@@ -53,8 +53,9 @@ class Folder:
         for path in self.path.rglob("*.yaml"):
             path.unlink()
         (self.path / "c.cdsl.yaml").write_text("component: C\nlanguage: python\n")
-        (self.path / "c.pdsl.yaml").write_text(f"component: c.cdsl.yaml\n{flow(document)[1:-1]}".replace(
-            ", parameters: ", "\nparameters: ", 1))
+        (self.path / "c.pdsl.yaml").write_text(
+            f"component: c.cdsl.yaml\n{flow(document)[1:-1]}".replace(", parameters: ", "\nparameters: ", 1)
+        )
         (self.path / "x.config.yaml").write_bytes(content)
         if base is not None:
             (self.path / "base.config.yaml").write_bytes(base)
@@ -153,11 +154,44 @@ def _groups(record: RecordType) -> dict[str, Any]:
 
 PATHS = st.lists(st.sampled_from((*NAMES, "x", "name", "tag", "note", "on", "[0]", "[7]", '["a b"]', ".0", "period.compute",
                                   "[", '["', "%", "x-a", "")), max_size=3).map(".".join) | HARD_TEXTS  # fmt: skip
-WORDS = HARD_TEXTS | JUNK.map(flow) | st.sampled_from((
-    "1", "-7", "2.5", "fast", "A1", "true", "null", "{env: HOME}", "{file: a/b}", "{file: a/}", "[1, 2]", "{x: 1}",
-    "{x: 1, tag: a}", "[{x: 1}]", "[[1]]",
-    "a: b", "&a 1", "*a", "!!str 1", "|", "# c", "{", "- 1", "\n", "a\nb: 1", "é", "1 # c", "'", "{left: 1}", "---",
-))
+WORDS = (
+    HARD_TEXTS
+    | JUNK.map(flow)
+    | st.sampled_from(
+        (
+            "1",
+            "-7",
+            "2.5",
+            "fast",
+            "A1",
+            "true",
+            "null",
+            "{env: HOME}",
+            "{file: a/b}",
+            "{file: a/}",
+            "[1, 2]",
+            "{x: 1}",
+            "{x: 1, tag: a}",
+            "[{x: 1}]",
+            "[[1]]",
+            "a: b",
+            "&a 1",
+            "*a",
+            "!!str 1",
+            "|",
+            "# c",
+            "{",
+            "- 1",
+            "\n",
+            "a\nb: 1",
+            "é",
+            "1 # c",
+            "'",
+            "{left: 1}",
+            "---",
+        )
+    )
+)
 
 
 @given(cases(), st.data())
@@ -222,7 +256,9 @@ def test_a_first_document_lacks_nothing(folder: Folder, case: tuple[Data, Data])
     made = (folder.path / "etc" / "config.yaml").read_bytes()
     told = json.loads(folder.run("check", "etc/config.yaml", "--format", "json").output)["diagnostics"]
     assert {each["code"] for each in told if each["severity"] == "error"} <= {
-        "RC3304", "RC3306", "RC3310",
+        "RC3304",
+        "RC3306",
+        "RC3310",
     }, (document, made, told)
     assert folder.run("new", "c.cdsl.yaml").exit_code == 2
     assert (folder.path / "etc" / "config.yaml").read_bytes() == made

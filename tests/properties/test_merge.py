@@ -34,9 +34,7 @@ REFUSED = 0.25  # of all merges, at most: what two sides changed can be too much
 @pytest.mark.slow
 @pytest.mark.parametrize("language", ["python", "cpp"])
 @pytest.mark.parametrize("chunk", range(CHUNKS))
-def test_no_line_is_lost(
-    chunk: int, language: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_line_is_lost(chunk: int, language: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if chunk % 4 == 3:
         monkeypatch.setattr(threeway, "_git", lambda: None)  # the library's turn
     refused = 0

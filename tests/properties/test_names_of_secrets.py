@@ -23,13 +23,58 @@ PLAIN = (
     "private_ip speed passive passenger keyboard monkey author key low_pass_filter password_length ñ é_1 _ 3 x.size"
 ).split()
 URLS = (
-    "https://u:p@ss@host/x?a=b", "mqtt://:hunter2@host", "tcp -h localhost -p 10001", "ssh://git@host", "no://", "://a:b@c",
-    "a://b:c@d e://f:g@h", "x://a:b", "x://a@b:c", "x://a:@b", "é://a:b@c", "http://h:80/a@b", "@", "",
+    "https://u:p@ss@host/x?a=b",
+    "mqtt://:hunter2@host",
+    "tcp -h localhost -p 10001",
+    "ssh://git@host",
+    "no://",
+    "://a:b@c",
+    "a://b:c@d e://f:g@h",
+    "x://a:b",
+    "x://a@b:c",
+    "x://a:@b",
+    "é://a:b@c",
+    "http://h:80/a@b",
+    "@",
+    "",
 )
-WORDS = st.lists(st.sampled_from([
-    "pass", "Pass", "PASS", "word", "token", "Token", "TOKENS", "api", "API", "Key", "key", "private", "secret", "_", "-",
-    ".", "2", "max", "file", "Size", "DB", "x", "ñ", "é", " ", "pwd", "low", "private", "PWD", "old",
-]), max_size=5).map("".join)
+WORDS = st.lists(
+    st.sampled_from(
+        [
+            "pass",
+            "Pass",
+            "PASS",
+            "word",
+            "token",
+            "Token",
+            "TOKENS",
+            "api",
+            "API",
+            "Key",
+            "key",
+            "private",
+            "secret",
+            "_",
+            "-",
+            ".",
+            "2",
+            "max",
+            "file",
+            "Size",
+            "DB",
+            "x",
+            "ñ",
+            "é",
+            " ",
+            "pwd",
+            "low",
+            "private",
+            "PWD",
+            "old",
+        ]
+    ),
+    max_size=5,
+).map("".join)
 
 
 def python_rule() -> ModuleType:
@@ -76,7 +121,24 @@ def asker(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_cpp_run_time_has_the_same_rules(asker: Path) -> None:
-    parts = ["pass", "Pass", "DB", "token", "Tokens", "API", "api", "Key", "_", "file", "max", "ñ", "2", "private", "x", "PWD"]
+    parts = [
+        "pass",
+        "Pass",
+        "DB",
+        "token",
+        "Tokens",
+        "API",
+        "api",
+        "Key",
+        "_",
+        "file",
+        "max",
+        "ñ",
+        "2",
+        "private",
+        "x",
+        "PWD",
+    ]
     made = [f"{one}{two}{three}" for one in parts for two in parts for three in ("", *parts[:8])]
     lines = [*SECRET, *PLAIN, *URLS, *made]
     done = subprocess.run([asker], input="\n".join(lines) + "\n", capture_output=True, text=True, check=True)

@@ -45,7 +45,7 @@ def managers(draw: st.DrawFn) -> str:
         command = draw(st.sampled_from(
             ["", command, f" {command}  ", f"{remote}/a {command}", f"{remote}/b/ {command} | tee log"]
         ))  # fmt: skip
-        lines.append(f'  <workingDir path={quoteattr(draw(st.sampled_from(["/opt/a", "/opt/a/", "/home"])))}/>')
+        lines.append(f"  <workingDir path={quoteattr(draw(st.sampled_from(['/opt/a', '/opt/a/', '/home'])))}/>")
         lines.append(f"  <upCommand command={quoteattr(command)}/>")
         lines.append(f"  <downCommand command={quoteattr(draw(TEXTS))}/>")
         lines.append(f"  <configFile path={quoteattr(draw(TEXTS))}/>")
@@ -76,7 +76,7 @@ def test_there_and_back(text: str) -> None:
 def test_a_broken_one_is_refused_or_read(text: str, data: st.DataObject) -> None:
     at = data.draw(st.integers(0, len(text)))
     odd = data.draw(st.sampled_from(["", "<", ">", '"', "&x;", "&", "<!--", "]]>", "\x07"]))
-    broken = text[:at] + odd + text[at + 1:]
+    broken = text[:at] + odd + text[at + 1 :]
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "robot.xml"
         source.write_text(broken, encoding="utf-8")

@@ -14,7 +14,9 @@ from robocomp_yaml.values.normalize import cerberus_verdict, normalized
 from verdicts import CASES, verdicts
 
 RELAXED = settings(
-    max_examples=CASES, deadline=None, suppress_health_check=list(HealthCheck),
+    max_examples=CASES,
+    deadline=None,
+    suppress_health_check=list(HealthCheck),
     phases=[Phase.explicit, Phase.reuse, Phase.generate],  # a case is small as it is; shrinking one takes minutes
 )
 DEVICE = {"parameters": {"device": {"type": "string", "pattern": "a|b"}}}

@@ -62,7 +62,8 @@ class Subjects:
         all_ = [self.spelled, self.constrained, *(of.parameters for of in self.documents)]
         whole = Parameters(
             RecordType("", tuple({member.name: member for each in all_ for member in each.root.members}.values())),
-            constraints=self.constrained.constraints, spellings=self.spelled.spellings,
+            constraints=self.constrained.constraints,
+            spellings=self.spelled.spellings,
         )
         judge = of_languages.spoken(language).judge
         assert judge is not None

@@ -16,14 +16,21 @@ PATHS = ("generated/a", "generated/deep/b", "etc/config")
 OWNERS = ("one.cdsl.yaml", "two.cdsl.yaml")
 
 file_plans = st.builds(
-    lambda path, text, make: make(path, text), st.sampled_from(PATHS), st.sampled_from(("1\n", "2\n")),
+    lambda path, text, make: make(path, text),
+    st.sampled_from(PATHS),
+    st.sampled_from(("1\n", "2\n")),
     st.sampled_from((always, once)),
 )
 # Both documents may want a file only in the same way: each plan is a choice from one list.
 plans = st.lists(file_plans, min_size=1, max_size=3, unique_by=lambda file: file.path)
 actions = st.one_of(
-    st.tuples(st.just("compile"), plans, st.sets(st.sampled_from(OWNERS), min_size=1), st.booleans(),
-              st.one_of(st.none(), st.integers(1, 60))),
+    st.tuples(
+        st.just("compile"),
+        plans,
+        st.sets(st.sampled_from(OWNERS), min_size=1),
+        st.booleans(),
+        st.one_of(st.none(), st.integers(1, 60)),
+    ),
     st.tuples(st.just("edit"), st.sampled_from((*PATHS, "generated/a.orig"))),
     st.tuples(st.just("delete"), st.sampled_from((*PATHS, *OWNERS, "generated/a.orig"))),
 )

@@ -91,8 +91,8 @@ class Maker:
         return Node(f"s{self.count - 1}", kind, parent)
 
     def _xml(self, node: Node, nodes: list[Node]) -> str:
-        logs = f"<onentry><log label=\"in\" expr=\"'{node.name}'\"/></onentry>"
-        logs += f"<onexit><log label=\"out\" expr=\"'{node.name}'\"/></onexit>"
+        logs = f'<onentry><log label="in" expr="\'{node.name}\'"/></onentry>'
+        logs += f'<onexit><log label="out" expr="\'{node.name}\'"/></onexit>'
         if node.kind == "final":
             return f'<final id="{node.name}">{logs}</final>\n'
         assert node.parent is not None
@@ -133,5 +133,5 @@ class Maker:
         raised = f'<raise event="{self.random.choice(later)}"/>' if later and self.random.random() < 0.5 else ""
         if event.startswith("done"):
             raised = ""
-        log = f"<log label=\"from\" expr=\"'{node.name}'\"/>"
+        log = f'<log label="from" expr="\'{node.name}\'"/>'
         return f'<transition event="{event}"{target}{kind}{condition}>{log}{raised}</transition>\n'

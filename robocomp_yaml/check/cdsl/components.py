@@ -31,8 +31,11 @@ def check(program: Program) -> Iterator[Diagnostic]:
         first = folders.setdefault(folder, linked).component
         if first is not linked.component:
             yield codes.SAME_FOLDER.at(
-                linked.component.span, name=linked.component.name, other=first.name,
-                hint="give each component a folder of its own", related=[Related("the other one", first.span)],
+                linked.component.span,
+                name=linked.component.name,
+                other=first.name,
+                hint="give each component a folder of its own",
+                related=[Related("the other one", first.span)],
             )
 
 
@@ -47,14 +50,14 @@ def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
         accessors: dict[str, Port] = {}
         for port in getattr(linked, list_):
             if port.interface.name == "CommonBehavior" and list_ == "implements":
-                yield codes.COMMON_BEHAVIOR.at(
-                    port.use.span, hint="leave it out", fixes=[removal(port.use.span)]
-                )
+                yield codes.COMMON_BEHAVIOR.at(port.use.span, hint="leave it out", fixes=[removal(port.use.span)])
             if port.name in names:
                 free = next(f"{port.name}{n}" for n in range(1, 1000) if f"{port.name}{n}" not in names)
                 entry = f"{{{free}: {port.use.interface}}}"
                 yield codes.DUPLICATE_PORT.at(
-                    port.use.span, name=port.name, list=list_,
+                    port.use.span,
+                    name=port.name,
+                    list=list_,
                     hint="leave it out" if list_ != "requires" else f"write {entry}, or leave it out",
                     related=[Related("it stands here first", names[port.name].use.span)],
                     fixes=[removal(port.use.span, safe=list_ != "requires" and _is_same(port, names[port.name]))],
@@ -67,7 +70,10 @@ def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
             other = accessors.setdefault(accessor, port)
             if other is not port:
                 yield codes.ACCESSOR_CLASH.at(
-                    port.use.span, name=port.name, other=other.name, accessor=accessor,
+                    port.use.span,
+                    name=port.name,
+                    other=other.name,
+                    accessor=accessor,
                     hint=f"give one of them a name of its own: {{{port.name}2: {port.use.interface}}}",
                     related=[Related(f"'{other.name}' stands here", other.use.span)],
                 )

@@ -46,7 +46,9 @@ def _promises(form: Form, gui: Gui) -> Iterator[Diagnostic]:
         yield codes.NOT_A_FORM.at(form.widget_span, reason="it has no <widget>")
     elif form.widget not in (gui.base, "QWidget"):
         yield codes.OTHER_BASE.at(
-            form.widget_span, found=form.widget, base=gui.base,
+            form.widget_span,
+            found=form.widget,
+            base=gui.base,
             hint=f"write `base: {form.widget}`, or make it a {gui.base} in the form",
             related=[Related("the component says so here", gui.span)],
         )

@@ -24,7 +24,10 @@ def check(program: Program) -> Iterator[Diagnostic]:
             elif key not in language.has:
                 more = program.plugins_of(component.path).languages
                 yield codes.NOT_AVAILABLE.at(
-                    span, key=key, language=language.title, hint=_hint(key, language, more),
+                    span,
+                    key=key,
+                    language=language.title,
+                    hint=_hint(key, language, more),
                     related=[Related(f"the component is in {language.title}", component.language.span)],
                 )
 

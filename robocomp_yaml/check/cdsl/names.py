@@ -30,6 +30,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
             other = first.setdefault((workspace, component.language.name), linked).component
             if other is not component:
                 yield codes.SAME_NAME.at(
-                    component.span, name=name, other=other.path, related=[Related("the other one", other.span)],
+                    component.span,
+                    name=name,
+                    other=other.path,
+                    related=[Related("the other one", other.span)],
                     hint=f"a copy needs a name of its own: `component: {next(free)}`",
                 )

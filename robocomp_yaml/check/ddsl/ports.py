@@ -24,7 +24,10 @@ def check(network: Network) -> Iterator[Diagnostic]:
             for host, other, served in others:
                 if not host or not bound or host == bound:
                     yield codes.PORT_CONFLICT.at(
-                        endpoint.span, port=endpoint.port, name=_name(process, endpoint), other=_name(other, served),
+                        endpoint.span,
+                        port=endpoint.port,
+                        name=_name(process, endpoint),
+                        other=_name(other, served),
                         host=f"host '{process.host}'" if network.hosts[process.host].span.file else "this machine",
                         hint=_mend(process, endpoint, served),
                         related=[Related(f"{_name(other, served)} has it, too", served.span)],

@@ -19,12 +19,18 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 yield from _numbers(definition)
                 if not definition.enumerators:
                     yield codes.EMPTY_TYPE.at(
-                        definition.list_span, kind="enum", name=definition.name, parts="enumerators",
+                        definition.list_span,
+                        kind="enum",
+                        name=definition.name,
+                        parts="enumerators",
                         hint="name at least one: {enum: [first]}",
                     )
             elif isinstance(definition, Struct) and not definition.members:
                 yield codes.EMPTY_TYPE.at(
-                    definition.list_span, kind="struct", name=definition.name, parts="members",
+                    definition.list_span,
+                    kind="struct",
+                    name=definition.name,
+                    parts="members",
                     hint="give it a member: {struct: {x: float}}",
                 )
 
@@ -36,14 +42,20 @@ def _numbers(enum: Enum) -> Iterator[Diagnostic]:
         number = number + 1 if enumerator.value is None else enumerator.value
         if not 0 <= number <= LARGEST:
             yield codes.ENUM_NUMBER.at(
-                enumerator.span, name=enumerator.name, number=number, largest=LARGEST,
+                enumerator.span,
+                name=enumerator.name,
+                number=number,
+                largest=LARGEST,
                 hint="give it a number of its own: an enumerator without one has one more than the one before",
             )
             continue
         other = first.setdefault(number, enumerator)
         if other is not enumerator:
             yield codes.ENUM_NUMBER_TWICE.at(
-                enumerator.span, name=enumerator.name, other=other.name, number=number,
+                enumerator.span,
+                name=enumerator.name,
+                other=other.name,
+                number=number,
                 hint="give one of them another number",
                 related=[Related(f"'{other.name}' stands here", other.span)],
             )

@@ -27,6 +27,10 @@ def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
         other = first.setdefault((found[0], found[1].name) if found else ref.text, ref)
         if other is not ref:
             yield codes.THROWN_TWICE.at(
-                ref.span, method=method.name, name=ref.text, hint="remove one of them",
-                related=[Related("it stands here first", other.span)], fixes=[removal(ref.span)],
+                ref.span,
+                method=method.name,
+                name=ref.text,
+                hint="remove one of them",
+                related=[Related("it stands here first", other.span)],
+                fixes=[removal(ref.span)],
             )

@@ -23,7 +23,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 )
             elif reason:
                 yield codes.MAP_KEY.at(
-                    definition.key.span, type=definition.key.text, reason=reason,
+                    definition.key.span,
+                    type=definition.key.text,
+                    reason=reason,
                     hint="a key is a bool, an integer, a string, an enum, or a struct of these",
                 )
 

@@ -45,7 +45,11 @@ def _fits(linked: LinkedModule, type_: TypeRef, value: Literal, *, default: bool
     reason, hint = _of_enum(enum, value) if enum else _of_basic(type_.text, value)
     if reason:
         yield codes.MISFIT.at(
-            value.span, value=_shown(value), type=type_.text, reason=reason, hint=hint,
+            value.span,
+            value=_shown(value),
+            type=type_.text,
+            reason=reason,
+            hint=hint,
             fixes=() if enum else retyped([_WANTED.get(type_.text, INTEGER)], value.lexeme, value.value, value.span),
         )
     elif type_.text in ("float", "double"):

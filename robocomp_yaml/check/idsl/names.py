@@ -106,8 +106,13 @@ def _distinct(owner: str, names: Iterable[Name], kinds: str) -> Iterator[Diagnos
             )
         else:
             yield codes.CASE_CLASH.at(
-                name.span, owner=owner, kinds=kinds, name=name.text, other=other.text,
-                hint="rename one of them: Slice takes both for the same name", related=related,
+                name.span,
+                owner=owner,
+                kinds=kinds,
+                name=name.text,
+                other=other.text,
+                hint="rename one of them: Slice takes both for the same name",
+                related=related,
             )
 
 
@@ -115,6 +120,10 @@ def _not_named_as(outer: str, outer_name: str, names: Iterable[Name]) -> Iterato
     for name in names:
         if name.text.lower() == outer_name.lower():
             yield codes.NAME_OF_OUTER.at(
-                name.span, kind=name.kind, name=name.text, outer=outer, outer_name=outer_name,
+                name.span,
+                kind=name.kind,
+                name=name.text,
+                outer=outer,
+                outer_name=outer_name,
                 hint="choose another name: Slice allows no such pair, in whatever case",
             )

@@ -71,7 +71,10 @@ def _type(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnos
     elif not isinstance(found[1], TypeDefinition):
         kind = kind_of(found[1])
         yield codes.NOT_A_TYPE.at(
-            ref.span, name=ref.text, kind=kind, hint="a type is a basic one, or one defined under `types:`",
+            ref.span,
+            name=ref.text,
+            kind=kind,
+            hint="a type is a basic one, or one defined under `types:`",
             related=[Related(f"the {kind} stands here", found[1].span)],
         )
 
@@ -81,7 +84,10 @@ def _exception(linked: LinkedModule, ref: TypeRef, index: _Index, given: set[str
     if found is not None and not isinstance(found[1], ExceptionType):
         kind = kind_of(found[1])
         yield codes.NOT_AN_EXCEPTION.at(
-            ref.span, name=ref.text, kind=kind, hint="an exception is defined under `exceptions:`",
+            ref.span,
+            name=ref.text,
+            kind=kind,
+            hint="an exception is defined under `exceptions:`",
             related=[Related(f"the {kind} stands here", found[1].span)],
         )
     elif found is None and ref.module not in linked.unresolved:
@@ -105,8 +111,10 @@ def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | 
             return meaning(ref.text, f"{module.stem}.{ref.name}")
         if id(module) in imported:
             return Hint(
-                f"write '{module.stem}.{ref.name}': a name of another module stands behind that module's", ref.text,
-                f"{module.stem}.{ref.name}", len(definers) == 1,
+                f"write '{module.stem}.{ref.name}': a name of another module stands behind that module's",
+                ref.text,
+                f"{module.stem}.{ref.name}",
+                len(definers) == 1,
             )
     if definers:
         full = f"{definers[0].stem}.{ref.name}"

@@ -161,7 +161,9 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
                 yield from _platform(index, transition, event)
             elif fired and complete and plain(event.text) not in heads:
                 hint = did_you_mean(
-                    event.text, known[:_MANY], open_=True,
+                    event.text,
+                    known[:_MANY],
+                    open_=True,
                     otherwise=f"list it under {listed}, for the component's code to fire it",
                 )
                 yield codes.NEVER_SENT.at(event.span, event=event.text, why="", hint=hint)

@@ -85,7 +85,10 @@ def _clash(named: names.Named, taken: dict[str, names.Named]) -> Iterator[Diagno
     first = taken.setdefault(named.name, named)
     if first is not named:
         yield codes.SAME_IN_CODE.at(
-            named.text.span, first=f"{first.kind} '{first.text}'", second=f"{named.kind} '{named.text}'",
-            name=named.name, hint="give one of them another name",
+            named.text.span,
+            first=f"{first.kind} '{first.text}'",
+            second=f"{named.kind} '{named.text}'",
+            name=named.name,
+            hint="give one of them another name",
             related=[Related(f"{first.kind} '{first.text}'", first.text.span)],
         )

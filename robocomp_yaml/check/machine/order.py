@@ -49,7 +49,10 @@ def _listed_twice(machine: StateMachine) -> Iterator[Diagnostic]:
         if other is not event:
             related = [Related("it stands here first", other.span)] if other.span != event.span else []
             yield codes.EVENT_TWICE.at(
-                event.span, event=event.text, hint="remove it, or name the other event that is meant", related=related,
+                event.span,
+                event=event.text,
+                hint="remove it, or name the other event that is meant",
+                related=related,
                 fixes=[removal(event.span, safe=False)],
             )
 

@@ -106,7 +106,8 @@ def _initial(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
     elif state.kind == HISTORY:
         if index.machine.inline:
             yield codes.NO_INITIAL.at(
-                state.span, what=f"the history '{state.id}'",
+                state.span,
+                what=f"the history '{state.id}'",
                 hint=f"write transitions: {{{state.id}: …}}, for when there is nothing to remember yet",
             )
     elif state.kind not in (PARALLEL, FINAL) and children:

@@ -85,7 +85,11 @@ def _names(record: RecordType, known: Languages) -> Iterator[Diagnostic]:
             other = names.setdefault((language.name, code), member)
             if other is not member:
                 yield codes.CODE_CLASH.at(
-                    member.span, name=member.name, other=other.name, code=code, language=language.title,
+                    member.span,
+                    name=member.name,
+                    other=other.name,
+                    code=code,
+                    language=language.title,
                     hint="give one of them another name in code with as:",
                     related=[Related(f"'{other.name}' stands here", other.span)],
                 )

@@ -11,10 +11,27 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Progra
 from robocomp_yaml.model.parameters import BasicType, EnumType, leaves
 from robocomp_yaml.values.spelling import exact_keys, row_templates
 
-_ICE = ("Ice", "IceStorm", "IceBox", "IceGrid", "IceSSL", "IceDiscovery", "IceLocatorDiscovery", "IcePatch2",
-        "IceBridge", "IceMX", "Freeze", "Glacier2", "DataStorm")
-_OURS = {"Endpoints": "the endpoints", "Proxies": "the proxies", "TopicManager": "the topic manager",
-         "statemachine": "the states of a state machine"}
+_ICE = (
+    "Ice",
+    "IceStorm",
+    "IceBox",
+    "IceGrid",
+    "IceSSL",
+    "IceDiscovery",
+    "IceLocatorDiscovery",
+    "IcePatch2",
+    "IceBridge",
+    "IceMX",
+    "Freeze",
+    "Glacier2",
+    "DataStorm",
+)
+_OURS = {
+    "Endpoints": "the endpoints",
+    "Proxies": "the proxies",
+    "TopicManager": "the topic manager",
+    "statemachine": "the states of a state machine",
+}
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -25,7 +25,9 @@ def _spellings(linked: LinkedParameters) -> Iterator[Diagnostic]:
         if type_ is None:
             given = {other.path for other in linked.parameters.spellings}
             yield codes.BAD_SPELLING.at(
-                spelling.span, path=spelling.path, problem="names no parameter",
+                spelling.span,
+                path=spelling.path,
+                problem="names no parameter",
                 hint=did_you_mean(spelling.path, known, given),
             )
         elif problem := fault(spelling, type_):

@@ -66,7 +66,10 @@ def _texts_of_ice(linked: LinkedValues) -> Iterator[Diagnostic]:
             parse(text)
         except Refused as refused:
             told = BAD_ICE_TEXT.at(
-                node.span.inside(text, refused.start, refused.end), what=what, text=text, problem=refused.problem,
+                node.span.inside(text, refused.start, refused.end),
+                what=what,
+                text=text,
+                problem=refused.problem,
                 hint=did_you_mean(
                     text[refused.start : refused.end], refused.meant, otherwise=f"such as {_SUCH_AS[what]}"
                 ),
@@ -130,6 +133,9 @@ def _ports(linked: LinkedValues) -> Iterator[Diagnostic]:
             if name.lexeme not in names and name.lexeme.removesuffix("Comp") not in names:
                 given = {other.lexeme for other, _ in entries(parent, section[-1])}
                 yield codes.UNKNOWN_PORT.at(
-                    name.span, component=component.component.name, what=what, name=name.lexeme,
+                    name.span,
+                    component=component.component.name,
+                    what=what,
+                    name=name.lexeme,
                     hint=did_you_mean(name.lexeme, names, given),
                 )

@@ -25,7 +25,8 @@ def environment_of(process: Process) -> dict[str, str]:
     print is seen at once."""
     own = {
         variable.name: os.environ.get(variable.source, "") if variable.source else variable.value
-        for variable in process.env if not variable.file
+        for variable in process.env
+        if not variable.file
     }
     return {"PYTHONUNBUFFERED": "1", **os.environ, **own}
 

@@ -49,9 +49,7 @@ class _Service:
         loop.add_signal_handler(signal.SIGCHLD, self._reap)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             loop.add_signal_handler(number, self._over.set)
-        server = await asyncio.start_unix_server(
-            self._talk, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
-        )
+        server = await asyncio.start_unix_server(self._talk, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST)
         keeper = os.getppid()
         record.write(self.folder, keeper)
         await self._over.wait()

@@ -1,9 +1,9 @@
 """Diagnostics for people: what is wrong, the line, and how to mend it.
 
-    error[RC2003]: component SpeechComp requires interface 'Mouht', which no imported module defines
-      ┌─ components/speech/speech.cdsl.yaml:7:12
-    7 │ requires: [Mouht]
-      │            ^^^^^ did you mean 'Mouth' (interfaces/Mouth.idsl.yaml)?
+error[RC2003]: component SpeechComp requires interface 'Mouht', which no imported module defines
+  ┌─ components/speech/speech.cdsl.yaml:7:12
+7 │ requires: [Mouht]
+  │            ^^^^^ did you mean 'Mouth' (interfaces/Mouth.idsl.yaml)?
 """
 
 from __future__ import annotations

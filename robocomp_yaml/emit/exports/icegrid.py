@@ -73,7 +73,8 @@ def _server(process: Process) -> list[str]:
     if not is_ice:
         values["Ice.Admin.Enabled"] = "0"  # a node would wait for its administrative object for ever
     given = [
-        line for key, value in values.items()
+        line
+        for key, value in values.items()
         for line in element("property", {"name": _literal(key), "value": _literal(value)})
     ]
     return element("server", attributes, [*inside, *(element("properties", {}, given) if given else [])])

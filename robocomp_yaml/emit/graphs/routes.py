@@ -96,7 +96,7 @@ def _tracks(runs: dict[int, dict[Net, list[float]]]) -> tuple[dict[Run, int], di
         for net, points in sorted(by_net.items(), key=lambda item: (min(item[1]), -max(item[1]))):
             first, last = min(points) - 0.5, max(points) + 0.5
             free = next((number for number, end in enumerate(ends) if end < first), len(ends))
-            ends[free:free + 1] = [last]
+            ends[free : free + 1] = [last]
             tracks[at, net] = free
         counts[at] = len(ends)
     return tracks, counts

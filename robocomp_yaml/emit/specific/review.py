@@ -79,7 +79,9 @@ def _not_merged(files: Iterable[Own], root: Root) -> Iterator[Diagnostic]:
         if language and not file.is_settled and file.base != file.plan.text:
             path = root.shown(file.plan.path)
             yield codes.NOT_MERGED.at(
-                Span(path), path=path, language=language.title,
+                Span(path),
+                path=path,
+                language=language.title,
                 hint="put in by hand what its build names; an empty folder to compile into (-o) shows a new skeleton",
             )
 

@@ -47,9 +47,7 @@ def _about_class(root: Root, files: Sequence[Own], merge: str) -> Iterator[Diagn
         return
     if found.lacking:
         names = list(dict.fromkeys(one.method.name for one in found.lacking))
-        span = Span(
-            root.shown(home.path), home.place.line, home.place.column, home.place.line, home.place.end_column
-        )
+        span = Span(root.shown(home.path), home.place.line, home.place.column, home.place.line, home.place.end_column)
         yield codes.LACKING.at(
             span, name=CLASS, methods=", ".join(names), more=_paste(root, found.lacking, yours),
             hint=merge,

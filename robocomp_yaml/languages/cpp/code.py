@@ -119,8 +119,11 @@ def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True
     while (inner := last.child_by_field_name("name")) is not None:
         last = inner
     signature = Signature(
-        tuple(_type(child) for child in typed), tuple(_name(child) for child in typed), returns,
-        len(typed) - optional, len(typed),
+        tuple(_type(child) for child in typed),
+        tuple(_name(child) for child in typed),
+        returns,
+        len(typed) - optional,
+        len(typed),
     )
     whole = "".join(text(name).split())
     return Method(whole, place(last, lines), first, node.end_point[0] + 1, signature, has_body, nested)

@@ -43,7 +43,9 @@ def parameter(name: str) -> str:
 
 
 PORTS = Spelling(
-    taken=frozenset(("parameters",)) | _KEYWORDS, published=("{name}_pubproxy",), called=ice_name,
+    taken=frozenset(("parameters",)) | _KEYWORDS,
+    published=("{name}_pubproxy",),
+    called=ice_name,
 )
 
 

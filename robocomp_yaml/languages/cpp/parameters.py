@@ -181,8 +181,11 @@ class _Types(Types):
 
     def enum(self, enum: EnumType) -> EnumView:
         return EnumView(
-            self.of[enum.name], self.tables[enum.name], comment("\n".join(about_enum(enum))),
-            [f"{name}," for name in self.enumerators[enum.name].values()], [f"{quoted(name)}," for name in enum.names],
+            self.of[enum.name],
+            self.tables[enum.name],
+            comment("\n".join(about_enum(enum))),
+            [f"{name}," for name in self.enumerators[enum.name].values()],
+            [f"{quoted(name)}," for name in enum.names],
         )
 
     def record(self, path: str, record: RecordType) -> RecordView:

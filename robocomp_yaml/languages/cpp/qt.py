@@ -118,7 +118,7 @@ def _variants(name: str, method: Method, port: Port) -> Iterator[str]:
         return
     for inputs in (by_reference, by_value):
         unnamed = [word.rpartition(" ")[0] for word in (*inputs, *outputs)]
-        yield declaration(head, unnamed, f" {{ throw std::logic_error(\"{name}() is missing\"); }}", IN)
+        yield declaration(head, unnamed, f' {{ throw std::logic_error("{name}() is missing"); }}', IN)
 
 
 def _enumerators(scope: LinkedModule) -> Enumerators:

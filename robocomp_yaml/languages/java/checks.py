@@ -93,6 +93,10 @@ def _other(name: str) -> str:
 def _told(name: Name, other: str, user: LinkedComponent) -> Diagnostic:
     related = Related(f"component {user.component.name} is in Java, and needs it", user.component.language.span)
     return codes.IMPOSSIBLE_NAME.at(
-        name.span, language=LANGUAGE.title, kind=name.kind, name=name.text, related=[related],
+        name.span,
+        language=LANGUAGE.title,
+        kind=name.kind,
+        name=name.text,
+        related=[related],
         hint=f"call it '{other}'",
     )

@@ -74,9 +74,7 @@ def _required(accessor: lowering.Accessor) -> AccessorView:
 
 def _published(accessor: lowering.Accessor) -> AccessorView:
     words = [literal(accessor.port.name), literal(accessor.port.interface.name)]
-    return _accessor(
-        accessor, f"connections.published({', '.join(words)})", f"{accessor.summary}: {accessor.events}"
-    )
+    return _accessor(accessor, f"connections.published({', '.join(words)})", f"{accessor.summary}: {accessor.events}")
 
 
 def _accessor(accessor: lowering.Accessor, made: str, summary: str) -> AccessorView:

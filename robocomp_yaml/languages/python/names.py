@@ -64,5 +64,8 @@ def parameters(names: Iterable[str], modules: Iterable[str]) -> Iterator[str]:
 
 
 PORTS = Spelling(
-    taken=WORKER_ATTRIBUTES, published=("{name}_proxy", "{name}_pubproxy"), called=proxy_method, property="`{name}`",
+    taken=WORKER_ATTRIBUTES,
+    published=("{name}_proxy", "{name}_pubproxy"),
+    called=proxy_method,
+    property="`{name}`",
 )

@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from robocomp_yaml.languages.python.statemachine import MachineView
 
 
-
 class SliceModule(msgspec.Struct, frozen=True):
     """A Slice module: the name Ice gives it, and the variable that holds it."""
 
@@ -92,10 +91,14 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
         parameters.plan(component),
         FilePlan("generated/component.py", _rendered("component.py", view, table)),
         *windows.files(component, of_machines=qt.MACHINE_FILES),
-        *(_robocomp(view) if component.component.compatibility else [
-            FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
-            FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
-        ]),
+        *(
+            _robocomp(view)
+            if component.component.compatibility
+            else [
+                FilePlan("generated/genericworker.py", _rendered("genericworker.py", view, [*proxies, *signatures])),
+                FilePlan("src/specificworker.py", _rendered("specificworker.py", view, stubs), ONCE),
+            ]
+        ),
         FilePlan(f"bin/{view.name}", _rendered("launcher", view), ONCE, executable=True),
     ]
 

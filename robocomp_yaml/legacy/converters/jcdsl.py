@@ -161,8 +161,11 @@ class _Converter:
 
 
 _CLAUSES = {
-    "imports": _Converter.import_, "language": _Converter.language, "gui": _Converter.gui,
-    "options": _Converter.option, "statemachine": _Converter.statemachine,
+    "imports": _Converter.import_,
+    "language": _Converter.language,
+    "gui": _Converter.gui,
+    "options": _Converter.option,
+    "statemachine": _Converter.statemachine,
 }
 
 

@@ -177,4 +177,3 @@ class _Converter:
     def refused(self, refusal: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
         reason = self.reader.rules.refusals[refusal].format(text=text, **facts)
         self.reader.diagnostics.append(codes.REFUSED.at(self.reader.span(node), reason=reason))
-

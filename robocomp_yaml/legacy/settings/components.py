@@ -63,7 +63,8 @@ def _settle(
         configs.append(config)
         folder = os.path.dirname(chosen[file.path]) or "."
         links[file.path] = Links(
-            os.path.relpath(component.document or component.parameters, folder), os.path.basename(file.path),
+            os.path.relpath(component.document or component.parameters, folder),
+            os.path.basename(file.path),
             os.path.relpath(chosen[after], folder) if after else "",
         )
     planned = plans(configs, guesses)

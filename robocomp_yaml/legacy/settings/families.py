@@ -92,8 +92,10 @@ def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Conf
     keyed = first is None
     index = unique([*(column.name for column in names), "index"])[-1]
     plan.spelled = Spelled(
-        f"{stem}{{{index}}}" if keyed else f"{stem}{{i}}", first=first or 0,
-        columns=[column.name for column in names], separator=joiner(texts, ","),
+        f"{stem}{{{index}}}" if keyed else f"{stem}{{i}}",
+        first=first or 0,
+        columns=[column.name for column in names],
+        separator=joiner(texts, ","),
     )
     for name, group in by_config.items():
         given = Given(Item([]))
@@ -201,10 +203,15 @@ def _ranges(configs: Sequence[Config]) -> Iterator[Plan]:
             for row in group:
                 match = _RANGE.match(row.setting.key)
                 assert match is not None
-                _add(given, row, {
-                    "from": Item(guess(match["from"])), "to": Item(guess(match["to"])),
-                    name: Item(guess(row.setting.text)),
-                })
+                _add(
+                    given,
+                    row,
+                    {
+                        "from": Item(guess(match["from"])),
+                        "to": Item(guess(match["to"])),
+                        name: Item(guess(row.setting.text)),
+                    },
+                )
             plan.given[title] = given
         yield plan
 

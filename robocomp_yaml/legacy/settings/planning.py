@@ -12,8 +12,13 @@ from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Pla
 from robocomp_yaml.legacy.settings.rows import could_be_list, is_list, joiner, separators, split
 from robocomp_yaml.legacy.settings.shapes import becomes_text, retyped, shape_of
 
-_PERIODS = {("period",): "compute", ("Period", "Compute"): "compute", ("Period", "Emergency"): "emergency",
-            ("period", "compute"): "compute", ("period", "emergency"): "emergency"}
+_PERIODS = {
+    ("period",): "compute",
+    ("Period", "Compute"): "compute",
+    ("Period", "Emergency"): "emergency",
+    ("period", "compute"): "compute",
+    ("period", "emergency"): "emergency",
+}
 _MEMBER = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]*\Z")
 
 
@@ -48,7 +53,8 @@ def _plan(path: Path, settings: dict[str, Setting], configs: Sequence[Config], g
         between = separators(texts.values())
         parts = {name: split(text, between) for name, text in texts.items()}
         plan.spelled = Spelled(
-            key, separators=[joiner(texts.values(), separator) for separator in between],
+            key,
+            separators=[joiner(texts.values(), separator) for separator in between],
             trailing=any(part.trailing for part in parts.values()),
         )
         plan.guessed = f"{key} is split into a list at every '{between[0]}'" + (

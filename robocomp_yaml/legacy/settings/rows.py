@@ -75,9 +75,7 @@ def separators(texts: Iterable[str]) -> tuple[str, ...]:
 
 def joiner(texts: Iterable[str], separator: str) -> str:
     """The separator with or without a blank behind it, as most of the texts have it."""
-    found = Counter(
-        part.startswith(" ") for text in texts for part in text.split(separator)[1:] if part.strip(BLANKS)
-    )
+    found = Counter(part.startswith(" ") for text in texts for part in text.split(separator)[1:] if part.strip(BLANKS))
     return f"{separator} " if found[True] > found[False] else separator
 
 

@@ -29,9 +29,12 @@ class Ports(msgspec.Struct, frozen=True):
 
     def takes(self, key: str) -> bool:
         """Whether a property of this name is the connection's, and no parameter's."""
-        return key in self.implements | self.topics or key.removesuffix("Topic") in self.topics or (
-            key.endswith("Proxy") and key[:-5] in self.requires
-        ) or key == "CommonBehavior"
+        return (
+            key in self.implements | self.topics
+            or key.removesuffix("Topic") in self.topics
+            or (key.endswith("Proxy") and key[:-5] in self.requires)
+            or key == "CommonBehavior"
+        )
 
 
 class Named(msgspec.Struct, frozen=True):

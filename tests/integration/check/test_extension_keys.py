@@ -85,10 +85,15 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 # The mappings in which each key is a name that is used, or a value's.
 OF_NAMES = {
-    "speech.cdsl.yaml: requires.0", "speech.cdsl.yaml: requires.1",
-    "speech.pdsl.yaml: parameters.offsets.default", "speech.pdsl.yaml: parameters.one.default",
-    "etc/config.yaml: parameters.offsets", "etc/config.yaml: parameters.token", "etc/config.yaml: ice",
-    "etc/config.yaml: properties", "etc/config.yaml: legacy.exact",
+    "speech.cdsl.yaml: requires.0",
+    "speech.cdsl.yaml: requires.1",
+    "speech.pdsl.yaml: parameters.offsets.default",
+    "speech.pdsl.yaml: parameters.one.default",
+    "etc/config.yaml: parameters.offsets",
+    "etc/config.yaml: parameters.token",
+    "etc/config.yaml: ice",
+    "etc/config.yaml: properties",
+    "etc/config.yaml: legacy.exact",
 }
 Result = tuple[list[str], dict[str, str]]
 EXTENSION = {"a": [1, {"b": None}]}

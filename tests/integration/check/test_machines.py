@@ -208,7 +208,9 @@ def test_transitions_behind_others(diagnostics: Check, transitions: str, told: s
     errors = [d for d in found if d["severity"] == "error"]
     said = [re.sub(r".* is (never) taken(.*): one (?:before|behind) it(.*)", r"\1\2:\3", d["message"]) for d in errors]
     assert len(said) == bool(told) and "".join(said).startswith(told)
-    assert [(d["code"], d["line"], d["column"]) for d in errors] == ([("RC2238", 7, line.index("@") + 1)] if told else [])
+    assert [(d["code"], d["line"], d["column"]) for d in errors] == (
+        [("RC2238", 7, line.index("@") + 1)] if told else []
+    )
 
 
 @pytest.mark.parametrize(("transitions", "severity"), [
@@ -251,8 +253,14 @@ def test_a_circle_on_what_is_always_true(diagnostics: Check) -> None:
 
 def test_what_a_state_inside_takes_is_its_own(diagnostics: Check) -> None:
     """A child's transition comes before its parent's for the same event, whichever stands first."""
-    assert inline(diagnostics, "  initial: a\n  states:\n    a: {initial: b, states: {b: {}, c: {}}}\n"
-                  "  transitions: {a: {to: a, event: x}, b: {to: c, event: x}}\n") == []
+    assert (
+        inline(
+            diagnostics,
+            "  initial: a\n  states:\n    a: {initial: b, states: {b: {}, c: {}}}\n"
+            "  transitions: {a: {to: a, event: x}, b: {to: c, event: x}}\n",
+        )
+        == []
+    )
 
 
 def test_a_state_with_transitions_at_two_levels(diagnostics: Check) -> None:

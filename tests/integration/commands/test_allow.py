@@ -60,7 +60,11 @@ def test_it_is_allowed(diagnostics: Check, text: str) -> None:
 
 def test_a_list(diagnostics: Check) -> None:
     allow = "# rcyaml: allow RC2103 -- twice on purpose"
-    for imports in (f"  - Speech\n  - Speech  {allow}\n", f"  - Speech\n  {allow}\n  - Speech\n", f"  [Speech,\n  Speech]  {allow}\n"):
+    for imports in (
+        f"  - Speech\n  - Speech  {allow}\n",
+        f"  - Speech\n  {allow}\n  - Speech\n",
+        f"  [Speech,\n  Speech]  {allow}\n",
+    ):
         said = diagnostics({
             "Speech.idsl.yaml": "module: RoboCompSpeech\n",
             "a.cdsl.yaml": f"component: A\nlanguage: python\nimports:\n{imports}",
@@ -159,15 +163,18 @@ def test_a_document_that_cannot_be_read_has_no_comments(diagnostics: Check) -> N
 def test_the_workspace_and_the_comment(diagnostics: Check, lint: str, told: list[str]) -> None:
     files = {"rcyaml.yaml": f"lint: {{{lint}}}\n", "Speech.idsl.yaml": f"{WRONG}{ALLOW}\n"}
     if told:
-        files["Speech.idsl.yaml"] = f"{METHODS}      find: {{in: {{x: Quux}}}}  # rcyaml: allow RC1010, RC1006 -- it comes\n"
+        files["Speech.idsl.yaml"] = (
+            f"{METHODS}      find: {{in: {{x: Quux}}}}  # rcyaml: allow RC1010, RC1006 -- it comes\n"
+        )
     assert [code for code, _ in codes(diagnostics(files))] == told
 
 
 def test_the_workspace_decides_about_the_comments(diagnostics: Check) -> None:
     files = {"Speech.idsl.yaml": f"{WRONG}# rcyaml: allow RC1006, RC1027\n"}
-    assert [(d["code"], d["severity"]) for d in diagnostics({**files, "rcyaml.yaml": "lint: {RC0060: error, RC0063: off}\n"})] == [
-        ("RC0060", "error")
-    ]
+    assert [
+        (d["code"], d["severity"])
+        for d in diagnostics({**files, "rcyaml.yaml": "lint: {RC0060: error, RC0063: off}\n"})
+    ] == [("RC0060", "error")]
 
 
 def test_the_workspace_s_own_document(diagnostics: Check) -> None:
@@ -209,7 +216,10 @@ def test_compile_follows_them(rcyaml: Run, tmp_path: Path) -> None:
 
 def test_what_is_not_asked_for_is_not_judged(rcyaml: Run, tmp_path: Path) -> None:
     """Of an import from elsewhere, not all is looked at."""
-    write_tree(tmp_path, {"Arm.idsl.yaml": f"module: RoboCompArm {ALLOW}\n", "Leg.idsl.yaml": "module: RoboCompLeg\nimports: [Arm]\n"})
+    write_tree(
+        tmp_path,
+        {"Arm.idsl.yaml": f"module: RoboCompArm {ALLOW}\n", "Leg.idsl.yaml": "module: RoboCompLeg\nimports: [Arm]\n"},
+    )
     assert rcyaml("check", "Leg.idsl.yaml").stdout == "2 documents: nothing wrong\n"
     assert "RC0060" in rcyaml("check", "Arm.idsl.yaml").stdout
 

@@ -16,7 +16,11 @@ from robocomp_yaml.transactions import atomic
 
 SPEECH = "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n      say: {in: {text: string}}\n"
 COMPONENT = "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n"
-TREE = {"rcyaml.yaml": "interfaces: [interfaces]\n", "interfaces/Speech.idsl.yaml": SPEECH, "speech/speech.cdsl.yaml": COMPONENT}
+TREE = {
+    "rcyaml.yaml": "interfaces: [interfaces]\n",
+    "interfaces/Speech.idsl.yaml": SPEECH,
+    "speech/speech.cdsl.yaml": COMPONENT,
+}
 
 Run = Callable[..., Result]
 
@@ -142,7 +146,9 @@ def test_a_document_that_breaks_keeps_what_was_compiled(compiled: Path, rcyaml: 
     }
 
 
-def test_a_failed_write_leaves_everything_as_it_was(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failed_write_leaves_everything_as_it_was(
+    rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     write_tree(tmp_path, TREE)
     real, calls = os.rename, []
 

@@ -22,15 +22,25 @@ FINE: dict[str, Tree] = {
     "interface": {"Speech.idsl.yaml": SPEECH},
     "component in the root": {"Speech.idsl.yaml": SPEECH, "speech.cdsl.yaml": COMPONENT},
     "component in a folder": BESIDE,
-    "a warning": {"Speech.idsl.yaml": SPEECH, "speech.cdsl.yaml": COMPONENT.replace("[Speech]\nimpl", "[Speech, Speech]\nimpl")},
-    "code of the user": {**BESIDE, "speech/src/specificworker.py": "class SpecificWorker: pass\n", "speech/etc/config": "A=1\n"},
+    "a warning": {
+        "Speech.idsl.yaml": SPEECH,
+        "speech.cdsl.yaml": COMPONENT.replace("[Speech]\nimpl", "[Speech, Speech]\nimpl"),
+    },
+    "code of the user": {
+        **BESIDE,
+        "speech/src/specificworker.py": "class SpecificWorker: pass\n",
+        "speech/etc/config": "A=1\n",
+    },
 }
 FAULTY: dict[str, Tree] = {
     "no YAML": {**BESIDE, "idsl/Bad.idsl.yaml": "module: [\n"},
     "not UTF-8": {**BESIDE, "idsl/Bad.idsl.yaml": b"module: \xff\n"},
     "no such type": {**BESIDE, "idsl/Bad.idsl.yaml": SPEECH.replace("string", "strin").replace("Speech", "Bad")},
     "no such import": {**BESIDE, "idsl/Bad.idsl.yaml": "module: RoboCompBad\nimports: [Speach]\n"},
-    "no such interface": {**BESIDE, "bad/bad.cdsl.yaml": COMPONENT.replace("[Speech]\n", "[Speech]\nrequires: [Mouth]\n")},
+    "no such interface": {
+        **BESIDE,
+        "bad/bad.cdsl.yaml": COMPONENT.replace("[Speech]\n", "[Speech]\nrequires: [Mouth]\n"),
+    },
     "parameters": {**BESIDE, "speech/speech.pdsl.yaml": PARAMETERS.replace("int", "itn")},
 }
 OF_THE_DISK: dict[str, tuple[Tree, Tree]] = {

@@ -43,68 +43,91 @@ SAFE = {
     "three of them": (IDSL, "module: M\nimports: [Laser, Laser, 'Laser']\n", "module: M\nimports: [Laser]\n"),
     "on lines": (IDSL, "module: M\nimports:\n  - Laser\n  - Laser\n", "module: M\nimports:\n  - Laser\n"),
     "with a comment": (
-        IDSL, "module: M\nimports:\n- Laser # one\n- Laser  # two\n", "module: M\nimports:\n- Laser # one\n# two\n",
+        IDSL,
+        "module: M\nimports:\n- Laser # one\n- Laser  # two\n",
+        "module: M\nimports:\n- Laser # one\n# two\n",
     ),
     "brackets on lines": (
-        IDSL, "module: M\nimports: [\n  Laser, # one\n  Laser, # two\n]\n",
+        IDSL,
+        "module: M\nimports: [\n  Laser, # one\n  Laser, # two\n]\n",
         "module: M\nimports: [\n  Laser, # one\n  # two\n]\n",
     ),
     "the same by its path": (IDSL, "module: M\nimports: [Laser, ./Laser]\n", "module: M\nimports: [Laser]\n"),
-    "the last line without an end": (IDSL, "module: M\nimports:\n  - Laser\n  - Laser", "module: M\nimports:\n  - Laser\n"),
+    "the last line without an end": (
+        IDSL,
+        "module: M\nimports:\n  - Laser\n  - Laser",
+        "module: M\nimports:\n  - Laser\n",
+    ),
     "an import's case": (CDSL, HEAD + "imports: [speech]\n", HEAD + "imports: [Speech]\n"),
     "a key's case": (IDSL, "Module: M\n", "module: M\n"),
     "a key's case, quoted": (IDSL, "'MODULE': M\n", "'module': M\n"),
     "a language's case": (CDSL, "component: A\nlanguage: Python\n", "component: A\nlanguage: python\n"),
     "an entry said twice": (IDSL, "module: M\ndoc: x\ndoc: x # y\n", "module: M\ndoc: x\n# y\n"),
     "a block said twice": (
-        IDSL, "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n  A:\n    struct:\n      x: int\n# end\n",
+        IDSL,
+        "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n  A:\n    struct:\n      x: int\n# end\n",
         "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n# end\n",
     ),
     "in brackets": (IDSL, "module: M\nx-a: {b: 1, c: [2], b: 1}\n", "module: M\nx-a: {b: 1, c: [2]}\n"),
     "without a value": (IDSL, "module: M\ntypes:\ntypes:\n", "module: M\ntypes:\n"),
     "tags": (
-        IDSL, "module: !!str M\ndoc: !!str 5  # five\nx-a: !!map {b: &c !!int 5}\n",
+        IDSL,
+        "module: !!str M\ndoc: !!str 5  # five\nx-a: !!map {b: &c !!int 5}\n",
         'module: "M"\ndoc: "5"  # five\nx-a: {b: &c 5}\n',
     ),
     "what every component does": (
-        CDSL, HEAD + "imports: [CommonBehavior]\nimplements: [CommonBehavior]\n",
+        CDSL,
+        HEAD + "imports: [CommonBehavior]\nimplements: [CommonBehavior]\n",
         HEAD + "imports: [CommonBehavior]\nimplements: []\n",
     ),
     "an exception thrown twice": (
-        IDSL, "module: M\nexceptions: {E: {}}\ninterfaces: {I: {methods: {m: {throws: [E, E]}}}}\n",
+        IDSL,
+        "module: M\nexceptions: {E: {}}\ninterfaces: {I: {methods: {m: {throws: [E, E]}}}}\n",
         "module: M\nexceptions: {E: {}}\ninterfaces: {I: {methods: {m: {throws: [E]}}}}\n",
     ),
     "a text that begins as none can": (IDSL, "module: M\ndoc: @home  # why\n", 'module: M\ndoc: "@home"  # why\n'),
     "a text with a colon": (IDSL, "module: M\ndoc: Moves: fast\n", 'module: M\ndoc: "Moves: fast"\n'),
     "a blank behind a colon": (
-        IDSL, "module: M\ntypes:\n  A: {sequence:string}\n", "module: M\ntypes:\n  A: {sequence: string}\n",
+        IDSL,
+        "module: M\ntypes:\n  A: {sequence:string}\n",
+        "module: M\ntypes:\n  A: {sequence: string}\n",
     ),
     "text that is a number": (IDSL, "module: M\ndoc: 2026\n", 'module: M\ndoc: "2026"\n'),
     "a truth of YAML 1.1": (
-        IDSL, "module: M\ninterfaces: {I: {methods: {m: {idempotent: yes}}}}\n",
+        IDSL,
+        "module: M\ninterfaces: {I: {methods: {m: {idempotent: yes}}}}\n",
         "module: M\ninterfaces: {I: {methods: {m: {idempotent: true}}}}\n",
     ),
     "one for a list": (CDSL, HEAD + "imports: Speech\n", HEAD + "imports: [Speech]\n"),
     "some for a list": (CDSL, HEAD + "imports: Speech, Laser\n", HEAD + "imports: [Speech, Laser]\n"),
     "quotes around a number": (
-        "speech.pdsl.yaml", PDSL.replace("default: 1", 'default: "1.5"'), PDSL.replace("default: 1", "default: 1.5"),
+        "speech.pdsl.yaml",
+        PDSL.replace("default: 1", 'default: "1.5"'),
+        PDSL.replace("default: 1", "default: 1.5"),
     ),
     "no quotes around a text": (
-        "speech.pdsl.yaml", PDSL.replace("default: a", "default: 7"), PDSL.replace("default: a", 'default: "7"'),
+        "speech.pdsl.yaml",
+        PDSL.replace("default: a", "default: 7"),
+        PDSL.replace("default: a", 'default: "7"'),
     ),
     "values": (
-        "etc/config.yaml", VALUES + "  speed: '2'\n  name: true\n  Loud: off\n",
+        "etc/config.yaml",
+        VALUES + "  speed: '2'\n  name: true\n  Loud: off\n",
         VALUES + '  speed: 2\n  name: "true"\n  loud: false\n',
     ),
     "a constant": (
-        IDSL, "module: M\nconstants:\n  a: {type: string, value: 5}\n  b: {type: int, value: '5'}\n",
+        IDSL,
+        "module: M\nconstants:\n  a: {type: string, value: 5}\n  b: {type: int, value: '5'}\n",
         'module: M\nconstants:\n  a: {type: string, value: "5"}\n  b: {type: int, value: 5}\n',
     ),
     "a path that lacks its end": (
-        "speech.pdsl.yaml", PDSL.replace("speech.cdsl.yaml", "speech.cdsl"), PDSL,
+        "speech.pdsl.yaml",
+        PDSL.replace("speech.cdsl.yaml", "speech.cdsl"),
+        PDSL,
     ),
     "operators of C": (
-        "speech.pdsl.yaml", PDSL + "constraints: ['speed > 1 && !loud']\n",
+        "speech.pdsl.yaml",
+        PDSL + "constraints: ['speed > 1 && !loud']\n",
         PDSL + "constraints: ['speed > 1 and not loud']\n",
     ),
     "a deployment's key": ("robot.ddsl.yaml", DDSL.replace("components:", "Components:"), DDSL),
@@ -114,31 +137,43 @@ SAFE = {
 @pytest.mark.parametrize(("name", "before", "after"), SAFE.values(), ids=SAFE)
 def test_one_meaning(rcyaml: Run, tmp_path: Path, name: str, before: str, after: str) -> None:
     others = {
-        "Laser.idsl.yaml": LASER, "CommonBehavior.idsl.yaml": "module: RoboCompCommonBehavior\ninterfaces: {CommonBehavior: {}}\n",
-        "speech.pdsl.yaml": PDSL, **BESIDE,
+        "Laser.idsl.yaml": LASER,
+        "CommonBehavior.idsl.yaml": "module: RoboCompCommonBehavior\ninterfaces: {CommonBehavior: {}}\n",
+        "speech.pdsl.yaml": PDSL,
+        **BESIDE,
     }
     assert fixed(rcyaml, tmp_path, {**others, name: before}, name) == after
 
 
 UNSAFE = {
-    "an interface": (CDSL, HEAD + "imports: [Speech]\nrequires: [Speach]\n", HEAD + "imports: [Speech]\nrequires: [Speech]\n"),
+    "an interface": (
+        CDSL,
+        HEAD + "imports: [Speech]\nrequires: [Speach]\n",
+        HEAD + "imports: [Speech]\nrequires: [Speech]\n",
+    ),
     "with its module": (
-        CDSL, HEAD + "imports: [Speech]\nrequires: [Speech.Speach]\n",
+        CDSL,
+        HEAD + "imports: [Speech]\nrequires: [Speech.Speach]\n",
         HEAD + "imports: [Speech]\nrequires: [Speech.Speech]\n",
     ),
     "an import that is missing": (
-        CDSL, HEAD + "implements: [Speech]\n", HEAD + "imports: [Speech]\nimplements: [Speech]\n",
+        CDSL,
+        HEAD + "implements: [Speech]\n",
+        HEAD + "imports: [Speech]\nimplements: [Speech]\n",
     ),
     "behind others": (
-        CDSL, HEAD.replace("python", "python  # ours") + "imports: [ Laser ]\nimplements: [Speech]\n",
+        CDSL,
+        HEAD.replace("python", "python  # ours") + "imports: [ Laser ]\nimplements: [Speech]\n",
         HEAD.replace("python", "python  # ours") + "imports: [ Laser, Speech ]\nimplements: [Speech]\n",
     ),
     "on a line": (
-        CDSL, HEAD + "imports:\n- Laser  # first\n# then\nimplements: [Speech]\n",
+        CDSL,
+        HEAD + "imports:\n- Laser  # first\n# then\nimplements: [Speech]\n",
         HEAD + "imports:\n- Laser  # first\n- Speech\n# then\nimplements: [Speech]\n",
     ),
     "with a name": (
-        IDSL, "# M.\r\nmodule: M # m\r\ntypes: {A: {sequence: Scan}, B: {sequence: Laser.Scan}}",
+        IDSL,
+        "# M.\r\nmodule: M # m\r\ntypes: {A: {sequence: Scan}, B: {sequence: Laser.Scan}}",
         "# M.\r\nmodule: M # m\r\nimports: [Laser]\r\ntypes: {A: {sequence: Laser.Scan}, B: {sequence: Laser.Scan}}",
     ),
     "an import": (CDSL, HEAD + "imports: [Speach]\n", HEAD + "imports: [Speech]\n"),
@@ -146,45 +181,56 @@ UNSAFE = {
     "a type": (IDSL, 'module: M\ntypes: {A: {sequence: "strng"}}\n', 'module: M\ntypes: {A: {sequence: "string"}}\n'),
     "of C++": (IDSL, "module: M\ntypes: {A: {sequence: int32_t}}\n", "module: M\ntypes: {A: {sequence: int}}\n"),
     "an enumerator": (
-        IDSL, "module: M\ntypes: {A: {enum: [on, no]}}\nconstants: {c: {type: A, value: onn}}\n",
+        IDSL,
+        "module: M\ntypes: {A: {enum: [on, no]}}\nconstants: {c: {type: A, value: onn}}\n",
         "module: M\ntypes: {A: {enum: [on, no]}}\nconstants: {c: {type: A, value: on}}\n",
     ),
     "a parameter's type": ("speech.pdsl.yaml", PDSL.replace("float", "flaot"), PDSL),
     "a parameter": ("etc/config.yaml", VALUES + "  sped: 2\n", VALUES + "  speed: 2\n"),
     "in an expression": (
-        "speech.pdsl.yaml", PDSL + "constraints: [speed > sped, sped < 5]\n",
+        "speech.pdsl.yaml",
+        PDSL + "constraints: [speed > sped, sped < 5]\n",
         PDSL + "constraints: [speed > speed, speed < 5]\n",
     ),
     "a function": (
-        "speech.pdsl.yaml", PDSL + 'constraints: ["abss(speed) > 1"]\n', PDSL + 'constraints: ["abs(speed) > 1"]\n',
+        "speech.pdsl.yaml",
+        PDSL + 'constraints: ["abss(speed) > 1"]\n',
+        PDSL + 'constraints: ["abs(speed) > 1"]\n',
     ),
     "a path": ("robot.ddsl.yaml", DDSL.replace("speech.cdsl", "speach.cdsl"), DDSL),
     "an option of Ice": (
-        "etc/config.yaml", VALUES.replace("parameters:\n", "") + "endpoints: {Speech: tpc -p 10001}\n",
+        "etc/config.yaml",
+        VALUES.replace("parameters:\n", "") + "endpoints: {Speech: tpc -p 10001}\n",
         VALUES.replace("parameters:\n", "") + "endpoints: {Speech: tcp -p 10001}\n",
     ),
     "a port": (
-        "etc/config.yaml", VALUES.replace("parameters:\n", "") + "endpoints: {Speach: tcp -p 10001}\n",
+        "etc/config.yaml",
+        VALUES.replace("parameters:\n", "") + "endpoints: {Speach: tcp -p 10001}\n",
         VALUES.replace("parameters:\n", "") + "endpoints: {Speech: tcp -p 10001}\n",
     ),
     "a state": (
-        CDSL, HEAD + "statemachine: {initial: open, states: {open: {}, shut: {}}, transitions: {open: shutt, shut: 'opn'}}\n",
+        CDSL,
+        HEAD + "statemachine: {initial: open, states: {open: {}, shut: {}}, transitions: {open: shutt, shut: 'opn'}}\n",
         HEAD + "statemachine: {initial: open, states: {open: {}, shut: {}}, transitions: {open: shut, shut: 'open'}}\n",
     ),
     "a connection": (
-        "robot.ddsl.yaml", DDSL.replace(".yaml}", ".yaml, after: [cmaera]}") + "  camera: {program: 'true'}\n",
+        "robot.ddsl.yaml",
+        DDSL.replace(".yaml}", ".yaml, after: [cmaera]}") + "  camera: {program: 'true'}\n",
         DDSL.replace(".yaml}", ".yaml, after: [camera]}") + "  camera: {program: 'true'}\n",
     ),
     "an anchor": (
-        CDSL, HEAD + "imports: [Speech]\nimplements: [&a Speach]\nrequires: [*a]\n",
+        CDSL,
+        HEAD + "imports: [Speech]\nimplements: [&a Speach]\nrequires: [*a]\n",
         HEAD + "imports: [Speech]\nimplements: [&a Speech]\nrequires: [*a]\n",
     ),
     "quotes and brackets": (
-        CDSL, HEAD + "imports: ['Speech']\nrequires:\n  [ 'Speach' ,]  # all\n",
+        CDSL,
+        HEAD + "imports: ['Speech']\nrequires:\n  [ 'Speach' ,]  # all\n",
         HEAD + "imports: ['Speech']\nrequires:\n  [ 'Speech' ,]  # all\n",
     ),
     "two meanings": (
-        IDSL, "module: M\nconstants: {a: {type: string, value: 0495}}\n",
+        IDSL,
+        "module: M\nconstants: {a: {type: string, value: 0495}}\n",
         'module: M\nconstants: {a: {type: string, value: "0495"}}\n',
     ),
 }
@@ -212,7 +258,10 @@ def test_a_guess_that_shows_more_than_can_be_mended_is_not_made(rcyaml: Run, tmp
     write_tree(tmp_path, {IDSL: text})
     result = rcyaml("check", "--unsafe-fixes")
     assert (tmp_path / IDSL).read_text() == text and result.exit_code == 1
-    assert "left   Speech.idsl.yaml:2:1: write 'interfaces' (RC0202): there would be 2 errors instead of 1" in result.stdout
+    assert (
+        "left   Speech.idsl.yaml:2:1: write 'interfaces' (RC0202): there would be 2 errors instead of 1"
+        in result.stdout
+    )
     mendable = text.replace("Quux", "strng").replace("Zork", "flot")
     (tmp_path / IDSL).write_text(mendable)
     assert rcyaml("check", "--unsafe-fixes").exit_code == 0
@@ -233,7 +282,9 @@ def test_a_number_in_quotes_is_no_name(rcyaml: Run, tmp_path: Path) -> None:
 
 def test_a_document_is_not_what_it_lacks_itself(rcyaml: Run, tmp_path: Path) -> None:
     files = {
-        **BESIDE, "speech.pdsl.yaml": PDSL, "a.config.yaml": "component: speech.cdsl.yaml\nextends: [b.config.yaml]\n",
+        **BESIDE,
+        "speech.pdsl.yaml": PDSL,
+        "a.config.yaml": "component: speech.cdsl.yaml\nextends: [b.config.yaml]\n",
         "robot.ddsl.yaml": "deployment: R\ngroups: {g: {include: robots.ddsl.yaml}}\n",
     }
     write_tree(tmp_path, files)
@@ -295,7 +346,9 @@ def test_many_at_once(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 
 def test_diff_shows_and_writes_nothing(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {"Laser.idsl.yaml": LASER, IDSL: "module: M\r\nimports: [Laser, Laser]\r\ntypes: {A: {sequence: x}}"})
+    write_tree(
+        tmp_path, {"Laser.idsl.yaml": LASER, IDSL: "module: M\r\nimports: [Laser, Laser]\r\ntypes: {A: {sequence: x}}"}
+    )
     result = rcyaml("check", "--diff")
     assert result.stdout.splitlines()[:2] == ["--- a/Speech.idsl.yaml", "+++ b/Speech.idsl.yaml"]
     assert "+imports: [Laser]\r\n" in result.stdout_bytes.decode()

@@ -118,8 +118,10 @@ def test_a_new_deployment_has_the_workspaces_components(rcyaml: Run, workspace: 
     said = rcyaml("new", "deployment", "Head")
     assert said.stdout.splitlines()[-1] == "next: rcyaml deploy plan deployments/head.ddsl.yaml"
     assert components_of(workspace).splitlines() == [
-        "  listener:", "    component: ../components/listener/listener.cdsl.yaml",
-        "  talk:", "    component: ../components/talkcomp/talkcomp.cdsl.yaml",
+        "  listener:",
+        "    component: ../components/listener/listener.cdsl.yaml",
+        "  talk:",
+        "    component: ../components/talkcomp/talkcomp.cdsl.yaml",
     ]
     assert "storm: {icestorm: }" in (workspace / "deployments/head.ddsl.yaml").read_text()
     assert rcyaml("compile").exit_code == 0

@@ -61,7 +61,10 @@ def test_several_are_told(rcyaml: Rcyaml, tmp_path: Path, what: str) -> None:
     write_tree(tmp_path, {"d/robot.ddsl.yaml": ROBOT, "d/two.ddsl.yaml": ROBOT.replace("Robot", "Two")})
     told = deploy(rcyaml, what)
     assert told.exit_code == 2
-    assert "there are several deployments here, of which one is to be named: d/robot.ddsl.yaml, d/two.ddsl.yaml" in told.stderr
+    assert (
+        "there are several deployments here, of which one is to be named: d/robot.ddsl.yaml, d/two.ddsl.yaml"
+        in told.stderr
+    )
     assert rcyaml("graph").stderr.splitlines()[-1] == told.stderr.splitlines()[-1]
 
 

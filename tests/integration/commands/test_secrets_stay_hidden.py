@@ -170,7 +170,7 @@ DEPLOYMENTS = [
     "  a: {component: speech, set: {wifi: [canaryA], pin: canaryB, name: 3, 'accounts[4].key': canaryC}}\n",
     "  a: {component: nowhere, set: {wifi: canaryA, password: canaryB}, env: {X: 'x://a:canary@b'}}\n",
     "  a:\n    program: /bin/true\n    args:\n    - --password\n    - 'canaryA\n",
-    "  a:\n    component: speech\n    set: {mode: \"canaryA\"x}\n",
+    '  a:\n    component: speech\n    set: {mode: "canaryA"x}\n',
     "  [a, {program: /bin/true, env: {PASSWORD: canaryA}, args: [--token, canaryB]}]\n",
     "  a: {program: /bin/true, env: [PASSWORD=canaryA, {PASSWORD: canaryB}]}\n",
     "  a: {program: '/bin/x --password canaryA'}\nhosts: {h: {address: a, password: canaryB}}\n",
@@ -184,9 +184,7 @@ DEPLOYMENTS = [
 
 @pytest.mark.parametrize("text", DEPLOYMENTS)
 @pytest.mark.parametrize("command", ["check", "check --format json", "graph", "deploy plan robot.ddsl.yaml"])
-def test_nor_by_deployments_that_are_wrong(
-    robot: Path, rcyaml: Callable[..., Any], text: str, command: str
-) -> None:
+def test_nor_by_deployments_that_are_wrong(robot: Path, rcyaml: Callable[..., Any], text: str, command: str) -> None:
     (robot / "robot.ddsl.yaml").write_text(f"deployment: Robot\ncomponents:\n{text}", encoding="utf-8")
     result = rcyaml(*command.split())
     assert not sings(result.output)

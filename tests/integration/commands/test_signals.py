@@ -135,7 +135,9 @@ def test_an_ignored_signal_stays_ignored(place: Path) -> None:
     assert done.returncode == 0 and b"documents" in done.stdout
 
 
-@pytest.mark.parametrize("args", ["explain", "explain --format json", "schema ddsl", "config export speech/values.config.yaml"])
+@pytest.mark.parametrize(
+    "args", ["explain", "explain --format json", "schema ddsl", "config export speech/values.config.yaml"]
+)
 def test_a_reader_may_have_enough(args: str, place: Path) -> None:
     rcyaml = f"{sys.executable} -m robocomp_yaml {args}"
     done = subprocess.run(

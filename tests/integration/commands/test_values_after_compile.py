@@ -60,8 +60,10 @@ def test_it_follows_the_neighbour(rcyaml: Run, tmp_path: Path) -> None:
 
 
 def test_what_a_merge_puts_in_leads_there_too(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {**TREE, **WORKSPACE,
-                          "speech/s.cdsl.yaml": TREE["speech/s.cdsl.yaml"].replace("requires: [Mouth]\n", "")})
+    write_tree(
+        tmp_path,
+        {**TREE, **WORKSPACE, "speech/s.cdsl.yaml": TREE["speech/s.cdsl.yaml"].replace("requires: [Mouth]\n", "")},
+    )
     assert rcyaml("compile").exit_code == 0
     write_tree(tmp_path, {"speech/s.cdsl.yaml": TREE["speech/s.cdsl.yaml"]})
     assert "-p 12321" in rcyaml("compile").stdout  # RC6206, with the lines to paste
@@ -75,7 +77,7 @@ def test_a_first_document_says_where_the_neighbour_is(rcyaml: Run, tmp_path: Pat
     if is_compiled:
         assert rcyaml("compile").exit_code == 0
     assert rcyaml("config", "new", "SpeechComp").exit_code == 0
-    assert "Mouth: \"mouth:tcp -h localhost -p 12321\"\n" in (tmp_path / "speech/etc/config.yaml").read_text()
+    assert 'Mouth: "mouth:tcp -h localhost -p 12321"\n' in (tmp_path / "speech/etc/config.yaml").read_text()
     assert rcyaml("compile").exit_code == 0
     assert _proxy(tmp_path) == "12321"
     assert not list(tmp_path.rglob("*.orig"))
@@ -91,7 +93,7 @@ def test_a_first_document_takes_the_users_edits_over(rcyaml: Run, tmp_path: Path
     config.write_text(mine)
     assert rcyaml("config", "new", "speech").exit_code == 0
     text = (tmp_path / "speech/etc/config.yaml").read_text()
-    for line in ("  volume: 8\n", "    host: there\n", "Trace.Slicing: \"1\"\n", "  Mine.Own: \"7 # of\"\n"):
+    for line in ("  volume: 8\n", "    host: there\n", 'Trace.Slicing: "1"\n', '  Mine.Own: "7 # of"\n'):
         assert line in text
     assert "speed" not in text
     told = rcyaml("compile")
@@ -99,7 +101,9 @@ def test_a_first_document_takes_the_users_edits_over(rcyaml: Run, tmp_path: Path
     assert (tmp_path / "speech/etc/config.orig").read_text() == mine
     now = config.read_text()
     assert _proxy(tmp_path) == "10100"
-    assert all(f"{line}\n" in now for line in ("volume=8", "Net.host=there", "Ice.Trace.Slicing=1", "Mine.Own=7 \\# of"))
+    assert all(
+        f"{line}\n" in now for line in ("volume=8", "Net.host=there", "Ice.Trace.Slicing=1", "Mine.Own=7 \\# of")
+    )
     assert "CommonBehavior.ThreadPool.Size=3\n" in now
 
 
@@ -124,6 +128,12 @@ def test_the_newer_dialect_is_understood(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {**TREE, **WORKSPACE, "speech/etc/config": f'{config}Net.host = "robot"\nMine = "x"\n'})
     assert rcyaml("config", "new", "speech").exit_code == 0
     text = (tmp_path / "speech/etc/config.yaml").read_text()
-    for line in ('Mouth: "mouth:tcp -h there -p 10200"', "CommonBehavior: tcp -p 10300", "volume: 9", "host: robot", "Mine: x"):
+    for line in (
+        'Mouth: "mouth:tcp -h there -p 10200"',
+        "CommonBehavior: tcp -p 10300",
+        "volume: 9",
+        "host: robot",
+        "Mine: x",
+    ):
         assert f"  {line}\n" in text, text
     assert rcyaml("config", "check", "speech").exit_code == 0

@@ -73,12 +73,20 @@ def test_a_process_of_another_version_restarts() -> None:
         (replace(A, ready=Readiness()), CHANGE, "ready.pings: laser:tcp -p 10003 (gone)"),
         (replace(A, ready=replace(A.ready, within=20)), CHANGE, "ready.within: 10 s → 20 s"),
         (replace(A, ready=replace(A.ready, log="up")), CHANGE, "ready.log: up (new)"),
-        (replace(A, restart=Restart(ALWAYS, delay=1)), CHANGE,
-         "restart.policy: on-failure → always; restart.delay: 0.1 s → 1 s"),
+        (
+            replace(A, restart=Restart(ALWAYS, delay=1)),
+            CHANGE,
+            "restart.policy: on-failure → always; restart.delay: 0.1 s → 1 s",
+        ),
         (replace(A, aliases=("c",)), CHANGE, "aliases: c (new)"),
         (replace(A, after=("c", "d"), groups=("g",)), CHANGE, "after: c, d (new); groups: g (new)"),
-        (replace(A, endpoints=(replace(A.endpoints[0], text="tcp -p 10004"),), ready=Readiness(pings=("m:tcp -p 4",))),
-         CHANGE, "serves Laser: tcp -p 10003 → tcp -p 10004"),
+        (
+            replace(
+                A, endpoints=(replace(A.endpoints[0], text="tcp -p 10004"),), ready=Readiness(pings=("m:tcp -p 4",))
+            ),
+            CHANGE,
+            "serves Laser: tcp -p 10003 → tcp -p 10004",
+        ),
         (replace(A, endpoints=(replace(A.endpoints[0], module="M"),)), CHANGE, "endpoints changed"),
     ],
 )

@@ -89,9 +89,7 @@ def test_marks_stand_below_the_fault(tmp_path: Path, before: str, fault: str) ->
 
 def test_a_diagnostic_has_the_lines_that_are_its_own() -> None:
     evil = "x\nerror[RC9999]: forged\r\x1b[2K"
-    told = SYNTAX.at(
-        Span(evil), problem=evil, hint=evil, related=(Related(evil, Span(evil)),), more=f"paste\n\t{evil}"
-    )
+    told = SYNTAX.at(Span(evil), problem=evil, hint=evil, related=(Related(evil, Span(evil)),), more=f"paste\n\t{evil}")
     lines = text_format.render([told], 1, False)
     assert all(one == shown(one, tabs=True) for one in lines)
     assert [one for one in lines if one.startswith("error[")] == [lines[0]]

@@ -19,6 +19,7 @@ from robocomp_yaml.transactions.plan import ONCE
 
 RUNTIME = ROOT / "robocomp_yaml" / "languages" / "cpp" / "templates" / "runtime"
 
+
 @pytest.fixture
 def link(tmp_path: Path) -> Callable[[Mapping[str, str]], LinkedComponent]:
     """`link({path: YAML})`: the one component among the documents."""
@@ -115,9 +116,7 @@ def test_names_that_clash(link: Link) -> None:
         "interfaces:\n  A_b: {methods: {c: {returns: int}}}\n  A: {methods: {b_c: {returns: bool}, AServant: {}}}\n"
         "  speech: {methods: {proxy: {}, pubproxy: {}}}\n  static: {methods: {cast: {}}}\n"
     )
-    lists = (
-        "implements: [A_b, A, speech, static]\nrequires: [speech]\npublishes: [speech]\nsubscribes: [speech]"
-    )
+    lists = "implements: [A_b, A, speech, static]\nrequires: [speech]\npublishes: [speech]\nsubscribes: [speech]"
     got = files(link(one_interface("X", text, lists)))
     header = got["generated/genericworker.h"]
     names = re.findall(r"virtual \w+ (\w+)\(", header)
@@ -141,7 +140,11 @@ parameters:
     got = files(link({"x.cdsl.yaml": "component: C\nlanguage: cpp\n", "x.pdsl.yaml": pdsl}))
     header = got["generated/parameters.h"]
     assert "    class_,\n    class__,\n    emit_,\n" in header
-    for field in ("Mode slots_ = parameters::Mode::class__;", "int signals_ = 1;", "Mode Mode = parameters::Mode::emit_;"):
+    for field in (
+        "Mode slots_ = parameters::Mode::class__;",
+        "int signals_ = 1;",
+        "Mode Mode = parameters::Mode::emit_;",
+    ):
         assert field in header
 
 
@@ -176,10 +179,14 @@ def test_its_own_common_behavior_is_used(link: Link) -> None:
 def test_docs_are_comments(link: Link, doc: str) -> None:
     """Whatever they hold, no line of code is drawn into them, and none of them becomes code."""
     said = json.dumps(doc, ensure_ascii=False)
-    text = f"interfaces:\n  A: {{doc: {said}, methods: {{f: {{doc: {said}, in: {{x: {{type: int, doc: {said}}}}}}}}}}}\n"
+    text = (
+        f"interfaces:\n  A: {{doc: {said}, methods: {{f: {{doc: {said}, in: {{x: {{type: int, doc: {said}}}}}}}}}}}\n"
+    )
     documents = one_interface("X", text, f"implements: [A]\nrequires: [{{B: {{interface: A, doc: {said}}}}}]", doc=said)
     got = files(link(documents))
-    plain = files(link(one_interface("X", text.replace(said, "''"), "implements: [A]\nrequires: [{B: {interface: A}}]")))
+    plain = files(
+        link(one_interface("X", text.replace(said, "''"), "implements: [A]\nrequires: [{B: {interface: A}}]"))
+    )
 
     def code(text: str) -> list[str]:
         assert "\\\n" not in text

@@ -31,7 +31,8 @@ def test_cmake_finds_packages_and_libraries(rcyaml: Run, tmp_path: Path) -> None
     there = [{"cmake": "Threads"}, {"link": "m"}, {"link": "pthread"}]
     lost = [{"cmake": "LostPackage"}, {"link": "lostlibrary"}]
     assert told(rcyaml, tmp_path, [*there, *lost]) == [
-        "the CMake package LostPackage is not installed here", "the library lostlibrary is not installed here"
+        "the CMake package LostPackage is not installed here",
+        "the library lostlibrary is not installed here",
     ]
 
 

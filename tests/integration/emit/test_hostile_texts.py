@@ -175,7 +175,10 @@ def of_config(text: str) -> Any:
 
 
 READERS: dict[str, Callable[[str], Any]] = {
-    ".xml": of_xml, ".yaml": of_yaml, ".service": of_unit, ".target": of_unit,
+    ".xml": of_xml,
+    ".yaml": of_yaml,
+    ".service": of_unit,
+    ".target": of_unit,
     **dict.fromkeys(("", ".gate", ".elbow"), of_config),
 }
 

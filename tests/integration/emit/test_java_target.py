@@ -18,10 +18,18 @@ from robocomp_yaml.values.spell_yaml import flow
 
 SHARE = 1 if "RCYAML_CASES" in os.environ else 8
 """Every so many texts are tried."""
-TOKEN = re.compile(r'\s+|//[^\n\r]*|/\*.*?\*/|(?P<text>"(?:\\[btnfr"\'\\]|\\[0-7]{1,3}|[^"\\\n\r])*")|(?P<token>\w+|[^\w\s"])', re.DOTALL)
+TOKEN = re.compile(
+    r'\s+|//[^\n\r]*|/\*.*?\*/|(?P<text>"(?:\\[btnfr"\'\\]|\\[0-7]{1,3}|[^"\\\n\r])*")|(?P<token>\w+|[^\w\s"])',
+    re.DOTALL,
+)
 
 
-MADE = ("generated/Parameters.java", "generated/GenericWorker.java", "generated/Services.java", "src/SpecificWorker.java")
+MADE = (
+    "generated/Parameters.java",
+    "generated/GenericWorker.java",
+    "generated/Services.java",
+    "src/SpecificWorker.java",
+)
 
 
 def read(source: str) -> str:
@@ -86,7 +94,12 @@ def test_a_long_text_is_cut() -> None:
 
 @pytest.mark.parametrize(
     ("text", "made"),
-    [('a"b\\', '"a\\"b\\\\"'), ("\0\x1b\x85", '"\\000\\033\\205"'), ("\u2028", '"\\u2028"'), ("\\u000a", '"\\\\u000a"')],
+    [
+        ('a"b\\', '"a\\"b\\\\"'),
+        ("\0\x1b\x85", '"\\000\\033\\205"'),
+        ("\u2028", '"\\u2028"'),
+        ("\\u000a", '"\\\\u000a"'),
+    ],
 )
 def test_a_literal(text: str, made: str) -> None:
     assert literal(text) == made

@@ -33,7 +33,7 @@ def configured(root: Path) -> str:
     lists.write_text(
         'cmake_minimum_required(VERSION 3.20)\nproject(X LANGUAGES C)\nset(component_root "${CMAKE_SOURCE_DIR}")\n'
         'file(WRITE "${CMAKE_BINARY_DIR}/x.c" "int main() {return 0;}")\nadd_executable(x "${CMAKE_BINARY_DIR}/x.c")\n'
-        'set(component_target x)\ninclude(generated/uses.cmake)\n'
+        "set(component_target x)\ninclude(generated/uses.cmake)\n"
         'get_target_property(found x SOURCES)\nmessage("sources ${found}")\n'
         'get_target_property(found x LINK_LIBRARIES)\nmessage("linked ${found}")\n'
     )

@@ -136,11 +136,14 @@ def test_an_environment_that_sees_the_systems_modules(place: Place, tmp_path: Pa
     assert place.runs_in() == environment.parent.parent
 
 
-@pytest.mark.parametrize(("script", "ice"), [
-    ('exec "{python}" "$@"', ""),  # as pyenv's
-    ('exec "{python}" -S "$@"', ICE),
-    ('"{python}" "$@"; exit $?', ""),
-])
+@pytest.mark.parametrize(
+    ("script", "ice"),
+    [
+        ('exec "{python}" "$@"', ""),  # as pyenv's
+        ('exec "{python}" -S "$@"', ICE),
+        ('"{python}" "$@"; exit $?', ""),
+    ],
+)
 def test_a_script_in_front(place: Place, tmp_path: Path, script: str, ice: str) -> None:
     place.python(place.debian.parent.parent, ICE)
     python = place.python(tmp_path / "shimmed", ice).with_name("python3")
@@ -165,7 +168,9 @@ def test_all_that_were_tried_are_named(place: Place, tmp_path: Path) -> None:
     done = place.start()
     assert done.returncode == 1 and not done.stdout
     environment = tmp_path / "ws/.venv/bin/python"
-    assert done.stderr == f"""\
+    assert (
+        done.stderr
+        == f"""\
 Arm: no Python here has Ice 3.7, which it needs
   {environment} (the workspace's) sees an Ice that was compiled for another Python (No module named 'IcePy')
   {place.path}/python3 (python3 on the path) has no Ice
@@ -174,6 +179,7 @@ Install it for Debian's Python: sudo apt install python3-zeroc-ice
 Without such rights, it is compiled, which takes minutes: {environment} -m pip install 'zeroc-ice>=3.7.8,<3.8'
 Where another Python has it: RCYAML_PYTHON=/path/to/python
 """
+    )
 
 
 def test_where_there_is_no_environment_the_hint_makes_one(place: Place, tmp_path: Path) -> None:
@@ -183,14 +189,17 @@ def test_where_there_is_no_environment_the_hint_makes_one(place: Place, tmp_path
     assert f"takes minutes: python3 -m venv {environment} && {environment}/bin/python -m pip install 'zero" in said
 
 
-@pytest.mark.parametrize(("ice", "why"), [
-    ("def intVersion(): return 30800\ndef stringVersion(): return '3.8.0'\n", "has Ice 3.8.0, not 3.7"),
-    ("import no_such\n", "sees an Ice that was compiled for another Python (No module named 'no_such')"),
-    ("raise ImportError('libIce.so.37: cannot open')\n", "cannot load its Ice (libIce.so.37: cannot open)"),
-    ("syntax error\n", "cannot load its Ice (invalid syntax (Ice.py, line 1))"),
-    ("raise SystemError('broken')\n", "cannot load its Ice (broken)"),
-    ("cold = True\n", "finds something else that is called Ice ("),
-])
+@pytest.mark.parametrize(
+    ("ice", "why"),
+    [
+        ("def intVersion(): return 30800\ndef stringVersion(): return '3.8.0'\n", "has Ice 3.8.0, not 3.7"),
+        ("import no_such\n", "sees an Ice that was compiled for another Python (No module named 'no_such')"),
+        ("raise ImportError('libIce.so.37: cannot open')\n", "cannot load its Ice (libIce.so.37: cannot open)"),
+        ("syntax error\n", "cannot load its Ice (invalid syntax (Ice.py, line 1))"),
+        ("raise SystemError('broken')\n", "cannot load its Ice (broken)"),
+        ("cold = True\n", "finds something else that is called Ice ("),
+    ],
+)
 def test_an_ice_that_will_not_do(place: Place, tmp_path: Path, ice: str, why: str) -> None:
     place.python(tmp_path / "ws" / ".venv", ice)
     assert f"/.venv/bin/python (the workspace's) {why}" in place.start().stderr
@@ -294,10 +303,13 @@ def test_none_is_started_in_vain(place: Place, tmp_path: Path) -> None:
     assert starts.read_text().splitlines() == [str(environment)]
 
 
-LAUNCHER = PROGRAM.partition("import interpreter")[0] + """\
+LAUNCHER = (
+    PROGRAM.partition("import interpreter")[0]
+    + """\
 from generated.runtime.main import main
 main()
 """
+)
 
 
 def old_python(place: Place) -> None:

@@ -37,8 +37,8 @@ def test_a_folder_becomes_a_workspace(rcyaml: Run, tmp_path: Path) -> None:
     assert _documents(tmp_path / "new") == {
         "components/speech/speech.cdsl.yaml": "# yaml-language-server: $schema=../../.rcyaml/schemas/cdsl.schema.json\n"
         "component: SpeechComp\nlanguage: python\nimports: [Speech]\nimplements: [Speech]\n",
-        "interfaces/Speech.idsl.yaml":
-        "# yaml-language-server: $schema=../.rcyaml/schemas/idsl.schema.json\n" + SPEECH_YAML,
+        "interfaces/Speech.idsl.yaml": "# yaml-language-server: $schema=../.rcyaml/schemas/idsl.schema.json\n"
+        + SPEECH_YAML,
         "rcyaml.yaml": "# yaml-language-server: $schema=.rcyaml/schemas/workspace.schema.json\n"
         "interfaces: [interfaces]\n# Files that were not there to be migrated are named still.\n"
         "lint:\n  RC1101: warning\n  RC2101: warning\n  RC2201: warning\n",
@@ -157,10 +157,14 @@ def test_a_report_on_standard_output_is_alone_there(rcyaml: Run, tmp_path: Path)
 
 
 def test_the_report(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {
-        "in/Speech.idsl": SPEECH + "#endif\n", "in/Mouth.ice": '\n["cpp:const"]\nmodule Mouth { };\n',
-        "in/Bad.idsl": "module Bad {\n\n// x\n",
-    })
+    write_tree(
+        tmp_path,
+        {
+            "in/Speech.idsl": SPEECH + "#endif\n",
+            "in/Mouth.ice": '\n["cpp:const"]\nmodule Mouth { };\n',
+            "in/Bad.idsl": "module Bad {\n\n// x\n",
+        },
+    )
     assert rcyaml("migrate", "in", "-o", "out", "--report", "ledger.json").exit_code == 1
     report = json.loads((tmp_path / "ledger.json").read_text(encoding="utf-8"))
     files = {entry["source"]: entry for entry in report["files"]}
@@ -172,7 +176,11 @@ def test_the_report(rcyaml: Run, tmp_path: Path) -> None:
     assert files["in/Speech.idsl"]["outputs"] == ["out/Speech.idsl.yaml"] and files["in/Bad.idsl"]["outputs"] == []
     assert files["in/Mouth.ice"]["diagnostics"][0]["code"] == "RC5006"
     assert report["totals"] == {
-        "files": 3, "converted": 0, "warned": 2, "refused": 1, "skipped": 0,
+        "files": 3,
+        "converted": 0,
+        "warned": 2,
+        "refused": 1,
+        "skipped": 0,
         "lines": {"total": 12, "blank": 2, "converted": 5, "comment": 1, "repaired": 1, "lost": 1, "refused": 2},
     }
 
@@ -190,17 +198,23 @@ def test_slice_made_from_an_idsl_is_skipped(rcyaml: Run, tmp_path: Path) -> None
     assert result.exit_code == 0
     files = json.loads((tmp_path / "ledger.json").read_text(encoding="utf-8"))["files"]
     assert {entry["source"]: entry["status"] for entry in files} == {
-        "Other.ICE": "converted", "Speech.ice": "skipped", "Speech.idsl": "converted",
+        "Other.ICE": "converted",
+        "Speech.ice": "skipped",
+        "Speech.idsl": "converted",
     }
     assert (tmp_path / "Other.idsl.yaml").is_file()
 
 
 def test_imports_by_name_by_path_and_in_another_case(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {
-        "run/a.cdsl": 'import "x/speech.idsl"; import "../elsewhere/Far.idsl"; import "Gone.idsl";\n'
-        "Component A { language cpp; };\n",
-        "run/IDSLs/Speech.idsl": SPEECH, "elsewhere/Far.idsl": "module Far { };\n",
-    })
+    write_tree(
+        tmp_path,
+        {
+            "run/a.cdsl": 'import "x/speech.idsl"; import "../elsewhere/Far.idsl"; import "Gone.idsl";\n'
+            "Component A { language cpp; };\n",
+            "run/IDSLs/Speech.idsl": SPEECH,
+            "elsewhere/Far.idsl": "module Far { };\n",
+        },
+    )
     result = rcyaml("migrate", "run", "--format", "json")
     assert [d["code"] for d in json.loads(result.stdout)["diagnostics"]] == ["RC5008", "RC5009"]
     text = (tmp_path / "run/a.cdsl.yaml").read_text(encoding="utf-8")
@@ -210,10 +224,13 @@ def test_imports_by_name_by_path_and_in_another_case(rcyaml: Run, tmp_path: Path
 
 
 def test_parts_of_one_module_find_each_other(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {
-        "A.ice": "module M { struct S { int a; }; };\n",
-        "B.ice": '#include "A.ice"\nmodule M { interface I { S f(M::S s); }; };\n',
-    })
+    write_tree(
+        tmp_path,
+        {
+            "A.ice": "module M { struct S { int a; }; };\n",
+            "B.ice": '#include "A.ice"\nmodule M { interface I { S f(M::S s); }; };\n',
+        },
+    )
     assert rcyaml("migrate", ".").exit_code == 0
     assert "f: {in: {s: A.S}, returns: A.S}" in (tmp_path / "B.idsl.yaml").read_text(encoding="utf-8")
     assert rcyaml("check", ".").exit_code == 0
@@ -249,9 +266,7 @@ def test_one_output_that_cannot_be_written_does_not_stop_the_others(rcyaml: Run,
     assert (tmp_path / "out/a").read_text(encoding="utf-8") == "a file\n"
 
 
-def test_a_full_disk_leaves_everything_as_it_was(
-    rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_full_disk_leaves_everything_as_it_was(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_tree(tmp_path, {"in/A.idsl": "module A { };\n", "in/B.idsl": "module B { };\n"})
     real = os.write
 

@@ -36,7 +36,10 @@ def migrated(rcyaml: Run, folder: Path, *arguments: str, code: int = 0, **config
 
 
 def test_each_setting_stands_in_its_section(rcyaml: Run, tmp_path: Path) -> None:
-    text = migrated(rcyaml, tmp_path, config="""\
+    text = migrated(
+        rcyaml,
+        tmp_path,
+        config="""\
 # where it is
 Speech.Endpoints=tcp -p 10001
 CommonBehavior.Endpoints = tcp -p 11001
@@ -55,8 +58,11 @@ Serial = 049522250171
 Zero = 0,5
 Mode = on
 ; Old = 1
-""")
-    assert text("speech/etc/config.yaml") == """\
+""",
+    )
+    assert (
+        text("speech/etc/config.yaml")
+        == """\
 component: ../speech.cdsl.yaml
 parameters:
   Device: /dev/ttyUSB0  # the mouth
@@ -85,7 +91,10 @@ properties:
   ; Old: "1"
 legacy: {file: config}
 """
-    assert text(PARAMETERS) == """\
+    )
+    assert (
+        text(PARAMETERS)
+        == """\
 component: speech.cdsl.yaml
 parameters:
   Device: string
@@ -96,10 +105,14 @@ parameters:
   Zero: string
   Mode: string
 """
+    )
 
 
 def test_flat_toml_is_told_by_its_keys_and_keeps_its_quotes(rcyaml: Run, tmp_path: Path) -> None:
-    text = migrated(rcyaml, tmp_path, config="""\
+    text = migrated(
+        rcyaml,
+        tmp_path,
+        config="""\
 Endpoints.Speech = "tcp -p 10001"
 Proxies.Speech = "speech:tcp -h localhost -p 10002"
 Proxies.TopicManager = "IceStorm/TopicManager:default -p 9999"
@@ -111,14 +124,15 @@ Stream.Host = localhost
 Ice.Warn.Connections = "0"
 Ice.Trace.Network = 0
 Ice.Trace.Protocol = " ""0"
-""")
+""",
+    )
     values = text("speech/etc/config.yaml")
-    assert "period:\n    compute: 100\n  Agent:\n    2d: true\n    name: head\n  Stream:\n    Host: localhost\n" in values
+    assert (
+        "period:\n    compute: 100\n  Agent:\n    2d: true\n    name: head\n  Stream:\n    Host: localhost\n" in values
+    )
     assert 'prefix:\n    EventsPub: ""\n' in values
     assert 'Warn.Connections: "0"\n  Trace.Network: 0\n' in values
-    assert values.endswith(
-        "legacy:\n  file: config\n  dialect: flat-toml\n  exact:\n    Stream.Host: localhost\n"
-    )
+    assert values.endswith("legacy:\n  file: config\n  dialect: flat-toml\n  exact:\n    Stream.Host: localhost\n")
     assert "2d: {type: bool, as: p2d}" in text(PARAMETERS)
     assert "legacy:\n  period.compute: Period.Compute\n" in text(PARAMETERS)
     exported = rcyaml("config", "export", "speech/etc/config.yaml").stdout
@@ -138,15 +152,21 @@ def _codes(folder: Path) -> set[str]:
 
 
 def test_rows_are_records_named_by_the_comment_above_them(rcyaml: Run, tmp_path: Path) -> None:
-    text = migrated(rcyaml, tmp_path, config="""\
+    text = migrated(
+        rcyaml,
+        tmp_path,
+        config="""\
 Arm.NumMotors = 3
 # Arm.M = a, b
 # Motor: name, id, zero (in radians), Positive Range
 #Arm.M0 = old,0,0,0
 Arm.M0 = left, 1,\t0.5, true
 Arm.M1 = right, 2, 1, false  # the bad one
-""")
-    assert text("speech/etc/config.yaml") == """\
+""",
+    )
+    assert (
+        text("speech/etc/config.yaml")
+        == """\
 component: ../speech.cdsl.yaml
 parameters:
   Arm:
@@ -159,6 +179,7 @@ parameters:
       - {name: right, id: 2, zero: 1, positive_range: false}  # the bad one
 legacy: {file: config}
 """
+    )
     parameters = text(PARAMETERS)
     assert "      zero: {type: float, doc: in radians}\n      positive_range: {type: bool, doc: Positive" in parameters
     assert "M: {list: M}  # rcyaml: guessed\n" in parameters
@@ -214,7 +235,10 @@ def test_parallel_families_are_one_list(rcyaml: Run, tmp_path: Path) -> None:
 
 
 def test_ranges_in_keys_and_lists_in_values(rcyaml: Run, tmp_path: Path) -> None:
-    text = migrated(rcyaml, tmp_path, config="""\
+    text = migrated(
+        rcyaml,
+        tmp_path,
+        config="""\
 ID:0-10 = 100   # tag size
 ID:11-20 = 170   # tag size
 Pairs = a,b;c,d;
@@ -223,7 +247,8 @@ Agents = x,y,z
 Two = a,b
 Decimal = 1,5
 Path = /a b/c,d,e
-""")
+""",
+    )
     values = text("speech/etc/config.yaml")
     assert "    - {from: 0, to: 10, size: 100}  # tag size\n    - {from: 11, to: 20, size: 170}  # tag size\n" in values
     assert "  Pairs: [[a, b], [c, d]]\n  Arm: [one, two]\n  Agents: [x, y, z]\n  Two: [a, b]\n" in values
@@ -233,7 +258,11 @@ Path = /a b/c,d,e
 
 
 def test_what_counts_for_nothing_is_kept_as_a_comment(rcyaml: Run, tmp_path: Path) -> None:
-    text = migrated(rcyaml, tmp_path, "--strict", config="""\
+    text = migrated(
+        rcyaml,
+        tmp_path,
+        "--strict",
+        config="""\
 Volume = 1
 This property is used by the clients.
 Volume = 2
@@ -241,8 +270,11 @@ Name =
 Speed = 3
 Speed =
 Last = 1
-""")
-    assert text("speech/etc/config.yaml") == """\
+""",
+    )
+    assert (
+        text("speech/etc/config.yaml")
+        == """\
 component: ../speech.cdsl.yaml
 parameters:
   # Volume = 1
@@ -254,6 +286,7 @@ parameters:
   Last: 1
 legacy: {file: config}
 """
+    )
     (ledger,) = [f for f in json.loads((tmp_path / "ledger.json").read_text())["files"] if f["format"] == "config"]
     assert ledger["lines"] | {"total": 7, "repaired": 5, "converted": 2, "lost": 0} == ledger["lines"]
     assert ledger["outputs"] == ["speech/etc/config.yaml", PARAMETERS]
@@ -261,8 +294,11 @@ legacy: {file: config}
 
 def test_all_configs_of_a_component_imply_its_parameters(rcyaml: Run, tmp_path: Path) -> None:
     text = migrated(
-        rcyaml, tmp_path, config="Volume = 1\nName = a\nList = a,b\nDevice = x\n",
-        config_side="Volume = 1.5\nName = 3\nList = a\n", **{"real.conf": "Volume = 2\nName = true\nList = x,y\n"},
+        rcyaml,
+        tmp_path,
+        config="Volume = 1\nName = a\nList = a,b\nDevice = x\n",
+        config_side="Volume = 1.5\nName = 3\nList = a\n",
+        **{"real.conf": "Volume = 2\nName = true\nList = x,y\n"},
     )
     assert text(PARAMETERS).startswith("""\
 component: speech.cdsl.yaml
@@ -278,7 +314,9 @@ parameters:
 
 def test_a_pair_of_configs_stays_two_documents(rcyaml: Run, tmp_path: Path) -> None:
     text = migrated(
-        rcyaml, tmp_path, generic_config="Speech.Endpoints = tcp -p 1\nVolume = 1\n",
+        rcyaml,
+        tmp_path,
+        generic_config="Speech.Endpoints = tcp -p 1\nVolume = 1\n",
         specific_config="Volume = 2\nDevice = x\n",
     )
     values = text("speech/etc/specific_config.config.yaml")

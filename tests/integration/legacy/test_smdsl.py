@@ -44,7 +44,12 @@ def test_nested_parallel_and_in_any_order(tmp_path: Path) -> None:
         :board { states clean; initial_state clean; end_state broken; };
     """)  # fmt: skip
     assert said == ["11:25 'clean' is named as the first or last state already, and need not be listed"]
-    assert text == HEAD + "<!-- The game. -->\n" + OPEN.format("game", "intro") + """\
+    assert (
+        text
+        == HEAD
+        + "<!-- The game. -->\n"
+        + OPEN.format("game", "intro")
+        + """\
   <state id="intro">
     <transition event="t_intro_to_round" target="round"/>
   </state>
@@ -69,6 +74,7 @@ def test_nested_parallel_and_in_any_order(tmp_path: Path) -> None:
   <final id="won"/>
 </scxml>
 """
+    )
 
 
 @pytest.mark.parametrize(("text", "said"), [
@@ -146,7 +152,9 @@ def test_a_machine_that_is_not_migrated_has_to_be_there(
 def test_many_states_are_converted_in_a_moment(rcyaml: Run, tmp_path: Path, goes: Callable[[int], str]) -> None:
     count = 20_000
     states = ", ".join(f"s{i}" for i in range(count))
-    write_tree(tmp_path, {"m.smdsl": f"m {{ states {states}; initial_state s0; transitions {{ {goes(count)}; }}; }};\n"})
+    write_tree(
+        tmp_path, {"m.smdsl": f"m {{ states {states}; initial_state s0; transitions {{ {goes(count)}; }}; }};\n"}
+    )
     begin = time.process_time()
     assert rcyaml("migrate", ".").exit_code == 0
     assert time.process_time() - begin < 8

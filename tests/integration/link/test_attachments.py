@@ -85,16 +85,25 @@ def test_what_leads_to_no_component_is_told_everywhere(
 def test_values_name_a_document_too(rcyaml: Run, tmp_path: Path, said: str, wanted: tuple[str, str]) -> None:
     values = f"component: {said}\nparameters: {{}}\n"
     other = {"other/other.cdsl.yaml": "component: OtherComp\nlanguage: python\n"}
-    write_tree(tmp_path, {**TREE, **other, "head.ddsl.yaml": DEPLOYMENT.replace(", set: {device: here}", ""),
-                          "speech/etc/config.yaml": values})
+    write_tree(
+        tmp_path,
+        {
+            **TREE,
+            **other,
+            "head.ddsl.yaml": DEPLOYMENT.replace(", set: {device: here}", ""),
+            "speech/etc/config.yaml": values,
+        },
+    )
     for args in (("check", "."), ("check", "speech/speech.cdsl.yaml"), ("config", "check", "speech/etc/config.yaml")):
         assert wanted in _told(rcyaml, *args), args
 
 
 def test_the_hint_can_be_typed(rcyaml: Run, tmp_path: Path) -> None:
     folder = "my head: speech"
-    write_tree(tmp_path, {"rcyaml.yaml": "", f"{folder}/speech.cdsl.yaml": CDSL,
-                          "conf/x.config.yaml": "component: SpeechComp\n"})
+    write_tree(
+        tmp_path,
+        {"rcyaml.yaml": "", f"{folder}/speech.cdsl.yaml": CDSL, "conf/x.config.yaml": "component: SpeechComp\n"},
+    )
     [(_, hint)] = _told(rcyaml, "check", "conf")
     (tmp_path / "conf/x.config.yaml").write_text(hint.removeprefix("write `").removesuffix("`") + "\n")
     assert _told(rcyaml, "check", "conf") == []

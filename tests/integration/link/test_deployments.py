@@ -62,10 +62,15 @@ def test_a_component_has_its_document_values_and_folder(link: Link, tmp_path: Pa
 def test_a_configuration_is_looked_for_in_the_components_folder_then_beside_the_document(
     link: Link, tmp_path: Path
 ) -> None:
-    write_tree(tmp_path, {
-        "mouth/here.config.yaml": "parameters: {number: 1}\n", "here.config.yaml": "parameters: {number: 2}\n",
-        "there.config.yaml": "parameters: {number: 3}\n", "flat": "number=4\n",
-    })
+    write_tree(
+        tmp_path,
+        {
+            "mouth/here.config.yaml": "parameters: {number: 1}\n",
+            "here.config.yaml": "parameters: {number: 2}\n",
+            "there.config.yaml": "parameters: {number: 3}\n",
+            "flat": "number=4\n",
+        },
+    )
     linked = link(
         "components:\n  speech: {component: speech}\n  a: {component: mouth, config: here.config.yaml}\n"
         "groups: {first: {components: [a, speech], expose: {Mouth: a}}}\n"
@@ -74,18 +79,19 @@ def test_a_configuration_is_looked_for_in_the_components_folder_then_beside_the_
         "  c: {component: mouth, config: flat}\n",
     )
     assert [i.values.document.path for i in linked.instances.values() if i.values] == [
-        str(tmp_path / "mouth/here.config.yaml"), str(tmp_path / "there.config.yaml")
+        str(tmp_path / "mouth/here.config.yaml"),
+        str(tmp_path / "there.config.yaml"),
     ]
     assert linked.instances["c"].flat == str(tmp_path / "flat")
 
 
 def test_instances_are_counted_out_in_every_text(link: Link) -> None:
     linked = link(
-        "components:\n  mouth{i}:\n    component: mouth\n    instances: 3\n    args: [\"--n={i}\"]\n"
-        "    env: {N: \"{i}\"}\n    set: {number: {i}, id: \"{i}\", \"lips[0]\": {i}}\n"
-        "    ready: {log: \"mouth {i} ready\"}\n"
-        "  speech{i}: {component: speech, instances: 2, connect: {Mouth: \"mouth{i}\"}, after: [\"mouth{i}\"]}\n"
-        "groups: {mouths: {components: [\"mouth{i}\"]}}\n"
+        'components:\n  mouth{i}:\n    component: mouth\n    instances: 3\n    args: ["--n={i}"]\n'
+        '    env: {N: "{i}"}\n    set: {number: {i}, id: "{i}", "lips[0]": {i}}\n'
+        '    ready: {log: "mouth {i} ready"}\n'
+        '  speech{i}: {component: speech, instances: 2, connect: {Mouth: "mouth{i}"}, after: ["mouth{i}"]}\n'
+        'groups: {mouths: {components: ["mouth{i}"]}}\n'
     )
     assert list(linked.instances) == ["mouth0", "mouth1", "mouth2", "speech0", "speech1"]
     last = linked.instances["mouth2"]
@@ -98,16 +104,22 @@ def test_instances_are_counted_out_in_every_text(link: Link) -> None:
 
 
 def test_a_list_of_includes_counts_as_if_it_stood_here(link: Link) -> None:
-    linked = link("components:\n  voice: {component: speech, after: [hand, arm]}\n"
-                  "groups: {arm: {components: [elbow]}}\ninclude: [arm.ddsl.yaml]\n", arm=ARM)
+    linked = link(
+        "components:\n  voice: {component: speech, after: [hand, arm]}\n"
+        "groups: {arm: {components: [elbow]}}\ninclude: [arm.ddsl.yaml]\n",
+        arm=ARM,
+    )
     assert list(linked.instances) == ["voice", "elbow", "hand"]
     assert [x.name for x in linked.instances["voice"].after] == ["hand", "elbow"]
     assert [document.name for document in linked.documents] == ["Head", "Arm"]
 
 
 def test_an_include_with_a_name_is_a_group_with_names_of_its_own(link: Link) -> None:
-    linked = link("components:\n  elbow: {component: mouth}\n  voice: {component: speech, connect: {Mouth: elbow}, "
-                  "after: [left.hand, right]}\ninclude: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}\n", arm=ARM)
+    linked = link(
+        "components:\n  elbow: {component: mouth}\n  voice: {component: speech, connect: {Mouth: elbow}, "
+        "after: [left.hand, right]}\ninclude: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}\n",
+        arm=ARM,
+    )
     assert list(linked.instances) == ["elbow", "voice", "left.elbow", "left.hand", "right.elbow", "right.hand"]
     assert [x.name for x in linked.instances["left.hand"].after] == ["left.elbow"]
     assert [x.name for x in linked.instances["voice"].after] == ["left.hand", "right.elbow", "right.hand"]
@@ -126,24 +138,34 @@ def test_includes_of_includes(link: Link) -> None:
 
 
 def test_the_one_host_is_everybodys(link: Link) -> None:
-    linked = link("hosts: {onboard: 10.0.0.2}\nservices: {storm: {icestorm: }}\ncomponents:\n  m: {component: mouth}\n"
-                  "include: {arm: arm.ddsl.yaml}\n", arm=ARM)
+    linked = link(
+        "hosts: {onboard: 10.0.0.2}\nservices: {storm: {icestorm: }}\ncomponents:\n  m: {component: mouth}\n"
+        "include: {arm: arm.ddsl.yaml}\n",
+        arm=ARM,
+    )
     assert {str(i.host and i.host.name) for i in linked.instances.values()} == {"onboard"}
     assert linked.storms["storm"].host is linked.hosts["onboard"]
 
 
 def test_a_group_names_the_host_of_what_it_includes(link: Link) -> None:
-    linked = link("hosts: {a: 10.0.0.2, b: {address: 10.0.0.3, user: me}}\n"
-                  "groups: {left: {include: arm.ddsl.yaml, host: a}, right: {include: arm.ddsl.yaml, host: b}}\n",
-                  arm=ARM)
+    linked = link(
+        "hosts: {a: 10.0.0.2, b: {address: 10.0.0.3, user: me}}\n"
+        "groups: {left: {include: arm.ddsl.yaml, host: a}, right: {include: arm.ddsl.yaml, host: b}}\n",
+        arm=ARM,
+    )
     assert {name: i.host.name for name, i in linked.instances.items() if i.host} == {
-        "left.elbow": "a", "left.hand": "a", "right.elbow": "b", "right.hand": "b"
+        "left.elbow": "a",
+        "left.hand": "a",
+        "right.elbow": "b",
+        "right.hand": "b",
     }
 
 
 def test_a_second_name_is_that_of_the_process(link: Link) -> None:
-    linked = link("components:\n  base: {process: laser, endpoints: {Base: tcp -p 10004}}\n"
-                  "  laser: {program: sleep, args: [1], endpoints: {Laser: tcp -p 10003}}\n")
+    linked = link(
+        "components:\n  base: {process: laser, endpoints: {Base: tcp -p 10004}}\n"
+        "  laser: {program: sleep, args: [1], endpoints: {Laser: tcp -p 10003}}\n"
+    )
     assert linked.instances["base"].process is linked.instances["laser"]
 
 
@@ -162,8 +184,10 @@ def test_a_group_acts_as_a_component(link: Link) -> None:
 
 
 def test_expose_chooses_and_renames(link: Link) -> None:
-    linked = link(TWO + "  other: {component: mouth}\n"
-                  "groups: {face: {components: [speech, mouth, other], expose: {Lips: other.Mouth, Mouth: mouth}}}\n")
+    linked = link(
+        TWO + "  other: {component: mouth}\n"
+        "groups: {face: {components: [speech, mouth, other], expose: {Lips: other.Mouth, Mouth: mouth}}}\n"
+    )
     assert served(linked, "face") == [("Lips", "other", "Mouth"), ("Mouth", "mouth", "Mouth")]
 
 
@@ -171,7 +195,8 @@ def test_a_group_without_interfaces_of_its_own_is_open(link: Link) -> None:
     linked = link(TWO + "groups: {face: {components: [speech, mouth]}}\n")
     assert not linked.groups["face"].is_closed
     assert [(s.name, s.instance.name) for s in linked.groups["face"].offers()] == [
-        ("Speech", "speech"), ("Mouth", "mouth")
+        ("Speech", "speech"),
+        ("Mouth", "mouth"),
     ]
 
 
@@ -187,17 +212,25 @@ def test_an_included_group_exposes_its_members_by_their_own_names(link: Link) ->
 
 
 def test_who_is_outside_reaches_a_closed_group_only_as_a_whole(link: Link) -> None:
-    linked = link(TWO + "  watch: {program: sleep, args: [1]}\n"
-                  "groups: {face: {components: [speech, mouth], as: speech}}\n")
+    linked = link(
+        TWO + "  watch: {program: sleep, args: [1]}\ngroups: {face: {components: [speech, mouth], as: speech}}\n"
+    )
     watch, speech = linked.instances["watch"], linked.instances["speech"]
     face, mouth = linked.groups["face"], linked.instances["mouth"]
     assert linked.closed_around(mouth, watch) == [face]
     assert linked.closed_around(mouth, speech) == [] == linked.closed_around(face, watch)
 
 
-@pytest.mark.parametrize(("text", "found"), [
-    ("speech", "speech"), ("mouth3", None), ("arm.elbow", "arm.elbow"), ("arm.mouth", None), ("elbow", None),
-])
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("speech", "speech"),
+        ("mouth3", None),
+        ("arm.elbow", "arm.elbow"),
+        ("arm.mouth", None),
+        ("elbow", None),
+    ],
+)
 def test_names_are_found_in_their_scope(link: Link, text: str, found: str | None) -> None:
     linked = link("components:\n  speech: {component: speech}\ninclude: {arm: arm.ddsl.yaml}\n", arm=ARM)
     targets, behind = linked.find(text, "")
@@ -212,13 +245,16 @@ def test_what_is_included_is_marked(link: Link, tmp_path: Path) -> None:
 
 
 def test_what_an_include_would_get_is_not_missed_where_its_name_is_taken(tmp_path: Path) -> None:
-    write_tree(tmp_path, {
-        "arm.ddsl.yaml": "deployment: Arm\ncomponents: {elbow: {component: elbow}}\n",
-        "elbow/elbow.cdsl.yaml": "component: ElbowComp\nlanguage: python\nimports: [../Mouth]\nrequires: [Mouth]\n",
-        "Mouth.idsl.yaml": "module: RoboCompMouth\ninterfaces: {Mouth: {methods: {open: }}}\n",
-        "head.ddsl.yaml": "deployment: Head\ninclude: {arm: arm.ddsl.yaml}\n"
-                          "components: {arm: {program: sleep, args: [1]}}\n",
-    })
+    write_tree(
+        tmp_path,
+        {
+            "arm.ddsl.yaml": "deployment: Arm\ncomponents: {elbow: {component: elbow}}\n",
+            "elbow/elbow.cdsl.yaml": "component: ElbowComp\nlanguage: python\nimports: [../Mouth]\nrequires: [Mouth]\n",
+            "Mouth.idsl.yaml": "module: RoboCompMouth\ninterfaces: {Mouth: {methods: {open: }}}\n",
+            "head.ddsl.yaml": "deployment: Head\ninclude: {arm: arm.ddsl.yaml}\n"
+            "components: {arm: {program: sleep, args: [1]}}\n",
+        },
+    )
     assert [found.code for found in analyse([str(tmp_path / "head.ddsl.yaml")]).diagnostics] == ["RC4001"]
 
 
@@ -229,8 +265,10 @@ def test_values_that_name_no_component_are_good_for_several(link: Link, tmp_path
         "other/bin/OtherComp": "-> /bin/true",
         "both.config.yaml": "parameters: {number: 5}\n",
     })  # fmt: skip
-    linked = link("components:\n  a: {component: mouth, config: both.config.yaml}\n"
-                  "  b: {component: other, config: both.config.yaml}\n")
+    linked = link(
+        "components:\n  a: {component: mouth, config: both.config.yaml}\n"
+        "  b: {component: other, config: both.config.yaml}\n"
+    )
     for instance in linked.instances.values():
         assert instance.values is not None and instance.component is not None
         assert instance.values.parameters is instance.component.parameters
@@ -245,10 +283,14 @@ def test_what_is_set_completes_a_configuration(link: Link, tmp_path: Path) -> No
     link("components:\n  a: {component: other, config: some.config.yaml, set: {id: x}}\n")
 
 
-@pytest.mark.parametrize("documents", [
-    {f"l{n}": f"deployment: L{n}\ninclude: {{a: l{n + 1}.ddsl.yaml, b: l{n + 1}.ddsl.yaml}}\n" for n in range(40)},
-    {f"l{n}": f"deployment: L{n}\ninclude: [l{n + 1}.ddsl.yaml]\n" for n in range(1500)},
-], ids=["by two", "one by one"])
+@pytest.mark.parametrize(
+    "documents",
+    [
+        {f"l{n}": f"deployment: L{n}\ninclude: {{a: l{n + 1}.ddsl.yaml, b: l{n + 1}.ddsl.yaml}}\n" for n in range(40)},
+        {f"l{n}": f"deployment: L{n}\ninclude: [l{n + 1}.ddsl.yaml]\n" for n in range(1500)},
+    ],
+    ids=["by two", "one by one"],
+)
 def test_includes_that_grow_without_end_are_refused(tmp_path: Path, documents: dict[str, str]) -> None:
     last = "deployment: Last\ncomponents:\n  x{i}: {program: sleep, instances: 3}\n"
     files = {f"{name}.ddsl.yaml": text for name, text in documents.items()}

@@ -37,9 +37,7 @@ def _facts(analysis: Analysis) -> object:
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
-def test_a_tree_that_is_nowhere_saved_says_the_same(
-    row: Code, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_tree_that_is_nowhere_saved_says_the_same(row: Code, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The example on the disk, and in a folder where no file of it is, or where each holds something else."""
     paths = _checked(row)
     assert paths

@@ -19,8 +19,12 @@ from robocomp_yaml.source.schema_text import schema_text
 KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")
 EDITOR = Path(__file__).resolve().parents[2] / "editor"
 RIGHT = {
-    "idsl": "Speech.idsl.yaml", "cdsl": "speech.cdsl.yaml", "pdsl": "speech.pdsl.yaml", "config": "speech.config.yaml",
-    "ddsl": "robot.ddsl.yaml", "workspace": "rcyaml.yaml",
+    "idsl": "Speech.idsl.yaml",
+    "cdsl": "speech.cdsl.yaml",
+    "pdsl": "speech.pdsl.yaml",
+    "config": "speech.config.yaml",
+    "ddsl": "robot.ddsl.yaml",
+    "workspace": "rcyaml.yaml",
 }
 SCHEMAS: dict[str, dict[str, Any]] = {kind: json.loads(schema_text(kind)) for kind in KINDS}
 ANNOTATIONS = ("title", "description", "markdownDescription")

@@ -13,11 +13,15 @@ entries = st.builds(Entry, st.text(), st.lists(st.text()).map(tuple), st.boolean
 
 
 def test_it_reads_well_and_compares_well() -> None:
-    held = Manifest({
-        "src/é.py": Entry("ab", ("speech.cdsl.yaml",), once=True),
-        "generated/main.py": Entry("cd", ("../x/a.idsl.yaml", "b.idsl.yaml")),
-    })
-    assert held.text() == """\
+    held = Manifest(
+        {
+            "src/é.py": Entry("ab", ("speech.cdsl.yaml",), once=True),
+            "generated/main.py": Entry("cd", ("../x/a.idsl.yaml", "b.idsl.yaml")),
+        }
+    )
+    assert (
+        held.text()
+        == """\
 {
   "version": 1,
   "files": {
@@ -26,6 +30,7 @@ def test_it_reads_well_and_compares_well() -> None:
   }
 }
 """
+    )
 
 
 @given(st.dictionaries(st.text(st.characters(exclude_categories=["Cs"])), entries))

@@ -37,8 +37,12 @@ def run() -> stamp.Stamp | None:
     return stamp.take(
         inputs={"docs/a.idsl.yaml": b"a", "docs/b.idsl.yaml": b"b", "docs/far/real.idsl.yaml": b"b"},
         states={"docs/c.idsl.yaml": NOTHING, "elsewhere/c.idsl.yaml": NOTHING, "docs": FOLDER},
-        listed={"docs/far": ["real.idsl.yaml"], "nowhere": []}, names={"docs/far": ["real.idsl.yaml"]}, walked={"docs": stamp.walked("docs")},
-        outputs={"out/bin/run": b"#!"}, present=["out/mine"], replay={"told": ["é"], "exit": 0},
+        listed={"docs/far": ["real.idsl.yaml"], "nowhere": []},
+        names={"docs/far": ["real.idsl.yaml"]},
+        walked={"docs": stamp.walked("docs")},
+        outputs={"out/bin/run": b"#!"},
+        present=["out/mine"],
+        replay={"told": ["é"], "exit": 0},
     )
 
 
@@ -65,34 +69,37 @@ def relink(path: str, target: str) -> None:
     os.symlink(target, path)
 
 
-@pytest.mark.parametrize("change", [
-    lambda: Path("docs/a.idsl.yaml").write_text("A"),
-    lambda: Path("docs/a.idsl.yaml").unlink(),
-    lambda: Path("docs/far/real.idsl.yaml").write_text("B"),
-    lambda: relink("docs/b.idsl.yaml", "copy"),
-    lambda: (Path("docs/copy").write_text("b"), relink("docs/b.idsl.yaml", "copy")),
-    lambda: (os.rename("docs/far", "docs/near"), os.symlink("near", "docs/far")),
-    lambda: Path("docs/c.idsl.yaml").write_text("c"),
-    lambda: (Path("elsewhere").mkdir(), Path("elsewhere/c.idsl.yaml").symlink_to("nowhere")),
-    lambda: Path("docs/far/new.cdsl.yaml").write_text("n"),
-    lambda: Path("docs/far/other.YAML").write_text("n"),
-    lambda: write_tree(Path("nowhere"), {"a.idsl.yaml": ""}),
-    lambda: (shutil.rmtree("docs/far"), Path("docs/far").touch()),
-    lambda: Path("docs/c.idsl.yaml").mkdir(),
-    lambda: Path("out/bin/run").write_text("#! "),
-    lambda: Path("out/bin/run").unlink(),
-    lambda: Path("out/bin/run").chmod(0o644),
-    lambda: (os.rename("out/bin/run", "out/bin/moved"), os.symlink("moved", "out/bin/run")),
-    lambda: Path("out/mine").unlink(),
-    lambda: os.rename("docs", "papers"),
-    lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("{"),
-    lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("[1]"),
-    lambda: Path("out/.rcyaml/stamps/00000000.json").write_text(
-        '{"tool": 1, "inputs": {}, "states": [[]], "listed": {}, "names": {}, "walked": {}, "outputs": {}, "present": [], "replay": {}}'
-    ),
-    lambda: Path("out/.rcyaml/stamps/00000000.json").write_text('{"inputs": {"a": 1}}'),
-    lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("[" * 100_000),
-])
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda: Path("docs/a.idsl.yaml").write_text("A"),
+        lambda: Path("docs/a.idsl.yaml").unlink(),
+        lambda: Path("docs/far/real.idsl.yaml").write_text("B"),
+        lambda: relink("docs/b.idsl.yaml", "copy"),
+        lambda: (Path("docs/copy").write_text("b"), relink("docs/b.idsl.yaml", "copy")),
+        lambda: (os.rename("docs/far", "docs/near"), os.symlink("near", "docs/far")),
+        lambda: Path("docs/c.idsl.yaml").write_text("c"),
+        lambda: (Path("elsewhere").mkdir(), Path("elsewhere/c.idsl.yaml").symlink_to("nowhere")),
+        lambda: Path("docs/far/new.cdsl.yaml").write_text("n"),
+        lambda: Path("docs/far/other.YAML").write_text("n"),
+        lambda: write_tree(Path("nowhere"), {"a.idsl.yaml": ""}),
+        lambda: (shutil.rmtree("docs/far"), Path("docs/far").touch()),
+        lambda: Path("docs/c.idsl.yaml").mkdir(),
+        lambda: Path("out/bin/run").write_text("#! "),
+        lambda: Path("out/bin/run").unlink(),
+        lambda: Path("out/bin/run").chmod(0o644),
+        lambda: (os.rename("out/bin/run", "out/bin/moved"), os.symlink("moved", "out/bin/run")),
+        lambda: Path("out/mine").unlink(),
+        lambda: os.rename("docs", "papers"),
+        lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("{"),
+        lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("[1]"),
+        lambda: Path("out/.rcyaml/stamps/00000000.json").write_text(
+            '{"tool": 1, "inputs": {}, "states": [[]], "listed": {}, "names": {}, "walked": {}, "outputs": {}, "present": [], "replay": {}}'
+        ),
+        lambda: Path("out/.rcyaml/stamps/00000000.json").write_text('{"inputs": {"a": 1}}'),
+        lambda: Path("out/.rcyaml/stamps/00000000.json").write_text("[" * 100_000),
+    ],
+)
 def test_any_change_that_counts_makes_it_stale(change: Callable[[], object]) -> None:
     taken = run()
     assert taken is not None
@@ -131,16 +138,19 @@ def rewritten(path: Path, text: str) -> None:
     os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
 
 
-@pytest.mark.parametrize("change", [
-    lambda at: rewritten(at / "rcyaml-0.1.0.dist-info/RECORD", "robocomp_yaml/_data/templates/a.j2,sha256=two,1\n"),
-    lambda at: rewritten(at / "robocomp_yaml/_data/templates/a.j2", "b"),
-    lambda at: rewritten(at / "robocomp_yaml/emit/build.py", "exit"),
-    lambda at: (at / "robocomp_yaml/emit/more.py").touch(),
-    lambda at: (at / "robocomp_yaml/emit/build.py").rename(at / "robocomp_yaml/emit/built.py"),
-    lambda at: (at / "robocomp_yaml/_data/templates/a.j2").unlink(),
-    lambda at: (at / "rcyaml-0.1.0.dist-info/RECORD").unlink(),
-    lambda at: (at / "rcyaml-0.1.0.dist-info").rename(at / "rcyaml-0.1.0+local.dist-info"),
-])
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda at: rewritten(at / "rcyaml-0.1.0.dist-info/RECORD", "robocomp_yaml/_data/templates/a.j2,sha256=two,1\n"),
+        lambda at: rewritten(at / "robocomp_yaml/_data/templates/a.j2", "b"),
+        lambda at: rewritten(at / "robocomp_yaml/emit/build.py", "exit"),
+        lambda at: (at / "robocomp_yaml/emit/more.py").touch(),
+        lambda at: (at / "robocomp_yaml/emit/build.py").rename(at / "robocomp_yaml/emit/built.py"),
+        lambda at: (at / "robocomp_yaml/_data/templates/a.j2").unlink(),
+        lambda at: (at / "rcyaml-0.1.0.dist-info/RECORD").unlink(),
+        lambda at: (at / "rcyaml-0.1.0.dist-info").rename(at / "rcyaml-0.1.0+local.dist-info"),
+    ],
+)
 def test_another_build_of_the_same_version_makes_it_stale(installed: Path, change: Callable[[Path], object]) -> None:
     before = stamp.tool()
     assert stamp.tool() == before
@@ -148,10 +158,13 @@ def test_another_build_of_the_same_version_makes_it_stale(installed: Path, chang
     assert stamp.tool() != before
 
 
-@pytest.mark.parametrize("change", [
-    lambda at: write_tree(at / "robocomp_yaml/emit/__pycache__", {"build.pyc": ""}),
-    lambda at: write_tree(at, {"other-1.dist-info/RECORD": "more", "another/__init__.py": ""}),
-])
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda at: write_tree(at / "robocomp_yaml/emit/__pycache__", {"build.pyc": ""}),
+        lambda at: write_tree(at, {"other-1.dist-info/RECORD": "more", "another/__init__.py": ""}),
+    ],
+)
 def test_what_is_not_rcyaml_does_not_count(installed: Path, change: Callable[[Path], object]) -> None:
     before = stamp.tool()
     change(installed)
@@ -170,7 +183,9 @@ def test_what_was_read_counts_not_what_stands_there_now() -> None:
     taken = run()
     assert taken is not None
     Path("docs/a.idsl.yaml").write_text("a changed")
-    late = stamp.take(inputs={"docs/a.idsl.yaml": b"a"}, states={}, listed={}, names={}, walked={}, outputs={}, present=[], replay={})
+    late = stamp.take(
+        inputs={"docs/a.idsl.yaml": b"a"}, states={}, listed={}, names={}, walked={}, outputs={}, present=[], replay={}
+    )
     assert late is not None and not stamp.is_current(late)
 
 
@@ -203,7 +218,16 @@ def test_old_stamps_go() -> None:
 
 def test_little_is_imported() -> None:
     code = "import sys, robocomp_yaml.transactions.stamp as s; print(*(m.partition('.')[0] for m in sys.modules))"
-    out = subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, check=True, env={
-        "PYTHONPATH": f"{Path(stamp.__file__).parents[2]}:{Path(msgspec.__file__).parents[1]}"
-    })
-    assert set(out.stdout.split()) - sys.stdlib_module_names <= {"robocomp_yaml", "__main__", "msgspec", "typing_extensions"}
+    out = subprocess.run(
+        [sys.executable, "-S", "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={"PYTHONPATH": f"{Path(stamp.__file__).parents[2]}:{Path(msgspec.__file__).parents[1]}"},
+    )
+    assert set(out.stdout.split()) - sys.stdlib_module_names <= {
+        "robocomp_yaml",
+        "__main__",
+        "msgspec",
+        "typing_extensions",
+    }

@@ -21,17 +21,32 @@ from robocomp_yaml.transactions.plan import RootPlan
 def before(tmp_path: Path) -> None:
     """Two roots that compile knows, with an edited file."""
     for name in ("one", "two"):
-        carry_out(plan(tmp_path / name, always("generated/a", "1\n"), always("generated/gone/b", "1\n"),
-                       once("src/c", "1\n"), always("generated/same", "1\n")))
+        carry_out(
+            plan(
+                tmp_path / name,
+                always("generated/a", "1\n"),
+                always("generated/gone/b", "1\n"),
+                once("src/c", "1\n"),
+                always("generated/same", "1\n"),
+            )
+        )
         (tmp_path / name / "generated/a").write_text("mine\n")
 
 
 def plans(tmp_path: Path) -> list[RootPlan]:
     """Each kind of change: an edited file, a removal with its folder, new files in new folders, a new root."""
-    changing = (always("generated/a", "2\n"), always("generated/same", "1\n"), once("src/c", "2\n"),
-                once("new/deep/d", "2\n"), always("bin/e", "2\n", executable=True))
-    return [plan(tmp_path / "one", *changing), plan(tmp_path / "two", *changing),
-            RootPlan(str(tmp_path / "three/deep"), "../../one/" + OWNER, (always("x/y", "2\n"),))]
+    changing = (
+        always("generated/a", "2\n"),
+        always("generated/same", "1\n"),
+        once("src/c", "2\n"),
+        once("new/deep/d", "2\n"),
+        always("bin/e", "2\n", executable=True),
+    )
+    return [
+        plan(tmp_path / "one", *changing),
+        plan(tmp_path / "two", *changing),
+        RootPlan(str(tmp_path / "three/deep"), "../../one/" + OWNER, (always("x/y", "2\n"),)),
+    ]
 
 
 def stamps(root: Path) -> dict[Path, int]:

@@ -38,7 +38,8 @@ parameters:
       vel: 1
 """
 TREE = {
-    "speech.pdsl.yaml": PDSL, "speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\nperiod: 50 ms\n",
+    "speech.pdsl.yaml": PDSL,
+    "speech.cdsl.yaml": "component: SpeechComp\nlanguage: python\nperiod: 50 ms\n",
     "etc/config.yaml": BASE,
     "sim.config.yaml": "extends: [etc/config.yaml]\nparameters:\n  speed: 0.25\n  Yolo: {model: {env: MODEL}}\n",
 }
@@ -74,34 +75,49 @@ def test_show_as_json(run: Run) -> None:
     rows = json.loads(run("config", "show", "sim.config.yaml", "--format", "json").output)["values"]
     speed = next(row for row in rows if row["path"] == "speed")
     assert speed == {
-        "path": "speed", "value": 0.25, "unit": "m/s", "editable": False, "default": False, "file": "sim.config.yaml",
-        "line": 3, "overrode": [{"value": 0.5, "file": "etc/config.yaml", "line": 3}],
+        "path": "speed",
+        "value": 0.25,
+        "unit": "m/s",
+        "editable": False,
+        "default": False,
+        "file": "sim.config.yaml",
+        "line": 3,
+        "overrode": [{"value": 0.5, "file": "etc/config.yaml", "line": 3}],
     }
 
 
-@pytest.mark.parametrize(("path", "value"), [
-    ("speed", "0.25"), ("motors[1].vel", "1"), ("motors.1.name", "b"), ("Yolo", "{use_gpu: false, model: {env: MODEL}}"),
-    ("motors", "[{name: a, vel: 0.9}, {name: b, vel: 1}]"),
-])
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        ("speed", "0.25"),
+        ("motors[1].vel", "1"),
+        ("motors.1.name", "b"),
+        ("Yolo", "{use_gpu: false, model: {env: MODEL}}"),
+        ("motors", "[{name: a, vel: 0.9}, {name: b, vel: 1}]"),
+    ],
+)
 def test_get(run: Run, path: str, value: str) -> None:
     assert run("config", "get", "sim.config.yaml", path).output == f"{value}\n"
 
 
-@pytest.mark.parametrize(("path", "value", "before", "after"), [
-    ("speed", "0.75", "  speed: .5   # half\n", "  speed: 0.75   # half\n"),
-    ("motors[1].vel", "1.5", "      vel: 1\n", "      vel: 1.5\n"),
-    ("motors[0].vel", "0", "    - {name: a}\n", "    - {name: a, vel: 0}\n"),
-    ("motors[1].name", "c d", "    - name: b   # the second\n", "    - name: c d   # the second\n"),
-    ("motors[1].name", "7", "    - name: b   # the second\n", '    - name: "7"   # the second\n'),
-    ("device", "/dev/x #1", "      vel: 1\n", '      vel: 1\n  device: "/dev/x #1"\n'),
-    ("Yolo.use_gpu", "true", "      vel: 1\n", "      vel: 1\n  Yolo:\n    use_gpu: true\n"),
-    ('offsets["a b"]', "1", "      vel: 1\n", "      vel: 1\n  offsets:\n    a b: 1\n"),
-    ("speed", "{env: SPEED}", "  speed: .5   # half\n", "  speed: {env: SPEED}   # half\n"),
-    ("device", "{env: BUS}", "      vel: 1\n", "      vel: 1\n  device: {env: BUS}\n"),
-    ("motors[1].vel", "null", "      vel: 1\n", "      vel: null\n"),
-    ("motors[2]", "{name: c}", "      vel: 1\n", "      vel: 1\n    - {name: c}\n"),
-    ("motors[2].name", "c", "      vel: 1\n", "      vel: 1\n    - {name: c}\n"),
-])
+@pytest.mark.parametrize(
+    ("path", "value", "before", "after"),
+    [
+        ("speed", "0.75", "  speed: .5   # half\n", "  speed: 0.75   # half\n"),
+        ("motors[1].vel", "1.5", "      vel: 1\n", "      vel: 1.5\n"),
+        ("motors[0].vel", "0", "    - {name: a}\n", "    - {name: a, vel: 0}\n"),
+        ("motors[1].name", "c d", "    - name: b   # the second\n", "    - name: c d   # the second\n"),
+        ("motors[1].name", "7", "    - name: b   # the second\n", '    - name: "7"   # the second\n'),
+        ("device", "/dev/x #1", "      vel: 1\n", '      vel: 1\n  device: "/dev/x #1"\n'),
+        ("Yolo.use_gpu", "true", "      vel: 1\n", "      vel: 1\n  Yolo:\n    use_gpu: true\n"),
+        ('offsets["a b"]', "1", "      vel: 1\n", "      vel: 1\n  offsets:\n    a b: 1\n"),
+        ("speed", "{env: SPEED}", "  speed: .5   # half\n", "  speed: {env: SPEED}   # half\n"),
+        ("device", "{env: BUS}", "      vel: 1\n", "      vel: 1\n  device: {env: BUS}\n"),
+        ("motors[1].vel", "null", "      vel: 1\n", "      vel: null\n"),
+        ("motors[2]", "{name: c}", "      vel: 1\n", "      vel: 1\n    - {name: c}\n"),
+        ("motors[2].name", "c", "      vel: 1\n", "      vel: 1\n    - {name: c}\n"),
+    ],
+)
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])
 def test_set_changes_one_place(
     run: Run, tmp_path: Path, path: str, value: str, before: str, after: str, line_end: str
@@ -114,22 +130,28 @@ def test_set_changes_one_place(
     assert file.read_bytes().decode() == BASE.replace(before, after).replace("\n", line_end)
 
 
-@pytest.mark.parametrize(("before", "path", "value", "after"), [
-    ("motors: [{name: a}]", "motors[1]", "{name: b}", "motors: [{name: a}, {name: b}]"),
-    ("ids: []", "ids[0]", "a # b", 'ids: ["a # b"]'),
-    ("grid:\n  - - 1  # one\n", "grid[0][1]", "2", "grid:\n  - - 1  # one\n    - 2\n"),
-    ("grid:\n  - - 1  # one\n", "grid[1]", "[2]", "grid:\n  - - 1  # one\n  - [2]\n"),
-])
+@pytest.mark.parametrize(
+    ("before", "path", "value", "after"),
+    [
+        ("motors: [{name: a}]", "motors[1]", "{name: b}", "motors: [{name: a}, {name: b}]"),
+        ("ids: []", "ids[0]", "a # b", 'ids: ["a # b"]'),
+        ("grid:\n  - - 1  # one\n", "grid[0][1]", "2", "grid:\n  - - 1  # one\n    - 2\n"),
+        ("grid:\n  - - 1  # one\n", "grid[1]", "[2]", "grid:\n  - - 1  # one\n  - [2]\n"),
+    ],
+)
 def test_set_adds_behind_the_last_entry(
     rcyaml: Run, tmp_path: Path, before: str, path: str, value: str, after: str
 ) -> None:
-    write_tree(tmp_path, {
-        "c.cdsl.yaml": "component: C\nlanguage: python\n",
-        "c.pdsl.yaml": "component: c.cdsl.yaml\ntypes: {Motor: {struct: {name: string}}}\nparameters:\n"
-        "  motors: {list: Motor, default: []}\n  ids: {list: string, default: []}\n"
-        "  grid: {list: {list: int}, default: []}\n",
-        "x.config.yaml": f"component: c.cdsl.yaml\nparameters:\n  {before.replace(chr(10), chr(10) + '  ').rstrip()}\n",
-    })
+    write_tree(
+        tmp_path,
+        {
+            "c.cdsl.yaml": "component: C\nlanguage: python\n",
+            "c.pdsl.yaml": "component: c.cdsl.yaml\ntypes: {Motor: {struct: {name: string}}}\nparameters:\n"
+            "  motors: {list: Motor, default: []}\n  ids: {list: string, default: []}\n"
+            "  grid: {list: {list: int}, default: []}\n",
+            "x.config.yaml": f"component: c.cdsl.yaml\nparameters:\n  {before.replace(chr(10), chr(10) + '  ').rstrip()}\n",
+        },
+    )
     result = rcyaml("config", "set", "x.config.yaml", path, value)
     assert result.exit_code == 0, result.output
     written = (tmp_path / "x.config.yaml").read_text().partition("parameters:\n")[2]
@@ -155,19 +177,26 @@ def test_set_does_not_make_a_list_that_a_layer_holds(run: Run) -> None:
     assert "there is no list here to add to; give the whole list" in result.stderr
 
 
-@pytest.mark.parametrize(("path", "value", "message"), [
-    ("device", "{env: MY-BUS}", "RC3309"), ("device", "{env: }", "RC3309"), ("device", "{file: dev/}", "RC3309"),
-    ("device", "{env: BUS, file: bus}", "RC3309"), ("device", "{file: [bus]}", "RC3309"), ("device", "{env: BUS, x}", "RC3309"),
-    ("speed", "1", "error[RC3303]: speed is 1 m/s, and must be at least 0 and below 1 m/s"),
-    ("motors[1].vel", "fast", "error[RC3302]: motors[1].vel must be a number (rad/s), and is the text 'fast'"),
-    ("mode", "slo", "did you mean 'slow'?"),
-    ("motors[1].name", "a", "error[RC3308]: two motors have the same name"),
-    ("speed", "[", "'[' is no value"),
-    ("motors", "[]", "error[RC3305]: motors has 0 entries, and must have from 1 to 4"),
-    ("sped", "1", "there is no parameter 'sped'; did you mean 'speed'?"),
-    ("motors[7].vel", "1", "the list has 2 entries"),
-    ("speed", "0.1, device: x", "speed must be a number (m/s), and is a mapping"),
-])
+@pytest.mark.parametrize(
+    ("path", "value", "message"),
+    [
+        ("device", "{env: MY-BUS}", "RC3309"),
+        ("device", "{env: }", "RC3309"),
+        ("device", "{file: dev/}", "RC3309"),
+        ("device", "{env: BUS, file: bus}", "RC3309"),
+        ("device", "{file: [bus]}", "RC3309"),
+        ("device", "{env: BUS, x}", "RC3309"),
+        ("speed", "1", "error[RC3303]: speed is 1 m/s, and must be at least 0 and below 1 m/s"),
+        ("motors[1].vel", "fast", "error[RC3302]: motors[1].vel must be a number (rad/s), and is the text 'fast'"),
+        ("mode", "slo", "did you mean 'slow'?"),
+        ("motors[1].name", "a", "error[RC3308]: two motors have the same name"),
+        ("speed", "[", "'[' is no value"),
+        ("motors", "[]", "error[RC3305]: motors has 0 entries, and must have from 1 to 4"),
+        ("sped", "1", "there is no parameter 'sped'; did you mean 'speed'?"),
+        ("motors[7].vel", "1", "the list has 2 entries"),
+        ("speed", "0.1, device: x", "speed must be a number (m/s), and is a mapping"),
+    ],
+)
 def test_set_refuses(run: Run, tmp_path: Path, path: str, value: str, message: str) -> None:
     result = run("config", "set", "etc/config.yaml", path, value)
     assert result.exit_code != 0
@@ -182,7 +211,10 @@ def test_check_tells_all_at_once(run: Run, tmp_path: Path) -> None:
     result = run("config", "check", "bad.config.yaml", "--format", "json")
     told = json.loads(result.output)["diagnostics"]
     assert [(d["code"], d["line"], d["column"]) for d in told] == [
-        ("RC3303", 3, 10), ("RC3302", 4, 9), ("RC3301", 5, 13), ("RC3302", 6, 19),
+        ("RC3303", 3, 10),
+        ("RC3302", 4, 9),
+        ("RC3301", 5, 13),
+        ("RC3302", 6, 19),
     ]
     assert result.exit_code == 1
 
@@ -215,7 +247,9 @@ def test_export_as_toml_is_toml(run: Run) -> None:
 
 def test_export_as_properties(run: Run) -> None:
     lines = run("config", "export", "sim.config.yaml").output.splitlines()
-    assert {"speed=0.25", "motors.size=2", "motors.1.vel=1", "Yolo.model=${env:MODEL}", "period.compute=50"} <= set(lines)
+    assert {"speed=0.25", "motors.size=2", "motors.1.vel=1", "Yolo.model=${env:MODEL}", "period.compute=50"} <= set(
+        lines
+    )
 
 
 def test_a_document_without_component(run: Run, tmp_path: Path) -> None:

@@ -33,23 +33,29 @@ def two(first: str, second: str, before: str = "") -> Tree:
     return deployed(f"{before}components:\n  a: {{component: mouth, {first}}}\n  b: {second}\n")
 
 
-@pytest.mark.parametrize(("second", "column"), [
-    ("{component: mouth, port: 10001}", 31),
-    ("{component: mouth, ports: {CommonBehavior: 10001}}", 49),
-    ("{program: sh, endpoints: {Laser: tcp -p 10001}}", 39),
-    ("{program: sh, endpoints: {Laser: ssl -p 10001}}", 39),
-    ('{program: sh, endpoints: {Laser: "tcp -h 127.0.0.1 -p 10001"}}', 39),
-])
+@pytest.mark.parametrize(
+    ("second", "column"),
+    [
+        ("{component: mouth, port: 10001}", 31),
+        ("{component: mouth, ports: {CommonBehavior: 10001}}", 49),
+        ("{program: sh, endpoints: {Laser: tcp -p 10001}}", 39),
+        ("{program: sh, endpoints: {Laser: ssl -p 10001}}", 39),
+        ('{program: sh, endpoints: {Laser: "tcp -h 127.0.0.1 -p 10001"}}', 39),
+    ],
+)
 def test_two_on_one_port(found: Check, second: str, column: int) -> None:
     assert found(two("port: 10001", second)) == [("RC4303", "error", "robot.ddsl.yaml", 4, column)]
 
 
-@pytest.mark.parametrize("second", [
-    "{component: mouth, port: 10002}",
-    "{program: sh, endpoints: {Laser: udp -p 10001}}",
-    '{program: sh, endpoints: {Laser: "tcp -h 127.0.0.5 -p 10001"}}',
-    "{component: mouth, port: 10001, enabled: false}",
-])
+@pytest.mark.parametrize(
+    "second",
+    [
+        "{component: mouth, port: 10002}",
+        "{program: sh, endpoints: {Laser: udp -p 10001}}",
+        '{program: sh, endpoints: {Laser: "tcp -h 127.0.0.5 -p 10001"}}',
+        "{component: mouth, port: 10001, enabled: false}",
+    ],
+)
 def test_what_does_not_meet(found: Check, second: str) -> None:
     assert not found(two("port: 10001", second))
 
@@ -74,8 +80,9 @@ def test_a_port_of_icestorm(found: Check) -> None:
 
 
 def test_instances_that_count_into_another(found: Check) -> None:
-    files = deployed('components:\n  "a{i}": {component: mouth, instances: 3, port: 10001}\n'
-                     "  b: {component: mouth, port: 10003}\n")
+    files = deployed(
+        'components:\n  "a{i}": {component: mouth, instances: 3, port: 10001}\n  b: {component: mouth, port: 10003}\n'
+    )
     assert found(files) == [("RC4303", "error", "robot.ddsl.yaml", 4, 31)]
 
 
@@ -141,12 +148,15 @@ def test_what_is_not_built_yet(rcyaml: Run, tmp_path: Path) -> None:
     assert "then `cmake -S mouth -B mouth/build && cmake --build mouth/build`" in output
 
 
-@pytest.mark.parametrize(("entry", "problem"), [
-    ("{component: mouth, executable: bin/text}", "mouth/bin/text is not executable"),
-    ("{component: mouth, executable: bin}", "mouth/bin is a folder"),
-    ("{program: ./viewer}", "there is no viewer"),
-    ("{program: sh, cwd: nowhere}", "there is no folder nowhere to run in"),
-])
+@pytest.mark.parametrize(
+    ("entry", "problem"),
+    [
+        ("{component: mouth, executable: bin/text}", "mouth/bin/text is not executable"),
+        ("{component: mouth, executable: bin}", "mouth/bin is a folder"),
+        ("{program: ./viewer}", "there is no viewer"),
+        ("{program: sh, cwd: nowhere}", "there is no folder nowhere to run in"),
+    ],
+)
 def test_what_cannot_be_started(rcyaml: Run, tmp_path: Path, entry: str, problem: str) -> None:
     files = {**deployed(f"components: {{m: {entry}}}\n"), "mouth/bin/text": ""}
     assert f"warning[RC4404]: 'm' cannot be started: {problem}\n" in check(rcyaml, tmp_path, files)
@@ -165,8 +175,9 @@ def test_another_machines_files_are_not_judged(rcyaml: Run, tmp_path: Path) -> N
 
 def test_an_include_is_judged_as_part_of_what_includes_it(found: Check) -> None:
     arm = "deployment: Arm\ncomponents:\n  speech: {component: speech, port: 10001}\n"
-    files = deployed("components: {mouth: {component: mouth, port: 10002}}\ninclude: [arm.ddsl.yaml]\n",
-                     **{"arm.ddsl.yaml": arm})
+    files = deployed(
+        "components: {mouth: {component: mouth, port: 10002}}\ninclude: [arm.ddsl.yaml]\n", **{"arm.ddsl.yaml": arm}
+    )
     assert not found(files, ".")
 
 

@@ -41,7 +41,9 @@ def test_what_stands_beside_it_is_none_either() -> None:
 def test_the_case_alone_leaves_one_meaning(word: str, known: list[str], open_: bool, meant: str, safe: bool) -> None:
     hint = did_you_mean(word, known, open_=open_)
     assert (hint.meant, hint.safe) == (meant, safe)
-    assert [(edit.word, edit.text) for fix in hint.fixes(Span("a")) for edit in fix.edits] == [(word, meant)][:bool(meant)]
+    assert [(edit.word, edit.text) for fix in hint.fixes(Span("a")) for edit in fix.edits] == [(word, meant)][
+        : bool(meant)
+    ]
 
 
 @pytest.mark.parametrize(("files", "hint"), [

@@ -119,13 +119,16 @@ def test_a_fault_is_told_once_and_where_it_is(fault: Fault, diagnostics: Callabl
         ("Side", "Left", "did you mean 'left'"),
     ],
 )
-def test_a_value_that_does_not_fit(
-    type_: str, value: str, reason: str, diagnostics: Callable[..., list[dict]]
-) -> None:
-    said = diagnostics({"Map.idsl.yaml": SIDE + (
-        f"  S: {{struct: {{a: {{type: {type_}, default: {value}}}}}}}\n"
-        f"constants: {{c: {{type: {type_}, value: {value}}}}}\n"
-    )})
+def test_a_value_that_does_not_fit(type_: str, value: str, reason: str, diagnostics: Callable[..., list[dict]]) -> None:
+    said = diagnostics(
+        {
+            "Map.idsl.yaml": SIDE
+            + (
+                f"  S: {{struct: {{a: {{type: {type_}, default: {value}}}}}}}\n"
+                f"constants: {{c: {{type: {type_}, value: {value}}}}}\n"
+            )
+        }
+    )
     assert [(d["code"], d["line"]) for d in said] == [("RC1023", 4), ("RC1023", 5)], said
     assert reason in said[0]["message"] + said[0]["hint"], said
 
@@ -162,9 +165,7 @@ def test_a_sequence_as_a_key_is_a_warning(diagnostics: Callable[..., list[dict]]
         (METHODS + "      Busy: {throws: [Busy]}\n", "call it 'busy'"),
     ],
 )
-def test_what_ice_cannot_say_in_cpp_is_a_warning(
-    text: str, hint: str, diagnostics: Callable[..., list[dict]]
-) -> None:
+def test_what_ice_cannot_say_in_cpp_is_a_warning(text: str, hint: str, diagnostics: Callable[..., list[dict]]) -> None:
     said = diagnostics({"Map.idsl.yaml": text})
     assert [(d["code"], d["severity"], d["hint"]) for d in said] == [("RC1026", "warning", hint)]
 

@@ -71,7 +71,9 @@ def test_what_says_nothing_asks_for_nothing(rcyaml: Rcyaml, tmp_path: Path, name
 
 
 def test_the_hint_says_what_there_is(rcyaml: Rcyaml, tmp_path: Path) -> None:
-    lacking = [(one, key) for one in languages.table().values() for key in ("statemachine", "gui") if key not in one.has]
+    lacking = [
+        (one, key) for one in languages.table().values() for key in ("statemachine", "gui") if key not in one.has
+    ]
     for language, key in lacking:
         said(rcyaml, tmp_path, language.name, SAID[key])
         output = rcyaml("check").output

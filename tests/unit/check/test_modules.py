@@ -90,10 +90,12 @@ def test_a_module_in_two_documents_with_names_of_their_own(diagnostics: Check) -
 @pytest.mark.parametrize("folder_and_name", ["old/Types", "types", "Ty_pes"])
 def test_documents_that_become_the_same_file(folder_and_name: str, diagnostics: Check) -> None:
     first = "Ty-pes" if folder_and_name == "Ty_pes" else "Types"
-    said = diagnostics({
-        f"{first}.idsl.yaml": POSE,
-        f"{folder_and_name}.idsl.yaml": "module: RoboCompOther\n",
-        "Map.idsl.yaml": f"module: RoboCompMap\nimports: [{first}, {folder_and_name}]\n",
-    })
+    said = diagnostics(
+        {
+            f"{first}.idsl.yaml": POSE,
+            f"{folder_and_name}.idsl.yaml": "module: RoboCompOther\n",
+            "Map.idsl.yaml": f"module: RoboCompMap\nimports: [{first}, {folder_and_name}]\n",
+        }
+    )
     assert "RC1107" in [d["code"] for d in said if d["severity"] == "error"]
     assert {d["code"] for d in said if d["severity"] == "error"} == {"RC1107"}

@@ -17,23 +17,42 @@ TREE = {
 _INT = "{type: int, default: 1}"
 
 
-@pytest.mark.parametrize(("parameters", "legacy", "told"), [
-    (f"arm: {_INT}", "", []),
-    (f"Arm: {{group: {{x: {_INT}}}}}", "",
-     ["RC3117 the properties of 'Arm.x' start like those of the adapter Arm"]),
-    ("Arm: {group: {Endpoints: {type: string, default: x}}}", "",
-     ["RC3116 'Arm.Endpoints' and the endpoints of Arm are both the property 'Arm.Endpoints'"]),
-    ("statemachine: {group: {a: {type: int, default: 1}}}", "",
-     ["RC3116 'statemachine.a' and the states of a state machine are both the property 'statemachine.…'"]),
-    ("MovedTopic: {group: {Endpoints: {type: string, default: x}}}", "",
-     ["RC3116 'MovedTopic.Endpoints' and the endpoints of MovedTopic are both the property 'MovedTopic.Endpoints'"]),
-    (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other are both the property 'OtherProxy'"]),
-    (f"Ice: {{group: {{x: {_INT}}}}}", "",
-     ["RC3116 'Ice.x' and a setting of Ice are both the property 'Ice.…'"]),
-    (f"a: {_INT}, b: {_INT}", "a: X, b: X", ["RC3116 'b' and 'a' are both the property 'X'"]),
-    (f"a: {_INT}, ids: {{list: int, default: []}}", "a: Id7, ids: {key: 'Id{i}'}",
-     ["RC3116 'ids' and 'a' are both the property 'Id7'"]),
-])
+@pytest.mark.parametrize(
+    ("parameters", "legacy", "told"),
+    [
+        (f"arm: {_INT}", "", []),
+        (
+            f"Arm: {{group: {{x: {_INT}}}}}",
+            "",
+            ["RC3117 the properties of 'Arm.x' start like those of the adapter Arm"],
+        ),
+        (
+            "Arm: {group: {Endpoints: {type: string, default: x}}}",
+            "",
+            ["RC3116 'Arm.Endpoints' and the endpoints of Arm are both the property 'Arm.Endpoints'"],
+        ),
+        (
+            "statemachine: {group: {a: {type: int, default: 1}}}",
+            "",
+            ["RC3116 'statemachine.a' and the states of a state machine are both the property 'statemachine.…'"],
+        ),
+        (
+            "MovedTopic: {group: {Endpoints: {type: string, default: x}}}",
+            "",
+            [
+                "RC3116 'MovedTopic.Endpoints' and the endpoints of MovedTopic are both the property 'MovedTopic.Endpoints'"
+            ],
+        ),
+        (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other are both the property 'OtherProxy'"]),
+        (f"Ice: {{group: {{x: {_INT}}}}}", "", ["RC3116 'Ice.x' and a setting of Ice are both the property 'Ice.…'"]),
+        (f"a: {_INT}, b: {_INT}", "a: X, b: X", ["RC3116 'b' and 'a' are both the property 'X'"]),
+        (
+            f"a: {_INT}, ids: {{list: int, default: []}}",
+            "a: Id7, ids: {key: 'Id{i}'}",
+            ["RC3116 'ids' and 'a' are both the property 'Id7'"],
+        ),
+    ],
+)
 def test_clashes(diagnostics: Check, tmp_path: Path, parameters: str, legacy: str, told: list[str]) -> None:
     pdsl = f"component: c.cdsl.yaml\nparameters: {{{parameters}}}\nlegacy: {{{legacy}}}\n"
     found = diagnostics({**TREE, "c.pdsl.yaml": pdsl})

@@ -29,16 +29,21 @@ def values(linked: dict[str, LinkedComponent], folder: str) -> dict[str, str]:
 
 
 def test_what_a_config_holds() -> None:
-    linked = workspace({
-        "speech": component("SpeechComp", implements="[Speech]", requires="[Mouth]", subscribes="[Heard]",
-                            period="50 ms"),
-        "mouth": component("MouthComp", implements="[Mouth]"),
-    })
+    linked = workspace(
+        {
+            "speech": component(
+                "SpeechComp", implements="[Speech]", requires="[Mouth]", subscribes="[Heard]", period="50 ms"
+            ),
+            "mouth": component("MouthComp", implements="[Mouth]"),
+        }
+    )
     mouth = values(linked, "mouth")["Mouth.Endpoints"].removeprefix("tcp -p ")
     plan = config.plan(linked["speech"], ports.assign(linked.values(), Disk()))
     assert (plan.path, plan.policy, plan.executable) == ("etc/config", ONCE, False)
     speech, behavior = (ports.default_port("SpeechComp", name) for name in ("Speech", "CommonBehavior"))
-    assert plan.text == f"""\
+    assert (
+        plan.text
+        == f"""\
 # Configuration of SpeechComp: one KEY=VALUE a line, as Ice reads it. rcyaml wrote it once; it is yours now.
 # The command line overrides it: bin/SpeechComp --period.compute=50 --Ice.Trace.Network=1
 
@@ -72,6 +77,7 @@ Ice.Trace.Protocol=0
 # The largest message, in KiB.
 Ice.MessageSizeMax=20004800
 """
+    )
 
 
 def test_a_component_that_talks_to_nobody() -> None:
@@ -98,10 +104,13 @@ def test_an_interface_that_nobody_implements() -> None:
 
 
 def test_two_proxies_go_to_two_components() -> None:
-    linked = workspace({
-        "a": component("A", requires="[Mouth, {Mouth1: Mouth}, {Mouth2: Mouth}]"),
-        "b": component("B", implements="[Mouth]"), "c": component("C", implements="[Mouth]"),
-    })
+    linked = workspace(
+        {
+            "a": component("A", requires="[Mouth, {Mouth1: Mouth}, {Mouth2: Mouth}]"),
+            "b": component("B", implements="[Mouth]"),
+            "c": component("C", implements="[Mouth]"),
+        }
+    )
     held = values(linked, "a")
     b, c = (values(linked, name)["Mouth.Endpoints"].removeprefix("tcp -p ") for name in "bc")
     assert [held[f"Mouth{n}Proxy"].rpartition(" ")[2] for n in ("", "1", "2")] == [b, c, c]
@@ -109,10 +118,13 @@ def test_two_proxies_go_to_two_components() -> None:
 
 
 def test_the_configs_of_a_workspace_fit_together_in_any_order() -> None:
-    linked = workspace({
-        "a": component("A", requires="[Mouth]"), "b": component("B", implements="[Mouth, Speech]"),
-        "c": component("C", requires="[Speech]"),
-    })
+    linked = workspace(
+        {
+            "a": component("A", requires="[Mouth]"),
+            "b": component("B", implements="[Mouth, Speech]"),
+            "c": component("C", requires="[Speech]"),
+        }
+    )
     backwards = dict(reversed(linked.items()))
     assert list(backwards) != list(linked)
     assert {name: text(backwards, name) for name in linked} == {name: text(linked, name) for name in linked}

@@ -37,15 +37,15 @@ def test_a_component_elsewhere_is_the_users_to_name(args: list[str], rcyaml: Run
 
 
 INSIDE: dict[str, tuple[Tree, str]] = {
-    "of the workspace above": (
-        {"rcyaml.yaml": "", "arm/arm.cdsl.yaml": ARM, "nets/r.ddsl.yaml": DEPLOYMENT}, "nets"
-    ),
+    "of the workspace above": ({"rcyaml.yaml": "", "arm/arm.cdsl.yaml": ARM, "nets/r.ddsl.yaml": DEPLOYMENT}, "nets"),
     "of the document's workspace": (
-        {"rcyaml.yaml": "", "arm/arm.cdsl.yaml": ARM, "nets/r.ddsl.yaml": DEPLOYMENT}, "nets/r.ddsl.yaml"
+        {"rcyaml.yaml": "", "arm/arm.cdsl.yaml": ARM, "nets/r.ddsl.yaml": DEPLOYMENT},
+        "nets/r.ddsl.yaml",
     ),
     "of no workspace, from above": ({"arm/arm.cdsl.yaml": ARM, "nets/r.ddsl.yaml": DEPLOYMENT}, "nets/r.ddsl.yaml"),
     "of values": (
-        {"arm/arm.cdsl.yaml": ARM, "arm/etc/config.yaml": "component: ../arm.cdsl.yaml\n"}, "arm/etc/config.yaml"
+        {"arm/arm.cdsl.yaml": ARM, "arm/etc/config.yaml": "component: ../arm.cdsl.yaml\n"},
+        "arm/etc/config.yaml",
     ),
 }
 
@@ -59,7 +59,10 @@ def test_a_component_in_sight_is_compiled(name: str, rcyaml: Run, tmp_path: Path
 
 
 def test_a_workspace_that_is_a_link_is_inside_of_itself(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {"disk/rcyaml.yaml": "", "disk/M.idsl.yaml": MODULE, "disk/arm/arm.cdsl.yaml": ARM, "robot": "-> disk"})
+    write_tree(
+        tmp_path,
+        {"disk/rcyaml.yaml": "", "disk/M.idsl.yaml": MODULE, "disk/arm/arm.cdsl.yaml": ARM, "robot": "-> disk"},
+    )
     assert rcyaml("compile", "robot").exit_code == 0
     assert (tmp_path / "disk/slice/M.ice").is_file() and (tmp_path / "disk/arm/generated").is_dir()
 

@@ -21,7 +21,8 @@ def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 def numbers(linked: dict[str, LinkedComponent], assigned: ports.Ports) -> dict[str, int]:
     return {
         f"{folder}.{name}": assigned.endpoint(one, name).port
-        for folder, one in linked.items() for name in ports.adapters(one)
+        for folder, one in linked.items()
+        for name in ports.adapters(one)
     }
 
 
@@ -41,7 +42,10 @@ def test_the_later_name_moves_on(monkeypatch: pytest.MonkeyPatch) -> None:
     linked = workspace({"z": component("A", implements="[Mouth, Speech]"), "a": component("B", implements="[Mouth]")})
     for order in (list(linked.values()), list(linked.values())[::-1]):
         assert numbers(linked, ports.assign(order, Disk())) == {
-            "z.CommonBehavior": 11310, "z.Mouth": 11312, "z.Speech": 11313, "a.CommonBehavior": 11314,
+            "z.CommonBehavior": 11310,
+            "z.Mouth": 11312,
+            "z.Speech": 11313,
+            "a.CommonBehavior": 11314,
             "a.Mouth": 11315,
         }, "11311 is ROS 1's"
 
@@ -63,11 +67,23 @@ def test_a_port_in_a_config_is_taken() -> None:
     assert assigned["a.Mouth"] == port + 1
 
 
-@pytest.mark.parametrize(("value", "expected"), [
-    ("tcp -p 10", IceEndpoint(10)), ('"tcp -p 10"', IceEndpoint(10)), ("ws -h 1.2.3.4 -p 10", IceEndpoint(10, "ws", "1.2.3.4")),
-    ("udp -p 10:tcp -p 11", IceEndpoint(10, "udp")), ("tcp -h * -p 10", IceEndpoint(10)), ("tcp -p 0", None), ("tcp", None),
-    ("tcp -p x", None), ("tcp -p 70000", None), ("", None), ("tcp -p ²", None), ("tcpx -p 1", None),
-])
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        ("tcp -p 10", IceEndpoint(10)),
+        ('"tcp -p 10"', IceEndpoint(10)),
+        ("ws -h 1.2.3.4 -p 10", IceEndpoint(10, "ws", "1.2.3.4")),
+        ("udp -p 10:tcp -p 11", IceEndpoint(10, "udp")),
+        ("tcp -h * -p 10", IceEndpoint(10)),
+        ("tcp -p 0", None),
+        ("tcp", None),
+        ("tcp -p x", None),
+        ("tcp -p 70000", None),
+        ("", None),
+        ("tcp -p ²", None),
+        ("tcpx -p 1", None),
+    ],
+)
 def test_endpoints(value: str, expected: IceEndpoint | None) -> None:
     assert ports.parse_endpoint(value) == expected
 

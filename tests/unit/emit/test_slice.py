@@ -99,7 +99,9 @@ def test_everything(golden: Callable[[str, Mapping[str, str]], None], tmp_path: 
 
 def test_the_text_does_not_depend_on_the_order_of_files(tmp_path: Path) -> None:
     names = ["Everything.idsl.yaml", "Types.idsl.yaml", "Third.idsl.yaml"]
-    write_tree(tmp_path, dict(zip(names, [EVERYTHING, TYPES, "module: RoboCompThird\nimports: [Everything]\n"], strict=True)))
+    write_tree(
+        tmp_path, dict(zip(names, [EVERYTHING, TYPES, "module: RoboCompThird\nimports: [Everything]\n"], strict=True))
+    )
     seen = []
     for order in itertools.permutations(names):
         program = pipeline.analyse([str(tmp_path / name) for name in order]).program
@@ -135,15 +137,17 @@ def test_a_method_called_as_its_type_names_the_type_from_the_root(tmp_path: Path
 def test_underscores_are_declared_where_they_are(tmp_path: Path) -> None:
     plain = texts(tmp_path, {"M.idsl.yaml": "module: M\ntypes: {A: {struct: {b: int}}}\n"})["M.ice"]
     assert "underscore" not in plain
-    for number, text in enumerate((
-        "module: M_1\n",
-        "module: M\ntypes: {A: {struct: {b_1: int}}}\n",
-        "module: M\ntypes: {E: {enum: [a_1]}}\n",
-        "module: M\ninterfaces: {I: {methods: {f: {out: {b_1: int}}}}}\n",
-        "module: M\nconstants: {b_1: {type: int, value: 1}}\n",
-        "module: M\nimports: [Other]\ntypes: {A: {sequence: Other.T_1}}\n",
-        "module: M\nimports: [Other]\ntypes: {A: {struct: {e: {type: Other.E, default: x_1}}}}\n",
-    )):
+    for number, text in enumerate(
+        (
+            "module: M_1\n",
+            "module: M\ntypes: {A: {struct: {b_1: int}}}\n",
+            "module: M\ntypes: {E: {enum: [a_1]}}\n",
+            "module: M\ninterfaces: {I: {methods: {f: {out: {b_1: int}}}}}\n",
+            "module: M\nconstants: {b_1: {type: int, value: 1}}\n",
+            "module: M\nimports: [Other]\ntypes: {A: {sequence: Other.T_1}}\n",
+            "module: M\nimports: [Other]\ntypes: {A: {struct: {e: {type: Other.E, default: x_1}}}}\n",
+        )
+    ):
         other = "module: Other\ntypes: {T_1: {sequence: int}, E: {enum: [x_1]}}\n"
         files = texts(tmp_path / str(number), {"M.idsl.yaml": text, "Other.idsl.yaml": other})
         assert '[["underscore"]]\n' in files["M.ice"]

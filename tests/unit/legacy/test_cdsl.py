@@ -9,7 +9,9 @@ from test_idsl import expected, migrated, warnings
 
 
 def test_every_clause(tmp_path: Path) -> None:
-    assert migrated(tmp_path, """
+    assert migrated(
+        tmp_path,
+        """
         import "/robocomp/interfaces/IDSLs/Speech.idsl";
         import "../../..//interfaces/IDSLs/Mouth.idsl";
         import "AGGLPlanner";
@@ -33,7 +35,9 @@ def test_every_clause(tmp_path: Path) -> None:
             useQt qt4;
             worker isThread;
         };
-    """, "speech.cdsl") == expected("""
+    """,
+        "speech.cdsl",
+    ) == expected("""
         component: SpeechComp
         doc: Says things.
         language: cpp
@@ -56,7 +60,9 @@ def test_every_clause(tmp_path: Path) -> None:
 
 
 def test_comments_stay_where_they_stood(tmp_path: Path) -> None:
-    assert migrated(tmp_path, """
+    assert migrated(
+        tmp_path,
+        """
         // Licence
         import "A.idsl"; // a
         Component C { // the component
@@ -76,7 +82,9 @@ def test_comments_stay_where_they_stood(tmp_path: Path) -> None:
             RoboCompClasses { // qlog;
             };
         };
-    """, "c.cdsl") == expected("""
+    """,
+        "c.cdsl",
+    ) == expected("""
         # Licence
         component: C  # the component
         language: python  # of course
@@ -142,7 +150,7 @@ OURS = "from generated.genericworker import GenericWorker\n"
         ("specificworker.h", "SpecificWorker(MapPrx& mprx, bool startup_check);\n", True),
         ("specificworker.h", "class SpecificWorker : public GenericWorker {};\n", False),
         ("specificworker.cpp", "SpecificWorker::SpecificWorker(MapPrx& mprx)\n", True),
-        ("specificworker.cpp", "#include \"specificworker.h\"\n", False),
+        ("specificworker.cpp", '#include "specificworker.h"\n', False),
     ],
 )
 def test_code_of_robocomps_own_tool(tmp_path: Path, file: str, code: str | bytes, is_theirs: bool) -> None:

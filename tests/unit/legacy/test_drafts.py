@@ -20,7 +20,10 @@ FILES = {
     "arm.conf": ("Arm.Endpoints=tcp -p 10100\nspeed=3\n", draft.ConfigDraft),
     "arm.toml": ("speed = 3\n", draft.ConfigDraft),
     "run.toml": ('[[component]]\nname = "arm"\ncmd = "bin/arm"\n', draft.DeploymentDraft),
-    "run.xml": ('<rcmanager><node alias="arm"><upCommand command="bin/arm"/></node></rcmanager>', draft.DeploymentDraft),
+    "run.xml": (
+        '<rcmanager><node alias="arm"><upCommand command="bin/arm"/></node></rcmanager>',
+        draft.DeploymentDraft,
+    ),
 }
 
 

@@ -32,7 +32,9 @@ def expected(text: str) -> str:
 
 
 def test_every_construct(tmp_path: Path) -> None:
-    assert migrated(tmp_path, """
+    assert migrated(
+        tmp_path,
+        """
         import "/robocomp/interfaces/IDSLs/CommonTypes.idsl";
         module RoboCompSpeech
         {
@@ -53,7 +55,8 @@ def test_every_construct(tmp_path: Path) -> None:
             };
             interface Empty { };
         };
-    """) == expected("""
+    """,
+    ) == expected("""
         module: RoboCompSpeech
         imports: [CommonTypes]
         constants:
@@ -80,7 +83,9 @@ def test_every_construct(tmp_path: Path) -> None:
 
 
 def test_comments_stay_where_they_stood(tmp_path: Path) -> None:
-    assert migrated(tmp_path, """
+    assert migrated(
+        tmp_path,
+        """
         // Licence: GPL
         // Somebody, 2015
 
@@ -110,7 +115,8 @@ def test_comments_stay_where_they_stood(tmp_path: Path) -> None:
             // the end
         }; // end of M
         // really
-    """) == expected("""
+    """,
+    ) == expected("""
         # Licence: GPL
         # Somebody, 2015
 
@@ -151,7 +157,9 @@ def test_comments_stay_where_they_stood(tmp_path: Path) -> None:
 
 
 def test_doc_comments_become_doc(tmp_path: Path) -> None:
-    assert migrated(tmp_path, """
+    assert migrated(
+        tmp_path,
+        """
         /** \\namespace RoboCompM
          *@brief Name space of M.
          */
@@ -185,7 +193,8 @@ def test_doc_comments_become_doc(tmp_path: Path) -> None:
                 void say(/** What. */ string text);
             };
         };
-    """) == expected("""
+    """,
+    ) == expected("""
         module: RoboCompM
         doc: Name space of M.
         types:
@@ -216,12 +225,15 @@ def test_doc_comments_become_doc(tmp_path: Path) -> None:
 
 
 def test_long_methods_stand_in_blocks(tmp_path: Path) -> None:
-    text = migrated(tmp_path, """
+    text = migrated(
+        tmp_path,
+        """
         module M { interface I {
             RoboCompOther::AVeryLongTypeName aMethodWithALongName(RoboCompOther::AnotherTypeName first, string second)
                 throws FirstOfAll, SecondOfAll;
         }; };
-    """)
+    """,
+    )
     assert text.endswith(
         "      aMethodWithALongName:\n"
         "        in: {first: RoboCompOther.AnotherTypeName, second: string}\n"
@@ -244,7 +256,8 @@ def test_an_overload_gets_a_name_of_its_own(tmp_path: Path) -> None:
     assert "      f_3: {x-legacy-name: f, in: {a: string}}\n" in text
     assert "      f_4: {x-legacy-name: f, in: {a: float}}\n" in text
     assert warnings(tmp_path, source) == [
-        "3:10 the second method 'f' is now called 'f_3'", "5:10 the second method 'f' is now called 'f_4'",
+        "3:10 the second method 'f' is now called 'f_3'",
+        "5:10 the second method 'f' is now called 'f_4'",
     ]
 
 

@@ -34,7 +34,9 @@ def test_a_launcher(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"sub.toml": SUB})
     result = rcyaml("-q", "migrate", "sub.toml")
     assert result.output == ""
-    assert (tmp_path / "sub.ddsl.yaml").read_text(encoding="utf-8").split("\n", 1)[1] == """
+    assert (
+        (tmp_path / "sub.ddsl.yaml").read_text(encoding="utf-8").split("\n", 1)[1]
+        == """
 # The simulation.
 deployment: sub
 components:
@@ -53,6 +55,7 @@ components:
     cwd: /opt/lidar
     endpoints: {Lidar3D: tcp -p 10098}
 """
+    )
 
 
 def test_home_is_found(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -91,7 +94,8 @@ def test_what_is_refused(rcyaml: Run, tmp_path: Path, text: str, code: str) -> N
 @pytest.mark.parametrize(
     "lines",
     [
-        'cwd = "/opt/a\\nb"\ncmd = "bin/a"', 'cwd = "/opt/a"\ncmd = "\'bin/a\\u001bb\' x"',
+        'cwd = "/opt/a\\nb"\ncmd = "bin/a"',
+        'cwd = "/opt/a"\ncmd = "\'bin/a\\u001bb\' x"',
         'cwd = "/opt"\ncmd = "bin/a"\nice_name = "room/lamp:tcp -p 10003"',
         'cwd = "/opt"\ncmd = "bin/a"\nice_name = "lamp:tcp -p 10003 -q"',
         'cwd = "/opt"\ncmd = "bin/a"\nice_name = "lamp:tcp -p 10003 --sourceAddress 127.0.0.1"',

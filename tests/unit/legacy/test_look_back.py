@@ -37,10 +37,13 @@ def test_what_cannot_be_a_parameter_is_a_property(name: str, rcyaml: Run, tmp_pa
 
 
 def test_what_check_refuses_is_told_once_for_a_document(rcyaml: Run, tmp_path: Path) -> None:
-    write_tree(tmp_path, {
-        "speech.cdsl": "Component C { Communications { implements A, B; }; language python; };\n",
-        "fine.cdsl": "Component D { language python; };\n",
-    })
+    write_tree(
+        tmp_path,
+        {
+            "speech.cdsl": "Component C { Communications { implements A, B; }; language python; };\n",
+            "fine.cdsl": "Component D { language python; };\n",
+        },
+    )
     result = rcyaml("migrate", ".", "--format", "json")
     assert result.exit_code == 0
     (told,) = [each for each in json.loads(result.stdout)["diagnostics"] if each["code"] == "RC5039"]
@@ -52,16 +55,19 @@ COMPONENT = "Component C {{ Communications {{ implements {0}; }}; language cpp; 
 NOT_THERE = {
     "an interface": ({"c.cdsl": 'import "Nada.idsl";\n' + COMPONENT.format("Nada", "")}, ["RC5009"]),
     "an interface of an interface": (
-        {"A.idsl": 'import "Nada.idsl";\nmodule RoboCompA { interface A { RoboCompNada::X f(); }; };\n'}, ["RC5009"],
+        {"A.idsl": 'import "Nada.idsl";\nmodule RoboCompA { interface A { RoboCompNada::X f(); }; };\n'},
+        ["RC5009"],
     ),
-    "a machine": ({"c.cdsl": "Component C { language cpp; statemachine \"sm/door.smdsl\"; };\n"}, ["RC5019"]),
+    "a machine": ({"c.cdsl": 'Component C { language cpp; statemachine "sm/door.smdsl"; };\n'}, ["RC5019"]),
     "parameters": ({"left.pconf": 'import "left.pdsl";\nConfigFile Left{\n  volume = 3\n}\n'}, ["RC5030"]),
     "a type": ({"A.idsl": "module RoboCompA { interface A { Eye f(); void g(out Eye x); }; };\n"}, ["RC5010"] * 2),
     "a type and a module": (
-        {"A.idsl": "module RoboCompA { interface A { void h(RoboCompZ::Q x); Eye g(); }; };\n"}, ["RC5010"] * 2,
+        {"A.idsl": "module RoboCompA { interface A { void h(RoboCompZ::Q x); Eye g(); }; };\n"},
+        ["RC5010"] * 2,
     ),
     "a folder that is not searched": (
-        {"a/A.idsl": "module RoboCompA {};\n", "c/c.cdsl": 'import "A.idsl";\nComponent C { language cpp; };\n'}, ["RC5026"],
+        {"a/A.idsl": "module RoboCompA {};\n", "c/c.cdsl": 'import "A.idsl";\nComponent C { language cpp; };\n'},
+        ["RC5026"],
     ),
 }
 

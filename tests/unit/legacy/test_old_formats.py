@@ -53,7 +53,9 @@ def test_json_of_a_component(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Speech.idsl": SPEECH, "speech.jcdsl": JCDSL})
     result = rcyaml("migrate", ".")
     assert result.exit_code == 0 and "RC5017" in result.output, result.output
-    assert text(tmp_path, "speech.cdsl.yaml") == """\
+    assert (
+        text(tmp_path, "speech.cdsl.yaml")
+        == """\
 component: SpeechComp
 language: cpp
 imports: [Speech]
@@ -63,6 +65,7 @@ gui: {toolkit: qt, base: QDialog}
 options: [dsr, innermodelviewer]
 x-legacy-modules: '["x"]'
 """.replace("[Speech, Speech1: Speech]", "[Speech, {Speech1: Speech}]")
+    )
     assert rcyaml("check", ".").exit_code == 0
 
 
@@ -83,7 +86,9 @@ def test_parameters_and_values_of_2011(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"laser.pdsl": PDSL, "laser.pconf": PCONF, "etc/config": "start = 5\nother = 1\n"})
     result = rcyaml("migrate", ".")
     assert result.exit_code == 0, result.output
-    assert text(tmp_path, "laser.pdsl.yaml") == """\
+    assert (
+        text(tmp_path, "laser.pdsl.yaml")
+        == """\
 
 # the laser
 component: Laser
@@ -93,7 +98,10 @@ parameters:
   angle: {type: float, range: [0, 10], default: 1}
   talk: {type: bool, default: true, editable: true}
 """
-    assert text(tmp_path, "laser.config.yaml") == """\
+    )
+    assert (
+        text(tmp_path, "laser.config.yaml")
+        == """\
 component: laser.pdsl.yaml
 parameters:
   device: 192.168.187.204
@@ -101,6 +109,7 @@ parameters:
   angle: 0.5
   talk: true
 """
+    )
     assert "component: ../laser.pdsl.yaml\nparameters:\n  start: 5\nproperties:\n  other: " in text(
         tmp_path, "etc/config.yaml"
     )
@@ -116,7 +125,7 @@ def test_a_default_outside_of_its_range_is_left_out(rcyaml: Run, tmp_path: Path)
 
 
 def test_parameters_of_2011_belong_to_the_component_beside_them(rcyaml: Run, tmp_path: Path) -> None:
-    component = 'Component Laser { Communications { }; language python; };\n'
+    component = "Component Laser { Communications { }; language python; };\n"
     write_tree(tmp_path, {"laser.cdsl": component, "laser.pdsl": PDSL, "etc/config": "start = 5\n"})
     assert rcyaml("migrate", ".").exit_code == 0
     assert "component: laser.cdsl.yaml\n" in text(tmp_path, "laser.pdsl.yaml")

@@ -188,7 +188,9 @@ def test_comments_stay_where_they_stood(rcyaml: Run, tmp_path: Path) -> None:
 """
     write_tree(tmp_path, {"robot.xml": manager})
     assert rcyaml("-q", "migrate", "robot.xml").output == ""
-    assert (tmp_path / "robot.ddsl.yaml").read_text(encoding="utf-8").split("\n", 1)[1] == """
+    assert (
+        (tmp_path / "robot.ddsl.yaml").read_text(encoding="utf-8").split("\n", 1)[1]
+        == """
 # The robot.
 deployment: robot
 components:
@@ -213,6 +215,7 @@ components:
     x-rcmanager: {endpoint: "js:tcp -p 10005", upCommand: rcremote localhost js /d js}
 # The end.
 """
+    )
 
 
 CDSL = (

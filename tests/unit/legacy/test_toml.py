@@ -69,7 +69,9 @@ def test_tables_become_sections_and_parameters(rcyaml: Run, tmp_path: Path) -> N
     result = rcyaml("migrate", ".")
     assert result.exit_code == 0, result.output
     text = (tmp_path / "etc/config.toml.config.yaml").read_text().split("\n", 1)[1]
-    assert text == """\
+    assert (
+        text
+        == """\
 component: config.toml.pdsl.yaml
 parameters:
   # RSHELIOS=0
@@ -114,6 +116,7 @@ properties:
   Endpoints.JoystickPrefix: '""'
 legacy: {file: config.toml, dialect: toml}
 """
+    )
     assert rcyaml("check", ".").exit_code == 0
     exported = rcyaml("config", "export", "--as", "toml", "etc/config.toml.config.yaml")
     assert exported.exit_code == 0, exported.output
@@ -144,5 +147,5 @@ def test_dates_and_infinities_are_told(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"config.toml": "[T]\nday = 2024-01-31\nmost = inf\n"})
     result = rcyaml("migrate", "config.toml")
     assert result.exit_code == 0 and result.output.count("RC5005") == 2
-    assert 'day: 2024-01-31\n    most: inf\n' in (tmp_path / "config.toml.config.yaml").read_text()
+    assert "day: 2024-01-31\n    most: inf\n" in (tmp_path / "config.toml.config.yaml").read_text()
     assert rcyaml("check", ".").exit_code == 0

@@ -48,11 +48,17 @@ def test_an_agm_agent(linked: Callable[..., tuple[Analysis, LinkedComponent]], s
     analysis, component = linked(text)
     assert not analysis.diagnostics
     assert ports(component) == {
-        "implements": ["AGMCommonBehavior"], "requires": ["Arm", "AGMExecutive"], "publishes": [],
+        "implements": ["AGMCommonBehavior"],
+        "requires": ["Arm", "AGMExecutive"],
+        "publishes": [],
         "subscribes": ["AGMExecutiveTopic"],
     }
     assert [scope.module.stem for scope in component.imports] == [
-        "Arm", "AGMExecutive", "AGMCommonBehavior", "AGMWorldModel", "AGMExecutiveTopic"
+        "Arm",
+        "AGMExecutive",
+        "AGMCommonBehavior",
+        "AGMWorldModel",
+        "AGMExecutiveTopic",
     ]
 
 

@@ -55,24 +55,29 @@ def test_what_is_derived_replaces_what_the_document_says() -> None:
 
 
 def test_the_document_that_config_names() -> None:
-    values = {"speech/etc/config.yaml": VALUES + "parameters: {volume: 7}\n",
-              "speech/etc/loud.config.yaml": "extends: [config.yaml]\nparameters: {voice: {pitch: 2}}\n"}
+    values = {
+        "speech/etc/config.yaml": VALUES + "parameters: {volume: 7}\n",
+        "speech/etc/loud.config.yaml": "extends: [config.yaml]\nparameters: {voice: {pitch: 2}}\n",
+    }
     found = speech(", config: etc/loud.config.yaml", **values)
     assert (found["volume"], found["voice.pitch"]) == ("7", "2")
 
 
-@pytest.mark.parametrize(("given", "expected"), [
-    ("{volume: 70}", {"volume": "70", "voice.pitch": "1"}),
-    ("{voice: {pitch: 2}}", {"voice.pitch": "2", "volume": "7"}),
-    ("{voice.pitch: 2}", {"voice.pitch": "2"}),
-    ('{"motors[1].vel": 2}', {"motors.0.vel": "0.5", "motors.1.vel": "2", "motors.1.name": "b"}),
-    ('{"motors[0].vel": 1, "motors[1].name": c}', {"motors.0.vel": "1", "motors.1.name": "c"}),
-    ("{motors: [{name: x}]}", {"motors.size": "1", "motors.0.name": "x", "motors.0.vel": "0.9"}),
-    ('{gains.a: 1, "gains[\\"b c\\"]": 2}', {"gains.a": "1", "gains.b%20c": "2"}),
-    ("{volume: null}", {"volume": "50"}),
-    ("{period.compute: 20}", {"period.compute": "20"}),
-    ("{volume: {env: LOUD}}", {"volume": "${env:LOUD}"}),
-])
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ("{volume: 70}", {"volume": "70", "voice.pitch": "1"}),
+        ("{voice: {pitch: 2}}", {"voice.pitch": "2", "volume": "7"}),
+        ("{voice.pitch: 2}", {"voice.pitch": "2"}),
+        ('{"motors[1].vel": 2}', {"motors.0.vel": "0.5", "motors.1.vel": "2", "motors.1.name": "b"}),
+        ('{"motors[0].vel": 1, "motors[1].name": c}', {"motors.0.vel": "1", "motors.1.name": "c"}),
+        ("{motors: [{name: x}]}", {"motors.size": "1", "motors.0.name": "x", "motors.0.vel": "0.9"}),
+        ('{gains.a: 1, "gains[\\"b c\\"]": 2}', {"gains.a": "1", "gains.b%20c": "2"}),
+        ("{volume: null}", {"volume": "50"}),
+        ("{period.compute: 20}", {"period.compute": "20"}),
+        ("{volume: {env: LOUD}}", {"volume": "${env:LOUD}"}),
+    ],
+)
 def test_what_the_deployment_sets(given: str, expected: dict[str, str]) -> None:
     values = VALUES + "parameters:\n  volume: 7\n  motors: [{name: a, vel: 0.5}, {name: b, vel: 1}]\n"
     found = speech(f", set: {given}", **{"speech/etc/config.yaml": values})
@@ -80,37 +85,48 @@ def test_what_the_deployment_sets(given: str, expected: dict[str, str]) -> None:
 
 
 def test_a_path_is_named_as_it_is_meant() -> None:
-    (found,) = faults(files(', set: {period.compute: 0, voice.pitch: 1}'))
+    (found,) = faults(files(", set: {period.compute: 0, voice.pitch: 1}"))
     assert found.message.startswith("period.compute is 0 ms")
-    (found,) = faults(files(', set: {voice.pich: 1}'))
+    (found,) = faults(files(", set: {voice.pich: 1}"))
     assert found.message == "there is no parameter 'voice.pich'" and found.hint == "did you mean 'pitch'?"
 
 
 def test_each_instance_has_its_own() -> None:
-    found = network(deployed(
-        'components: {"m{i}": {component: idle, instances: 2, set: {name: "cam{i}"}}}\n', idle="",
-        **{"idle/idle.pdsl.yaml": "component: idle.cdsl.yaml\nparameters: {name: string}\n"},
-    ))
+    found = network(
+        deployed(
+            'components: {"m{i}": {component: idle, instances: 2, set: {name: "cam{i}"}}}\n',
+            idle="",
+            **{"idle/idle.pdsl.yaml": "component: idle.cdsl.yaml\nparameters: {name: string}\n"},
+        )
+    )
     assert [config(process)["name"] for process in found.processes.values()] == ["cam0", "cam1"]
 
 
-@pytest.mark.parametrize(("given", "code", "column"), [
-    ("{volume: 101}", "RC3303", 58),
-    ("{volume: loud}", "RC3302", 58),
-    ("{volumee: 1}", "RC3301", 50),
-    ('{"motors[1].vel": 7}', "RC3303", 67),
-    ('{"motors[2].vel": 1}', "RC4307", 50),
-    ('{"volume[0]": 1}', "RC3302", 50),
-    ('{"voice.depth": 1}', "RC3301", 50),
-])
+@pytest.mark.parametrize(
+    ("given", "code", "column"),
+    [
+        ("{volume: 101}", "RC3303", 58),
+        ("{volume: loud}", "RC3302", 58),
+        ("{volumee: 1}", "RC3301", 50),
+        ('{"motors[1].vel": 7}', "RC3303", 67),
+        ('{"motors[2].vel": 1}', "RC4307", 50),
+        ('{"volume[0]": 1}', "RC3302", 50),
+        ('{"voice.depth": 1}', "RC3301", 50),
+    ],
+)
 def test_what_is_set_is_judged_where_it_stands(given: str, code: str, column: int) -> None:
     found = faults(files(f", set: {given}"))
     assert [said(fault) for fault in found] == [(code, "robot.ddsl.yaml", 3, column)]
 
 
 def test_a_required_parameter_that_nobody_gives() -> None:
-    (found,) = faults(deployed("components:\n  a: {component: idle}\n", idle="", **{
-        "idle/idle.pdsl.yaml": "component: idle.cdsl.yaml\nparameters: {device: string}\n"}))
+    (found,) = faults(
+        deployed(
+            "components:\n  a: {component: idle}\n",
+            idle="",
+            **{"idle/idle.pdsl.yaml": "component: idle.cdsl.yaml\nparameters: {device: string}\n"},
+        )
+    )
     assert said(found) == ("RC3307", "robot.ddsl.yaml", 3, 3)
 
 
@@ -157,16 +173,21 @@ def test_a_flat_file_is_part_of_what_was_read() -> None:
     assert analysis.disk.contents["speech/etc/config"] == FLAT.encode()
 
 
-@pytest.mark.parametrize(("how", "command"), [
-    ("config-as: --Ice.Config, ", ("rcis", "-f", "100", "--Ice.Config={config}")),
-    ("config-as: argument, ", ("rcis", "{config}", "-f", "100")),
-    ("", ("rcis", "-f", "100")),
-])
+@pytest.mark.parametrize(
+    ("how", "command"),
+    [
+        ("config-as: --Ice.Config, ", ("rcis", "-f", "100", "--Ice.Config={config}")),
+        ("config-as: argument, ", ("rcis", "{config}", "-f", "100")),
+        ("", ("rcis", "-f", "100")),
+    ],
+)
 def test_a_program(how: str, command: tuple[str, ...]) -> None:
-    found = network(deployed(
-        f"components:\n  laser: {{program: rcis, {how}args: [-f, 100], cwd: sim, "
-        "env: {DISPLAY: ':0', KEY: {env: K}}, endpoints: {Laser: tcp -p 10003}}\n  base: {process: laser, endpoints: {Base: tcp -p 10004}}\n"
-    )).processes["laser"]
+    found = network(
+        deployed(
+            f"components:\n  laser: {{program: rcis, {how}args: [-f, 100], cwd: sim, "
+            "env: {DISPLAY: ':0', KEY: {env: K}}, endpoints: {Laser: tcp -p 10003}}\n  base: {process: laser, endpoints: {Base: tcp -p 10004}}\n"
+        )
+    ).processes["laser"]
     assert found.command == command and found.cwd == str(Path("sim").absolute()) and found.aliases == ("base",)
     assert [(one.name, one.value, one.source) for one in found.env] == [("DISPLAY", ":0", ""), ("KEY", "", "K")]
     assert found.ready.port == 10003 and not found.ready.pings
@@ -177,10 +198,12 @@ def test_a_program(how: str, command: tuple[str, ...]) -> None:
 
 
 def test_a_program_with_a_file_of_its_own_gets_it_as_it_is() -> None:
-    found = network(deployed(
-        "components: {view: {program: viewer, config: view.json, args: [--all, '-c{config}']}}\n",
-        **{"view.json": '{"size": 3}'},
-    )).processes["view"]
+    found = network(
+        deployed(
+            "components: {view: {program: viewer, config: view.json, args: [--all, '-c{config}']}}\n",
+            **{"view.json": '{"size": 3}'},
+        )
+    ).processes["view"]
     assert found.command == ("viewer", "--all", "-c{config}") and not found.is_ice
     assert found.config is not None and found.config.text == '{"size": 3}'
 
@@ -191,12 +214,15 @@ def test_a_component_takes_its_configuration_first() -> None:
     assert found.cwd == str(Path("speech").absolute())
 
 
-@pytest.mark.parametrize(("given", "expected"), [
-    ("ready: 3 s", (3.0, True, None, (), "")),
-    ("ready: {port: 10009, within: 20 s}", (20.0, False, 10009, (), "")),
-    ("ready: {command: [ls, -l]}", (10.0, False, None, ("ls", "-l"), "")),
-    ("ready: {log: started}", (10.0, False, None, (), "started")),
-])
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ("ready: 3 s", (3.0, True, None, (), "")),
+        ("ready: {port: 10009, within: 20 s}", (20.0, False, 10009, (), "")),
+        ("ready: {command: [ls, -l]}", (10.0, False, None, ("ls", "-l"), "")),
+        ("ready: {log: started}", (10.0, False, None, (), "started")),
+    ],
+)
 def test_readiness(given: str, expected: tuple[object, ...]) -> None:
     ready = network(files(f", {given}")).processes["speech"].ready
     assert (ready.within, bool(ready.pings), ready.port, ready.command, ready.log) == expected
@@ -209,6 +235,9 @@ def test_what_a_component_in_python_is_made_of_is_watched() -> None:
     ], "")  # fmt: skip
     watched = network(files(**more)).processes["speech"].watched
     assert [str(Path(path).relative_to(Path.cwd())) for path in watched] == [
-        "speech/bin/SpeechComp", "speech/generated/runtime/main.py", "speech/slice/Face.ice", "speech/src/mainUI.ui",
+        "speech/bin/SpeechComp",
+        "speech/generated/runtime/main.py",
+        "speech/slice/Face.ice",
+        "speech/src/mainUI.ui",
         "speech/src/specificworker.py",
     ]

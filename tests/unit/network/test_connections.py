@@ -16,7 +16,6 @@ def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.chdir(tmp_path)
 
 
-
 def proxies(found: Network) -> dict[str, tuple[str, str]]:
     return {f"{line.source}.{line.port}": (line.target, line.proxy) for line in found.connections}
 
@@ -36,17 +35,27 @@ def test_the_only_one_that_serves_it() -> None:
     assert line_of(found, "speech").span.line == 3
 
 
-@pytest.mark.parametrize(("target", "port"), [
-    ("other", 10005), ("other.Mouth", 10005), ("mouth", 10002), ("all", 10006), ("base", 10007), ("laser.Mouth", 10007),
-])
+@pytest.mark.parametrize(
+    ("target", "port"),
+    [
+        ("other", 10005),
+        ("other.Mouth", 10005),
+        ("mouth", 10002),
+        ("all", 10006),
+        ("base", 10007),
+        ("laser.Mouth", 10007),
+    ],
+)
 def test_as_connect_says(target: str, port: int) -> None:
-    found = network(deployed(
-        f"components:\n  speech: {{component: speech, connect: {{Mouth: {target}}}}}\n"
-        "  mouth: {component: mouth, port: 10002}\n  other: {component: mouth, port: 10005}\n"
-        "  third: {component: mouth, port: 10006}\n  laser: {program: sh, endpoints: {Laser: tcp -p 10003}}\n"
-        "  base: {process: laser, endpoints: {Mouth: tcp -p 10007}}\n"
-        "groups: {all: {components: [third]}}\n"
-    ))
+    found = network(
+        deployed(
+            f"components:\n  speech: {{component: speech, connect: {{Mouth: {target}}}}}\n"
+            "  mouth: {component: mouth, port: 10002}\n  other: {component: mouth, port: 10005}\n"
+            "  third: {component: mouth, port: 10006}\n  laser: {program: sh, endpoints: {Laser: tcp -p 10003}}\n"
+            "  base: {process: laser, endpoints: {Mouth: tcp -p 10007}}\n"
+            "groups: {all: {components: [third]}}\n"
+        )
+    )
     assert line_of(found, "speech").proxy == f"mouth:tcp -h localhost -p {port}"
 
 
@@ -61,14 +70,17 @@ def test_an_equal_interface_of_another_document() -> None:
     network({**files, "mouth/mouth.cdsl.yaml": component("MouthComp", MOUTH, "Copy")})
 
 
-@pytest.mark.parametrize(("was", "now", "difference", "place"), [
-    ("returns: bool", "returns: int", "what 'moveTo' returns is bool, and int", (6, 57)),
-    ("pose: Pose", "to: Pose", "'moveTo' has 'pose' where the other has 'to'", (6, 35)),
-    ("y: float", "z: float", "RoboCompFace.Pose has 'y' where the other has 'z'", (3, 47)),
-    ("unit: mm", "unit: m", "'x' of RoboCompFace.Pose is in mm, and in m", (3, 19)),
-    ("moveTo", "move", "'moveTo' is in one only", (6, 21)),
-    ("module: RoboCompFace", "module: RoboCompFaces", "its module is RoboCompFace, and RoboCompFaces", (6, 3)),
-])
+@pytest.mark.parametrize(
+    ("was", "now", "difference", "place"),
+    [
+        ("returns: bool", "returns: int", "what 'moveTo' returns is bool, and int", (6, 57)),
+        ("pose: Pose", "to: Pose", "'moveTo' has 'pose' where the other has 'to'", (6, 35)),
+        ("y: float", "z: float", "RoboCompFace.Pose has 'y' where the other has 'z'", (3, 47)),
+        ("unit: mm", "unit: m", "'x' of RoboCompFace.Pose is in mm, and in m", (3, 19)),
+        ("moveTo", "move", "'moveTo' is in one only", (6, 21)),
+        ("module: RoboCompFace", "module: RoboCompFaces", "its module is RoboCompFace, and RoboCompFaces", (6, 3)),
+    ],
+)
 def test_the_same_name_with_another_content(was: str, now: str, difference: str, place: tuple[int, int]) -> None:
     files = deployed(f"components:\n{BOTH}", **{"Other.idsl.yaml": FACE.replace(was, now)})
     (found,) = faults({**files, "mouth/mouth.cdsl.yaml": component("MouthComp", MOUTH, "Other")})
@@ -122,17 +134,22 @@ def test_a_broken_interface_hides_who_serves_it(connect: str) -> None:
     assert {fault.span.file for fault in found} == {"Face.idsl.yaml"}
 
 
-@pytest.mark.parametrize(("connect", "code", "hint"), [
-    ("speech", "RC4204", "it serves Speech, CommonBehavior"),
-    ("mouth.Speech", "RC4204", "it serves Mouth, CommonBehavior"),
-    ("storm", "RC4204", "it is an IceStorm, which carries topics"),
-    ("muoth", "RC4205", "did you mean 'mouth'?"),
-])
+@pytest.mark.parametrize(
+    ("connect", "code", "hint"),
+    [
+        ("speech", "RC4204", "it serves Speech, CommonBehavior"),
+        ("mouth.Speech", "RC4204", "it serves Mouth, CommonBehavior"),
+        ("storm", "RC4204", "it is an IceStorm, which carries topics"),
+        ("muoth", "RC4205", "did you mean 'mouth'?"),
+    ],
+)
 def test_connect_names_what_does_not_serve_it(connect: str, code: str, hint: str) -> None:
-    (found,) = faults(deployed(
-        f"services: {{storm: {{icestorm: {{}}}}}}\ncomponents:\n  speech: {{component: speech, connect: {{Mouth: "
-        f"{connect}}}}}\n  mouth: {{component: mouth}}\n"
-    ))
+    (found,) = faults(
+        deployed(
+            f"services: {{storm: {{icestorm: {{}}}}}}\ncomponents:\n  speech: {{component: speech, connect: {{Mouth: "
+            f"{connect}}}}}\n  mouth: {{component: mouth}}\n"
+        )
+    )
     assert said(found) == (code, "robot.ddsl.yaml", 4, 48)
     assert found.hint == hint
 
@@ -156,8 +173,12 @@ def test_a_group_is_connected_to_the_member_that_serves() -> None:
 
 @pytest.mark.parametrize("connect", ["face.Lips", "face.Mouth"])
 def test_what_a_group_serves_has_a_name_of_its_own(connect: str) -> None:
-    found = network(group("{components: [inner, other], expose: {Lips: other.Mouth, Speech: inner}}",
-                          f", connect: {{Mouth: {connect}}}"))
+    found = network(
+        group(
+            "{components: [inner, other], expose: {Lips: other.Mouth, Speech: inner}}",
+            f", connect: {{Mouth: {connect}}}",
+        )
+    )
     assert line_of(found, "speech").target == "other"
 
 
@@ -172,8 +193,11 @@ def test_the_inside_of_a_closed_group_is_out_of_reach() -> None:
 
 
 def test_a_rule_puts_a_gate_between() -> None:
-    found = network(group("{components: [inner, other], expose: {Lips: {member: other.Mouth, rate: 10}}}",
-                          ", connect: {Mouth: face}"))
+    found = network(
+        group(
+            "{components: [inner, other], expose: {Lips: {member: other.Mouth, rate: 10}}}", ", connect: {Mouth: face}"
+        )
+    )
     gate = found.processes["face.gate"]
     assert proxies(found)["speech.Mouth"] == ("face.gate", f"mouth:tcp -h localhost -p {gate.endpoints[0].port}")
     assert proxies(found)["face.gate.Lips"][0] == "other" and proxies(found)["inner.Mouth"][0] == "other"
@@ -182,33 +206,41 @@ def test_a_rule_puts_a_gate_between() -> None:
 
 
 def test_gates_of_groups_in_groups_stand_behind_each_other() -> None:
-    found = network(deployed(
-        "components:\n  speech: {component: speech}\n  mouth: {component: mouth, port: 10002}\ngroups:\n"
-        "  lips: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo]}}}\n"
-        "  face: {components: [lips], expose: {Mouth: {member: mouth, rate: 5}}}\n"
-    ))
+    found = network(
+        deployed(
+            "components:\n  speech: {component: speech}\n  mouth: {component: mouth, port: 10002}\ngroups:\n"
+            "  lips: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo]}}}\n"
+            "  face: {components: [lips], expose: {Mouth: {member: mouth, rate: 5}}}\n"
+        )
+    )
     assert [(line.source, line.target) for line in found.connections] == [
-        ("speech", "face.gate"), ("lips.gate", "mouth"), ("face.gate", "lips.gate")
+        ("speech", "face.gate"),
+        ("lips.gate", "mouth"),
+        ("face.gate", "lips.gate"),
     ]
     assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
 
 
 def test_who_is_after_a_group_is_after_its_gates() -> None:
-    found = network(deployed(
-        "components:\n  mouth: {component: mouth, after: [other]}\n  other: {program: sleep}\n"
-        "  watch: {program: sleep, after: [face]}\ngroups:\n"
-        "  lips: {components: [mouth], expose: {Mouth: {member: mouth, rate: 5}}}\n"
-        "  face: {components: [lips, other]}\n"
-    ))
+    found = network(
+        deployed(
+            "components:\n  mouth: {component: mouth, after: [other]}\n  other: {program: sleep}\n"
+            "  watch: {program: sleep, after: [face]}\ngroups:\n"
+            "  lips: {components: [mouth], expose: {Mouth: {member: mouth, rate: 5}}}\n"
+            "  face: {components: [lips, other]}\n"
+        )
+    )
     assert set(found.processes["watch"].after) == {"lips.gate", "mouth", "other"}
     assert found.processes["mouth"].after == ("other",)
 
 
 def test_a_member_is_not_after_the_gate_that_needs_it() -> None:
-    found = network(deployed(
-        "components:\n  mouth: {component: mouth, after: [lips]}\n"
-        "groups: {lips: {components: [mouth], expose: {Mouth: {member: mouth, rate: 5}}}}\n"
-    ))
+    found = network(
+        deployed(
+            "components:\n  mouth: {component: mouth, after: [lips]}\n"
+            "groups: {lips: {components: [mouth], expose: {Mouth: {member: mouth, rate: 5}}}}\n"
+        )
+    )
     assert found.order == [("mouth",), ("lips.gate",)]
 
 
@@ -221,40 +253,52 @@ def test_what_one_can_do_without_is_optional() -> None:
 
 
 def test_the_inner_of_two_groups_may_stand_later() -> None:
-    found = network(deployed(
-        "components:\n  speech: {component: speech, connect: {Mouth: face}}\n  mouth: {component: mouth}\ngroups:\n"
-        "  face: {components: [lips], expose: {Mouth: {member: mouth, rate: 5}}}\n"
-        "  lips: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo]}}}\n"
-    ))
+    found = network(
+        deployed(
+            "components:\n  speech: {component: speech, connect: {Mouth: face}}\n  mouth: {component: mouth}\ngroups:\n"
+            "  face: {components: [lips], expose: {Mouth: {member: mouth, rate: 5}}}\n"
+            "  lips: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo]}}}\n"
+        )
+    )
     assert found.order == [("mouth",), ("lips.gate",), ("face.gate",), ("speech",)]
 
 
 def test_of_closed_groups_that_serve_it_the_groups_are_named() -> None:
-    (found,) = faults(deployed(
-        "components:\n  speech: {component: speech}\n  mouth: {component: mouth}\n  other: {component: mouth}\n"
-        "groups:\n  left: {components: [mouth], expose: {Mouth: mouth}}\n"
-        "  right: {components: [other], expose: {Lips: other.Mouth}}\n"
-    ))
+    (found,) = faults(
+        deployed(
+            "components:\n  speech: {component: speech}\n  mouth: {component: mouth}\n  other: {component: mouth}\n"
+            "groups:\n  left: {components: [mouth], expose: {Mouth: mouth}}\n"
+            "  right: {components: [other], expose: {Lips: other.Mouth}}\n"
+        )
+    )
     assert found.message.endswith("several serve it: left.Mouth, right.Lips")
     assert found.hint == "write `connect: {Mouth: left.Mouth}`, or another"
 
 
 def test_an_include_is_connected_inside_first() -> None:
     arm = "deployment: Arm\ncomponents:\n  speech: {component: speech}\n  mouth: {component: mouth}\n"
-    found = network(deployed(
-        "components:\n  speech: {component: speech, connect: {Mouth: left.mouth}}\n"
-        "include: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}\n", **{"arm.ddsl.yaml": arm}
-    ))
+    found = network(
+        deployed(
+            "components:\n  speech: {component: speech, connect: {Mouth: left.mouth}}\n"
+            "include: {left: arm.ddsl.yaml, right: arm.ddsl.yaml}\n",
+            **{"arm.ddsl.yaml": arm},
+        )
+    )
     assert {line.source: line.target for line in found.connections} == {
-        "speech": "left.mouth", "left.speech": "left.mouth", "right.speech": "right.mouth"
+        "speech": "left.mouth",
+        "left.speech": "left.mouth",
+        "right.speech": "right.mouth",
     }
 
 
 def test_what_one_include_lacks_another_may_have() -> None:
-    files = deployed("include: [a.ddsl.yaml, b.ddsl.yaml]\n", **{
-        "a.ddsl.yaml": "deployment: A\ncomponents: {speech: {component: speech}}\n",
-        "b.ddsl.yaml": "deployment: B\ncomponents: {mouth: {component: mouth}}\n",
-    })
+    files = deployed(
+        "include: [a.ddsl.yaml, b.ddsl.yaml]\n",
+        **{
+            "a.ddsl.yaml": "deployment: A\ncomponents: {speech: {component: speech}}\n",
+            "b.ddsl.yaml": "deployment: B\ncomponents: {mouth: {component: mouth}}\n",
+        },
+    )
     assert not faults(files)
 
 
@@ -264,9 +308,11 @@ def test_one_cause_is_reported_once() -> None:
 
 
 def test_a_program_gets_proxies_by_name() -> None:
-    found = network(deployed(
-        "components:\n  mouth: {component: mouth, port: 10002}\n"
-        "  p: {program: sh, config-as: --Ice.Config, connect: {Lips: mouth.Mouth}}\n"
-    ))
+    found = network(
+        deployed(
+            "components:\n  mouth: {component: mouth, port: 10002}\n"
+            "  p: {program: sh, config-as: --Ice.Config, connect: {Lips: mouth.Mouth}}\n"
+        )
+    )
     assert proxies(found) == {"p.Lips": ("mouth", "mouth:tcp -h localhost -p 10002")}
     assert found.processes["p"].after == ("mouth",)

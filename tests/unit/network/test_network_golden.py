@@ -56,8 +56,10 @@ def test_everything_at_once(golden: Callable[[str, Mapping[str, str]], None]) ->
     lines = []
     for process in found.processes.values():
         lines.append(f"{process.name} on {process.host}: {' '.join(process.command)}")
-        lines += [f"  serves {one.module or '-'} {one.interface} as {one.identity or '-'} at {one.text}"
-                  for one in process.endpoints]
+        lines += [
+            f"  serves {one.module or '-'} {one.interface} as {one.identity or '-'} at {one.text}"
+            for one in process.endpoints
+        ]
         lines += [f"  after {name}" for name in process.after]
         lines += [f"  ready when {ping} answers" for ping in process.ready.pings]
         lines.append(f"  restart {process.restart.policy}, ready within {process.ready.within:g} s")

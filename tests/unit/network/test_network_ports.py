@@ -50,10 +50,13 @@ def test_an_endpoint_in_ices_own_spelling() -> None:
     assert found.processes["a"].ready.pings[0] == "mouth:ssl -h localhost -p 10007"
 
 
-@pytest.mark.parametrize(("given", "expected"), [
-    ("port: 10010", [10010, 10011, 10012]),
-    ("ports: {Mouth: 10010, CommonBehavior: 10011}", [10010, 10012, 10014]),
-])
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ("port: 10010", [10010, 10011, 10012]),
+        ("ports: {Mouth: 10010, CommonBehavior: 10011}", [10010, 10012, 10014]),
+    ],
+)
 def test_instances_count_up_by_the_number_of_entries(given: str, expected: list[int]) -> None:
     found = ports(network(deployed(f'components: {{"m{{i}}": {{component: mouth, instances: 3, {given}}}}}\n')))
     assert [found[f"m{number}.Mouth"] for number in range(3)] == expected
@@ -70,26 +73,35 @@ def test_defaults_depend_on_names_alone(monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_a_default_makes_way_for_what_is_given() -> None:
     taken = default_port("a", "Mouth")
-    found = ports(network(deployed(
-        f"components: {{a: {{component: mouth}}, p: {{program: sh, endpoints: {{X: tcp -p {taken}}}}}}}\n"
-    )))
+    found = ports(
+        network(
+            deployed(f"components: {{a: {{component: mouth}}, p: {{program: sh, endpoints: {{X: tcp -p {taken}}}}}}}\n")
+        )
+    )
     assert found["a.Mouth"] == taken + 1
 
 
 def test_hosts_have_ports_of_their_own() -> None:
-    found = network(deployed(TWO_HOSTS + "components:\n  a: {component: mouth, host: head, port: 10001}\n"
-                             "  b: {component: mouth, host: onboard, port: 10001}\n"))
+    found = network(
+        deployed(
+            TWO_HOSTS + "components:\n  a: {component: mouth, host: head, port: 10001}\n"
+            "  b: {component: mouth, host: onboard, port: 10001}\n"
+        )
+    )
     assert texts(found)["a.Mouth"] == texts(found)["b.Mouth"] == "tcp -p 10001"
     assert found.processes["a"].ready.pings[0] == "mouth:tcp -h 10.0.0.3 -p 10001"
     assert found.hosts["head"].user == "robocomp" and found.is_distributed
 
 
-@pytest.mark.parametrize(("hosts", "text", "proxy"), [
-    ("", "tcp -h 127.0.0.1 -p 10001", "tcp -h localhost -p 10001"),
-    ("hosts: {here: 127.0.0.2}\n", "tcp -h 127.0.0.2 -p 10001", "tcp -h 127.0.0.2 -p 10001"),
-    ("hosts: {here: robot.local}\n", "tcp -p 10001", "tcp -h robot.local -p 10001"),
-    ('hosts: {here: "fd00::2"}\n', "tcp -p 10001", 'tcp -h "fd00::2" -p 10001'),
-])
+@pytest.mark.parametrize(
+    ("hosts", "text", "proxy"),
+    [
+        ("", "tcp -h 127.0.0.1 -p 10001", "tcp -h localhost -p 10001"),
+        ("hosts: {here: 127.0.0.2}\n", "tcp -h 127.0.0.2 -p 10001", "tcp -h 127.0.0.2 -p 10001"),
+        ("hosts: {here: robot.local}\n", "tcp -p 10001", "tcp -h robot.local -p 10001"),
+        ('hosts: {here: "fd00::2"}\n', "tcp -p 10001", 'tcp -h "fd00::2" -p 10001'),
+    ],
+)
 def test_where_a_component_listens_and_is_reached(hosts: str, text: str, proxy: str) -> None:
     found = network(deployed(f"{hosts}components: {{a: {{component: mouth, port: 10001}}}}\n"))
     assert texts(found)["a.Mouth"] == text
@@ -103,12 +115,16 @@ def test_a_port_that_is_counted_too_high() -> None:
 
 
 def test_a_port_for_the_events_of_a_topic() -> None:
-    found = network(deployed(
-        "services: {storm: {icestorm: {}}}\ncomponents:\n  ears: {component: ears}\n"
-        '  "mind{i}": {component: mind, instances: 2, ports: {Heard: 10010}}\n',
-        ears="publishes: [Heard]\n", mind="subscribes: [Heard]\n",
-    ))
+    found = network(
+        deployed(
+            "services: {storm: {icestorm: {}}}\ncomponents:\n  ears: {component: ears}\n"
+            '  "mind{i}": {component: mind, instances: 2, ports: {Heard: 10010}}\n',
+            ears="publishes: [Heard]\n",
+            mind="subscribes: [Heard]\n",
+        )
+    )
     assert [texts(found)[f"mind{number}.HeardTopic"] for number in range(2)] == [
-        "tcp -h 127.0.0.1 -p 10010", "tcp -h 127.0.0.1 -p 10011"
+        "tcp -h 127.0.0.1 -p 10010",
+        "tcp -h 127.0.0.1 -p 10011",
     ]
     assert all("heard" not in ping for ping in found.processes["mind0"].ready.pings)

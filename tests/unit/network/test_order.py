@@ -32,14 +32,17 @@ def test_what_one_can_do_without() -> None:
     assert optional(needs(*arrows)) == {"a": {"b"}}
 
 
-@pytest.mark.parametrize(("arrows", "first"), [
-    ([("a", "b", "wait"), ("b", "a", "wait")], "a"),
-    ([("a", "b", "wait"), ("b", "a", "ignore")], "b"),
-    ([("a", "b", "fail"), ("b", "a", "wait")], "b"),
-    ([("a", "b", AFTER), ("b", "a", "wait")], "b"),
-    ([("a", "b", "wait"), ("a", "b", "fail"), ("b", "a", "wait")], "b"),
-    ([("a", "b", "fail"), ("b", "c", "fail"), ("c", "a", "wait")], "c"),
-])
+@pytest.mark.parametrize(
+    ("arrows", "first"),
+    [
+        ([("a", "b", "wait"), ("b", "a", "wait")], "a"),
+        ([("a", "b", "wait"), ("b", "a", "ignore")], "b"),
+        ([("a", "b", "fail"), ("b", "a", "wait")], "b"),
+        ([("a", "b", AFTER), ("b", "a", "wait")], "b"),
+        ([("a", "b", "wait"), ("a", "b", "fail"), ("b", "a", "wait")], "b"),
+        ([("a", "b", "fail"), ("b", "c", "fail"), ("c", "a", "wait")], "c"),
+    ],
+)
 def test_in_a_circle_one_that_can_wait_starts_first(arrows: list[Arrow], first: str) -> None:
     waves, _, (told,) = ordered("abc", needs(*arrows))
     assert first in waves[0] and (told.code, told.severity) == ("RC4401", "warning")

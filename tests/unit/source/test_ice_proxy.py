@@ -61,7 +61,9 @@ def test_nobody_means_bluetooth() -> None:
     assert "ssl" in refused.value.meant and "bts" not in refused.value.meant
 
 
-@pytest.mark.parametrize("text", ["", "tcp", "tcp -p 0", "udp:tcp -p 1", "tcp -p 1:tpc -p 2", "tcp -p 1 -q", ":tcp -p 1"])
+@pytest.mark.parametrize(
+    "text", ["", "tcp", "tcp -p 0", "udp:tcp -p 1", "tcp -p 1:tpc -p 2", "tcp -p 1 -q", ":tcp -p 1"]
+)
 def test_no_fixed_endpoint(text: str) -> None:
     with pytest.raises(Refused):
         fixed_endpoint(text)

@@ -15,9 +15,11 @@ def codes(text: str) -> list[tuple[str, int, int]]:
     return [(d.code, d.span.line, d.span.column) for d in said]
 
 
-BILLION_LAUGHS = "<!DOCTYPE a [" + "".join(
-    f'<!ENTITY l{n} "{f"&l{n - 1};" * 10 if n else "lol"}">' for n in range(10)
-) + "]>\n<a>&l9;</a>"
+BILLION_LAUGHS = (
+    "<!DOCTYPE a ["
+    + "".join(f'<!ENTITY l{n} "{f"&l{n - 1};" * 10 if n else "lol"}">' for n in range(10))
+    + "]>\n<a>&l9;</a>"
+)
 
 
 @pytest.mark.parametrize(("text", "said"), [

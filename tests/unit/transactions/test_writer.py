@@ -22,10 +22,14 @@ def stated(text: str) -> FilePlan:
 
 
 def test_the_first_compile_writes_everything(tmp_path: Path) -> None:
-    changes, said = carry_out(plan(
-        tmp_path, always("generated/main.py", "1\n"), once("src/specific.py", "2\n"),
-        always("bin/Speech", "#!\n", executable=True),
-    ))
+    changes, said = carry_out(
+        plan(
+            tmp_path,
+            always("generated/main.py", "1\n"),
+            once("src/specific.py", "2\n"),
+            always("bin/Speech", "#!\n", executable=True),
+        )
+    )
     assert not said
     assert changes.dirty
     assert files(tmp_path) == {"generated/main.py": "1\n", "src/specific.py": "2\n", "bin/Speech": "#!\n"}
@@ -65,7 +69,9 @@ def test_an_edited_generated_file_is_kept_as_orig(tmp_path: Path) -> None:
         assert codes(said) == ["RC6004"]
         assert [change.orig for change in changes] == [str(tmp_path / "generated" / name)]
     assert files(tmp_path) == {
-        "generated/a": "1\n", "generated/a.orig": "mine 0\n", "generated/a.orig.1": "mine 1\n",
+        "generated/a": "1\n",
+        "generated/a.orig": "mine 0\n",
+        "generated/a.orig.1": "mine 1\n",
         "generated/a.orig.2": "mine 2\n",
     }
 

@@ -36,11 +36,16 @@ def test_a_renamed_document_takes_the_files_over(tmp_path: Path) -> None:
     (tmp_path / OWNER).unlink()
     carry_out(plan(tmp_path, always("generated/a", "1\n"), once("src/c", "1\n"), owner="talk.cdsl.yaml"))
     assert tree(tmp_path) == {
-        "talk.cdsl.yaml": "", "generated": None, "generated/a": "1\n", "src": None, "src/c": "1\n",
+        "talk.cdsl.yaml": "",
+        "generated": None,
+        "generated/a": "1\n",
+        "src": None,
+        "src/c": "1\n",
     }
     held = manifest.read((tmp_path / manifest.PATH).read_bytes()).files
     assert {path: entry.owners for path, entry in held.items()} == {
-        "generated/a": ("talk.cdsl.yaml",), "src/c": ("talk.cdsl.yaml",),
+        "generated/a": ("talk.cdsl.yaml",),
+        "src/c": ("talk.cdsl.yaml",),
     }
 
 
@@ -55,8 +60,10 @@ def test_a_file_goes_with_its_last_owner(tmp_path: Path) -> None:
 
 
 def test_what_was_not_asked_for_stays(tmp_path: Path) -> None:
-    carry_out(plan(tmp_path, always("A.ice", "1\n"), owner="a.idsl.yaml"),
-              plan(tmp_path, always("B.ice", "1\n"), owner="b.idsl.yaml"))
+    carry_out(
+        plan(tmp_path, always("A.ice", "1\n"), owner="a.idsl.yaml"),
+        plan(tmp_path, always("B.ice", "1\n"), owner="b.idsl.yaml"),
+    )
     changes, _ = carry_out(plan(tmp_path, always("A.ice", "2\n"), owner="a.idsl.yaml"))
     assert actions(changes, tmp_path) == {"A.ice": "update"}
     assert (tmp_path / "B.ice").exists()
@@ -104,6 +111,7 @@ def test_an_owner_outside_a_linked_root_is_found(tmp_path: Path) -> None:
 
 def test_roots_in_each_other_share_a_file(tmp_path: Path) -> None:
     """Such as a component in a workspace's own folder: the `slice/` of both is one."""
+
     def compiled(text: str, *, inner: bool = True, outer: bool = True) -> list[str]:
         plans = [plan(tmp_path / "slice", always("A.ice", text), owner="../a.idsl.yaml")] if inner else []
         if outer:

@@ -76,7 +76,9 @@ def test_things_in_the_way(root: Path) -> None:
     (root / "b").write_text("a file\n")
     said = refused(root, always("a", "x"), always("b/c", "x"), once("b/d", "x"), always("n" * 300, "x"))
     assert [(d.code, d.message.partition(": ")[2]) for d in said] == [
-        ("RC6005", "a folder stands there"), ("RC6005", "'b' is no folder"), ("RC6005", "file name too long"),
+        ("RC6005", "a folder stands there"),
+        ("RC6005", "'b' is no folder"),
+        ("RC6005", "file name too long"),
     ], "one for each cause"
 
 
@@ -88,12 +90,20 @@ def test_a_root_that_is_a_file(tmp_path: Path) -> None:
     assert codes(said) == ["RC6005"]
 
 
-@pytest.mark.parametrize(("text", "reason"), [
-    ("", "damaged"), ("{", "damaged"), ("[]", "damaged"), ('{"version": 1}', "damaged"),
-    ('{"version": 1, "files": {"a": {"hash": 1, "owners": []}}}', "damaged"),
-    ('{"version": 1, "files": {"a": {"hash": "1", "owners": [1]}}}', "damaged"),
-    ("[" * 100_000, "damaged"), ('{"version": 2, "files": {}}', "newer"), ("\0\xff", "damaged"),
-])
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("", "damaged"),
+        ("{", "damaged"),
+        ("[]", "damaged"),
+        ('{"version": 1}', "damaged"),
+        ('{"version": 1, "files": {"a": {"hash": 1, "owners": []}}}', "damaged"),
+        ('{"version": 1, "files": {"a": {"hash": "1", "owners": [1]}}}', "damaged"),
+        ("[" * 100_000, "damaged"),
+        ('{"version": 2, "files": {}}', "newer"),
+        ("\0\xff", "damaged"),
+    ],
+)
 def test_a_manifest_that_cannot_be_used(root: Path, text: str, reason: str) -> None:
     (root / ".rcyaml").mkdir()
     (root / manifest.PATH).write_text(text)

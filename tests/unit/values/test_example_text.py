@@ -8,17 +8,20 @@ from robocomp_yaml.model.pattern import parse
 from robocomp_yaml.values.example_text import example_text
 
 
-@pytest.mark.parametrize(("pattern", "text"), [
-    ("/dev/video[0-9]", "/dev/video0"),
-    ("[a-z]+", "text"),
-    (r"\d{1,3}(\.\d{1,3}){3}", "0.0.0.0"),
-    ("(COM|tty)[1-9]|usb", "COM1"),
-    (r"[^\w]x?.{2}\tz*", "-aa\t"),
-    (r"\(\[\]\)\+[\]]", "([])+]"),
-    ("[☃]|", "☃"),
-    ("(|a)b", "b"),
-    ("", ""),
-])
+@pytest.mark.parametrize(
+    ("pattern", "text"),
+    [
+        ("/dev/video[0-9]", "/dev/video0"),
+        ("[a-z]+", "text"),
+        (r"\d{1,3}(\.\d{1,3}){3}", "0.0.0.0"),
+        ("(COM|tty)[1-9]|usb", "COM1"),
+        (r"[^\w]x?.{2}\tz*", "-aa\t"),
+        (r"\(\[\]\)\+[\]]", "([])+]"),
+        ("[☃]|", "☃"),
+        ("(|a)b", "b"),
+        ("", ""),
+    ],
+)
 def test_it_matches(pattern: str, text: str) -> None:
     assert example_text(parse(pattern)) == text
     assert parse(pattern).matches(text)

@@ -53,7 +53,7 @@ def test_so_has_a_deployment(robot: Path, rcyaml: Callable[..., Any]) -> None:
 
 def test_they_are_shown_as_they_stand(robot: Path, rcyaml: Callable[..., Any]) -> None:
     told = rcyaml("config", "show", "speech/etc/config.yaml").output
-    assert "a = {file: keys/a}" in told and "d[0] = {file: \"~/d\"}" in told
+    assert "a = {file: keys/a}" in told and 'd[0] = {file: "~/d"}' in told
     assert rcyaml("config", "set", "speech/etc/config.yaml", "b", "{file: ../x y/b}").exit_code == 0
     assert rcyaml("config", "get", "speech/etc/config.yaml", "b").output == "{file: ../x y/b}\n"
     assert "b: {file: ../x y/b}" in (robot / "speech/etc/config.yaml").read_text()

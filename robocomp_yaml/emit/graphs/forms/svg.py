@@ -174,5 +174,3 @@ def _place(block: Block) -> str:
 def _text(text: str) -> str:
     """A text as XML's; what XML cannot hold is left out."""
     return escape(_IMPOSSIBLE.sub("", text))
-
-

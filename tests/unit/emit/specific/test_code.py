@@ -88,7 +88,8 @@ def test_a_python_class() -> None:
     assert found.text_of(say).endswith("# and that is all\n")
     assert found.text_of(wait) == "        async def Speech_wait(self): ...\n"
     assert [one.line for one in found.imports] == [
-        "from generated.interfaces import RoboCompArm\n", "from generated.interfaces import RoboCompLeg as Leg\n"
+        "from generated.interfaces import RoboCompArm\n",
+        "from generated.interfaces import RoboCompLeg as Leg\n",
     ]
     assert found.import_end == 3 and found.faults == 0
 
@@ -96,7 +97,13 @@ def test_a_python_class() -> None:
 def test_a_cpp_class() -> None:
     found = code("src/specificworker.h", CPP)
     assert [m.name for m in found.members] == [
-        "SpecificWorker", "Speech_say", "Speech_wait", "inlined", "list", "Speech_shout", "done"
+        "SpecificWorker",
+        "Speech_say",
+        "Speech_wait",
+        "inlined",
+        "list",
+        "Speech_shout",
+        "done",
     ]
     _, say, wait, inlined, list_, shout, _ = found.members
     assert found.place and found.place.line == 9 and found.lines[found.body_end] == "};\n"
