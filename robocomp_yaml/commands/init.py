@@ -22,6 +22,7 @@ def command(ctx: click.Context, folder: Path, bare: bool) -> None:
 
     Nothing that is there is overwritten. A folder without documents gets an example of each kind.
     """
+    from robocomp_yaml.api import new as documents
     from robocomp_yaml.commands import new
     from robocomp_yaml.source.discover import documents_below
 
@@ -29,9 +30,9 @@ def command(ctx: click.Context, folder: Path, bare: bool) -> None:
     try:
         _workspace.make(ctx, folder)
         if empty and not bare:
-            new.write(ctx, new.interface_document(folder, EXAMPLE))
+            new.write(ctx, documents.interface_document(folder, EXAMPLE))
             example = {"implements": [EXAMPLE]}
-            new.write(ctx, new.component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example))
+            new.write(ctx, documents.component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example))
     except OSError as error:
         raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:

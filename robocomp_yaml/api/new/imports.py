@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-import click
+from robocomp_yaml.diag.errors import Refused
 
 
 def interface_folder(root: Path) -> Path:
@@ -62,10 +62,10 @@ def _defining(wanted: str, known: dict[str, list[tuple[str, str]]]) -> str:
     if not candidates:
         meant = suggest(name, known)
         hint = f"did you mean '{meant}'?" if meant else "`rcyaml new interface NAME` writes one"
-        raise click.UsageError(f"no document of this workspace defines an interface '{wanted}'; {hint}")
+        raise Refused(f"no document of this workspace defines an interface '{wanted}'; {hint}")
     if len(candidates) > 1:
         named = " or ".join(f"{defining}.{name}" for defining, _ in candidates)
-        raise click.UsageError(f"several documents define an interface '{wanted}': say {named}")
+        raise Refused(f"several documents define an interface '{wanted}': say {named}")
     return candidates[0][1]
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import click
 import msgspec
+
+from robocomp_yaml.diag.errors import Refused
 
 
 class ParametersView(msgspec.Struct, frozen=True):
@@ -51,12 +52,12 @@ def _component(root: Path, name: str) -> Path | None:
                 without += [called, stem]
     if len(found) > 1:
         shown = ", ".join(str(path) for path, _ in found)
-        raise click.UsageError(f"several components are called '{name}': {shown}")
+        raise Refused(f"several components are called '{name}': {shown}")
     if found and found[0][1]:
-        raise click.UsageError(f"{found[0][0]} names its parameters' document already")
+        raise Refused(f"{found[0][0]} names its parameters' document already")
     meant = None if found else suggest(name, filter(None, without))
     if meant:
-        raise click.UsageError(
+        raise Refused(
             f"there is no component '{name}'; did you mean '{meant}'? Else `rcyaml new component {name}` comes first"
         )
     return found[0][0] if found else None

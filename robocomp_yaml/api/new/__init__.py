@@ -1,0 +1,145 @@
+"""A new document of any kind, which already checks and compiles, commented as a tutorial: where it goes, and its text.
+
+An interface goes to the workspace's first folder of interfaces, a component to `components/` and a folder of its own,
+which bears its name in lower case; parameters go beside their component, a deployment to `deployments/`. All of these
+raise Refused for what cannot be.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+
+from robocomp_yaml import languages
+from robocomp_yaml.diag.errors import Refused
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_LONGEST_NAME = 200
+_LISTS = {
+    "implements": ("Speech", "interfaces that it serves to others"),
+    "requires": ("Mouth", "interfaces of others that it calls, each through a proxy"),
+    "publishes": ("SpeechEvents", "topics that it tells others about"),
+    "subscribes": ("Asr", "topics that it listens to"),
+}
+
+
+class InterfaceView(msgspec.Struct, frozen=True):
+    modeline: str
+    module: str
+    name: str
+
+
+class ComponentView(msgspec.Struct, frozen=True):
+    modeline: str
+    name: str
+    rows: list[str]
+
+
+class NewDocument(msgspec.Struct, frozen=True):
+    path: Path
+    text: str
+
+
+def deployment_document(root: Path, name: str) -> NewDocument:
+    from robocomp_yaml.api.new import deployment
+
+    _refuse_odd(name)
+    path, text = deployment.deployment_document(root, name)
+    return NewDocument(_free(path), text)
+
+
+def parameters_document(root: Path, name: str) -> NewDocument:
+    from robocomp_yaml.api.new import parameters
+
+    _refuse_odd(name)
+    path, text = parameters.parameters_document(root, name)
+    return NewDocument(_free(path), text)
+
+
+def interface_document(root: Path, name: str) -> NewDocument:
+    from robocomp_yaml.api.new.imports import interface_folder
+    from robocomp_yaml.emit.render import render
+    from robocomp_yaml.link.workspace_files import modeline
+
+    _refuse_odd(name)
+    path = _free(interface_folder(root) / f"{name}.idsl.yaml")
+    view = InterfaceView(modeline("idsl", path, root), f"RoboComp{name[0].upper()}{name[1:]}", name)
+    document = NewDocument(path, render("new/interface.idsl.yaml.j2", view))
+    _refuse_faulty(document, name)
+    return document
+
+
+def component_document(
+    root: Path, name: str, language: str, uses: Mapping[str, Sequence[str]], include: Sequence[str] = ()
+) -> NewDocument:
+    from robocomp_yaml.api.new.imports import imports_for
+    from robocomp_yaml.emit.render import render
+    from robocomp_yaml.link.workspace_files import modeline
+
+    _refuse_odd(name)
+    path = _free(root / "components" / name.lower() / f"{name.lower()}.cdsl.yaml")
+    for key, names in uses.items():
+        for twice in {n for n in names if list(names).count(n) > 1}:
+            raise Refused(f"--{key} {twice} stands twice")
+    imports = imports_for(root, path, [name for names in uses.values() for name in names], include)
+    view = ComponentView(modeline("cdsl", path, root), name, list(_rows(language, imports, uses)))
+    return NewDocument(path, render("new/component.cdsl.yaml.j2", view))
+
+
+def _refuse_odd(name: str) -> None:
+    if not _NAME.fullmatch(name):
+        raise Refused(
+            f"'{name}' cannot be a name: a name has letters, digits and underscores, and starts with no digit"
+        )
+    if len(name) > _LONGEST_NAME:
+        raise Refused(f"'{name[:20]}…' is longer than a name may be, {_LONGEST_NAME} letters")
+
+
+def _free(path: Path) -> Path:
+    if os.path.lexists(path):
+        raise Refused(f"{path} is there already, and stays as it is")
+    return path
+
+
+def _refuse_faulty(document: NewDocument, name: str) -> None:
+    """Refuses a name that makes a faulty document, such as a reserved word of Slice."""
+    from tempfile import TemporaryDirectory
+
+    from robocomp_yaml.pipeline import analyse
+
+    with TemporaryDirectory() as folder:
+        path = os.path.join(folder, document.path.name)
+        Path(path).write_text(document.text, encoding="utf-8")
+        for diagnostic in analyse([path]).diagnostics:
+            raise Refused(f"'{name}' cannot be an interface: {diagnostic.message}")
+
+
+def _rows(language: str, imports: Sequence[str], uses: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """The lines of a component document below its name; what it does not have stands there as a comment."""
+    yield _commented(f"language: {language}", f"or {_other(language)}")
+    yield ""
+    if imports:
+        yield _commented(f"imports: [{', '.join(imports)}]", "the documents that define what is named below")
+    else:
+        yield _commented("# imports: [Speech]", "the documents that define what is named below")
+    for key, (example, meaning) in _LISTS.items():
+        names = uses.get(key, ())
+        yield _commented(f"{key}: [{', '.join(names)}]" if names else f"# {key}: [{example}]", meaning)
+    yield ""
+    yield _commented("# period: 100 ms", "how often compute() runs")
+
+
+def _other(language: str) -> str:
+    """What may stand there instead."""
+    standards = languages.language(language).standards
+    if len(standards) > 1:
+        return f"{{name: {language}, standard: {standards[1]}}}"
+    return languages.listed(name for name in languages.table() if name != language)
+
+
+def _commented(row: str, comment: str) -> str:
+    return f"{row:<37} # {comment}"
