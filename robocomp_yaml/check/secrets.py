@@ -138,19 +138,19 @@ class _Finder:
         tree = document.tree
         if not isinstance(tree, Mapping):
             return
-        seen: set[int] = set()
+        seen: set[Node] = set()
         for secret in self._of_kind(document, tree):
-            if id(secret.node) not in seen:
-                seen.add(id(secret.node))
+            if secret.node not in seen:
+                seen.add(secret.node)
                 yield secret
         for node in _in_extensions(tree):
-            if id(node) not in seen:
-                seen.add(id(node))
+            if node not in seen:
+                seen.add(node)
                 yield Secret(node, is_sure=False)
         for node in _texts(tree):
-            if id(node) not in seen and secrets.url(node.lexeme) != node.lexeme:
+            if node not in seen and secrets.url(node.lexeme) != node.lexeme:
                 yield Secret(node, _password_of_url(node.lexeme))
-            elif id(node) not in seen and (part := _part_of(node.lexeme)):
+            elif node not in seen and (part := _part_of(node.lexeme)):
                 yield Secret(node, part, is_sure=False)
 
     def _of_kind(self, document: Document, tree: Mapping) -> Iterator[Secret]:

@@ -156,12 +156,13 @@ def _is_long(node: Node) -> bool:
 
 
 def _nodes(root: Node) -> Iterator[Node]:
-    todo, seen = [root], set()
+    todo: list[Node] = [root]
+    seen: set[Node] = set()
     while todo:
         node = todo.pop()
-        if id(node) in seen:
+        if node in seen:
             continue
-        seen.add(id(node))
+        seen.add(node)
         yield node
         if isinstance(node, Mapping):
             todo += [part for pair in node.items() for part in pair]

@@ -105,11 +105,11 @@ def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | 
     definers = index.definers(ref.name, exception)
     if ref.module:
         definers = [m for m in definers if ref.module in (m.name, m.stem)] or definers
-    imported = {id(other.module) for other in linked.imports}
     for module in definers:
-        if id(module) in imported and ref.module:
+        is_imported = any(other.module is module for other in linked.imports)
+        if is_imported and ref.module:
             return meaning(ref.text, f"{module.stem}.{ref.name}")
-        if id(module) in imported:
+        if is_imported:
             return Hint(
                 f"write '{module.stem}.{ref.name}': a name of another module stands behind that module's",
                 ref.text,

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import msgspec
 
 from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import WAIT
 from robocomp_yaml.model.interface import Method
 
@@ -68,7 +68,7 @@ def lower(component: LinkedComponent, spelling: Spelling) -> Ports:
     names = Names(spelling.taken)
     requires = tuple(_required(port, names, spelling) for port in component.requires)
     publishes = tuple(_published(port, names, spelling) for port in component.publishes)
-    known: dict[tuple[int, str, str], Called] = {}
+    known: dict[tuple[LinkedModule, str, str], Called] = {}
     implements = tuple(
         _service(port, "other components call these.", port.interface.methods, names, known)
         for port in component.implements
@@ -113,11 +113,11 @@ def _published(port: Port, names: Names, spelling: Spelling) -> Accessor:
 
 
 def _service(
-    port: Port, about: str, methods: Sequence[Method], names: Names, known: dict[tuple[int, str, str], Called]
+    port: Port, about: str, methods: Sequence[Method], names: Names, known: dict[tuple[LinkedModule, str, str], Called]
 ) -> Service:
     every, new = [], []
     for method in methods:
-        key = (id(port.scope), port.interface.name, method.name)
+        key = (port.scope, port.interface.name, method.name)
         if key not in known:
             known[key] = Called(port, method, names.take(f"{port.interface.name}_{method.name}"))
             new.append(known[key])

@@ -88,7 +88,7 @@ def _span(root: Root, code: Code, method: Method) -> Span:
 def _paste(root: Root, lacking: Sequence[Lacking], yours: Sequence[Code]) -> str:
     """The text to paste, file by file."""
     parts: list[str] = []
-    skeletons = list({id(one.skeleton): one.skeleton for one in lacking}.values())
+    skeletons = list({one.skeleton.path: one.skeleton for one in lacking}.values())
     mine = {line.strip() for code in yours for line in code.lines}
     for skeleton in skeletons:
         known = {one.key for code in yours if code.path == skeleton.path for one in code.imports}

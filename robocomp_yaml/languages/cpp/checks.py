@@ -24,13 +24,13 @@ _GENERATED = frozenset(("GenericWorker", "Parameters", "SpecificWorker", "Worker
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    users: dict[int, list[LinkedComponent]] = defaultdict(list)
+    users: dict[LinkedModule, list[LinkedComponent]] = defaultdict(list)
     for component in program.components.values():
         if component.component.language.target is LANGUAGE:
             for scope in component.modules():
-                users[id(scope)].append(component)
+                users[scope].append(component)
     for linked in program.modules.values():
-        yield from _Module(linked, users[id(linked)], program.disk).check()
+        yield from _Module(linked, users[linked], program.disk).check()
 
 
 def has_taken(module: Module) -> bool:

@@ -25,12 +25,12 @@ INSIDE = {
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    users: dict[int, tuple[LinkedModule, LinkedComponent]] = {}
+    users: dict[LinkedModule, LinkedComponent] = {}
     for component in program.components.values():
         if component.component.language.target is LANGUAGE:
             for scope in component.modules():
-                users.setdefault(id(scope), (scope, component))
-    for scope, user in users.values():
+                users.setdefault(scope, component)
+    for scope, user in users.items():
         for name, other in _impossible(scope):
             yield _told(name, other, user)
 
