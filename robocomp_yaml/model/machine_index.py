@@ -27,18 +27,20 @@ _MANY = 500
 
 
 class MachineIndex(msgspec.Struct):
-    """States are told apart by identity: an id may be missing, or, in a faulty machine, stand twice."""
+    """States are told apart by their numbers: an id may be missing, or, in a faulty machine, stand twice."""
 
     machine: StateMachine
     by_id: dict[str, State] = {}
-    parents: dict[int, State] = {}
+    _numbers: dict[int, int] = {}  # by identity, which the machine's own states keep as long as it is there
+    _parents: dict[int, State] = {}
 
     def __post_init__(self) -> None:
         todo = [self.machine.root]
         while todo:
             state = todo.pop()
+            self._numbers[id(state)] = len(self._numbers)
             for child in state.states:
-                self.parents[id(child)] = state
+                self._parents[id(child)] = state
             todo += reversed(state.states)
         for state in self.machine.states:
             if state.id:
@@ -50,6 +52,14 @@ class MachineIndex(msgspec.Struct):
         yield self.machine.root
         yield from self.machine.states
 
+    def number(self, state: State) -> int:
+        """Which one it is, in the document's order; the root is 0."""
+        return self._numbers[id(state)]
+
+    def parent(self, state: State) -> State | None:
+        """What holds it; None for the root."""
+        return self._parents.get(id(state))
+
     def similar(self, name: str, inside: State | None = None) -> Hint:
         """A hint at a state (in this one) whose name is like this one; looking for it in thousands takes too long."""
         ids = [found for found, state in self.by_id.items() if inside is None or inside in self.ancestors(state)]
@@ -58,10 +68,10 @@ class MachineIndex(msgspec.Struct):
     def ancestors(self, state: State) -> list[State]:
         """From the nearest to the root."""
         found = []
-        parent = self.parents.get(id(state))
+        parent = self.parent(state)
         while parent is not None:
             found.append(parent)
-            parent = self.parents.get(id(parent))
+            parent = self.parent(parent)
         return found
 
     def targets(self, transition: Transition) -> list[State]:

@@ -41,29 +41,30 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
         for target in transition.targets
     ):
         return
-    targets = {id(target) for _, transition in index.transitions() for target in index.targets(transition)}
+    targets = {index.number(target) for _, transition in index.transitions() for target in index.targets(transition)}
     reached: set[int] = set()
     todo = [index.machine.root]
     while todo:
         state = todo.pop()
-        if id(state) in reached:
+        if index.number(state) in reached:
             continue
-        reached.add(id(state))
+        reached.add(index.number(state))
         if state.kind == HISTORY:
-            todo += index.targets(state.initial) if state.initial else index.defaults(index.parents[id(state)])
+            around = index.ancestors(state)[:1]
+            todo += index.targets(state.initial) if state.initial else index.defaults(around[0])
             continue
         around = index.ancestors(state)
         todo += around
         for parent in around:
             if parent.kind == PARALLEL:
                 todo += index.defaults(parent)
-        if id(state) in targets or not any(id(child) in reached for child in state.states):
+        if index.number(state) in targets or not any(index.number(child) in reached for child in state.states):
             todo += index.defaults(state)  # it is not only entered because a state in it is
         for transition in state.transitions:
             todo += index.targets(transition)
     for state in index.machine.states:
-        lost = id(state) not in reached
-        if lost and state.kind != HISTORY and id(index.parents[id(state)]) in reached:
+        lost = index.number(state) not in reached
+        if lost and state.kind != HISTORY and all(index.number(one) in reached for one in index.ancestors(state)[:1]):
             yield codes.UNREACHABLE.at(state.span, id=state.id or "(without a name)")
 
 
@@ -73,13 +74,13 @@ def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
     for start in index.machine.states:
         path: dict[int, State] = {}
         state: State | None = start
-        while state is not None and id(state) not in seen:
-            seen.add(id(state))
-            path[id(state)] = state
+        while state is not None and index.number(state) not in seen:
+            seen.add(index.number(state))
+            path[index.number(state)] = state
             state = _at_once(index, state)
-        if state is not None and id(state) in path:
+        if state is not None and index.number(state) in path:
             members = list(path.values())
-            circle = members[list(path).index(id(state)) :]
+            circle = members[list(path).index(index.number(state)) :]
             place = next(t.span for s in _sources(index, state) for t in s.transitions if not t.events)
             names = " → ".join(member.id or "(without a name)" for member in (*circle, state))
             yield codes.ENDLESS.at(place, circle=names, hint="give one of the transitions an event or a condition")

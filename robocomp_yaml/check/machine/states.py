@@ -88,7 +88,7 @@ def _kind(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
             if found and what != "transitions":  # those of a history are counted in `order`
                 place = found[0].span if what == "states" else found[0][0].span
                 yield codes.INLINE_HISTORY.at(place, what=what)
-        if index.parents[id(state)] is index.machine.root:
+        if index.parent(state) is index.machine.root:
             yield codes.NO_PARENT.at(state.span)
 
 
@@ -96,7 +96,7 @@ def _initial(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
     """The initial state is there and stands inside; a history may also lead to a state beside it."""
     what = _shown(state)
     children = [child for child in state.states if child.kind != HISTORY]
-    home = index.parents[id(state)] if state.kind == HISTORY else state
+    home = (index.parent(state) if state.kind == HISTORY else None) or state
     if state.initial is not None:
         yield from _targets(index, state.initial, home)
         for target in state.initial.targets:
@@ -130,7 +130,7 @@ def _final(index: MachineIndex, state: State) -> Iterator[Diagnostic]:
     found = index.by_id.get(state.final.text)
     if found is None:
         yield _unknown(index, state.final, state)
-    elif index.parents[id(found)] is not state:
+    elif index.parent(found) is not state:
         yield codes.INITIAL_OUTSIDE.at(state.final.span, id=found.id, what=_shown(state))
 
 
