@@ -2,7 +2,8 @@
 
 A fix has to prove itself: what it mends is gone, no document can be read less than before, and in the end there are no
 more errors. What does not is left, with the reason. A document that can be understood further than before may show what
-could not be seen: a safe fix is not blamed for that, and another one stays if this is mended in turn.
+could not be seen: a safe fix is not blamed for that, nor is a guess by which the whole document is understood; another
+guess stays if this is mended in turn.
 
 Nothing here touches the disk; documents are looked at as they would be.
 """
@@ -214,7 +215,8 @@ def _verdict(before: Look, after: Look, batch: list[tuple[Diagnostic, Fix]]) -> 
     is_blind = any(before.levels.get(file) == UNREADABLE for file in files)  # only a first error was seen
     if not reason or not any(steps):
         return _Verdict(reason)
-    return _Verdict(is_doubtful=not (fix.safe or is_blind))
+    is_understood = all(after.levels.get(file, UNDERSTOOD) == UNDERSTOOD for file in files)
+    return _Verdict(is_doubtful=not (fix.safe or is_blind or is_understood))
 
 
 def _is_later(before: Look, after: Look, told: Diagnostic) -> bool:
