@@ -17,12 +17,13 @@ test_NEEDS := $(demo_NEEDS) \
 # More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server, and systemd.
 MORE ?=
 
-.PHONY: help demo test fast unit fuzz lint format macros bench ice clean system-demo system-test
+.PHONY: help demo test test-long fast unit fuzz lint format macros bench ice clean system-demo system-test
 .NOTPARALLEL:
 
 help:
 	@echo "make demo   install into $(VENV), and run the example: migrate, check, compile, deploy, call"
 	@echo "make test   install what the tests need, and run them all"
+	@echo "make test-long  the same with all C++ builds and more random cases: more than half an hour"
 	@echo "make unit   the tests of parts by themselves: some 20 seconds"
 	@echo "make fast   the tests that need neither C++ builds nor an editor"
 	@echo "make fuzz   look for new failing examples, for FUZZ_MINUTES=10 minutes"
@@ -52,6 +53,12 @@ ice: $(VENV)/rcyaml
 
 test: system-test $(VENV)/tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -q
+
+# What seldom breaks and takes long to build, and the random tests with more cases.
+test-long: export RCYAML_ALL_BUILDS := 1
+test-long: export RCYAML_CASES := 4000
+test-long: export RCYAML_CPP_DOCUMENTS := 60
+test-long: test
 
 # The names that C++ takes, as this machine's compiler and headers have them; it only adds.
 macros: $(VENV)/tests
