@@ -185,7 +185,7 @@ CDSL = [
 ]  # fmt: skip
 
 WORKSPACE = [
-    ("|", ["workspace", "doc", "interfaces", "output", "lint"]),
+    ("|", ["workspace", "doc", "interfaces", "output", "plugins", "lint"]),
     ("interfaces: |", ["list of folders"]),
     ("interfaces:\n  - |", ["interfaces/"]),
     ("output: |", ["Slice folder"]),

@@ -145,6 +145,8 @@ WORKSPACE = [
     ("interfaces: [aa|]", "Folder"),
     ("out|put: {slice: a}", "Output"),
     ("output: {sl|ice: a}", "Slice folder"),
+    ("plug|ins: [a]", "Plug-ins"),
+    ("plugins: [aa|]", "Plug-in"),
     ("li|nt: {RC2003: note}", "Lint"),
     ("lint: {RC2|003: note}", "Severity"),
 ]

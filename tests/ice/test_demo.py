@@ -17,7 +17,7 @@ pytestmark = pytest.mark.slow
 
 def demo(folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
     """On a copy, as others may be running the one of the checkout."""
-    for name in ("examples", "tools", "templates"):
+    for name in ("examples", "tools", "robocomp_yaml/languages/python/templates"):
         shutil.copytree(ROOT / name, folder / name)
     return subprocess.run(
         [sys.executable, folder / "examples" / "demo.py"],
