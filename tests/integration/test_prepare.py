@@ -209,12 +209,12 @@ def test_on_a_terminal_one_line_is_renewed(
 
 def test_the_goals_are_those_that_help_names() -> None:
     help_ = subprocess.run(["make", "-C", ROOT, "--no-print-directory", "help"], capture_output=True, text=True).stdout
-    named = set(re.findall(r"^make (\w+) ", help_, re.MULTILINE))
+    named = set(re.findall(r"^make ([\w-]+) ", help_, re.MULTILINE))
     text = (ROOT / "Makefile").read_text(encoding="utf-8")
     (phony,) = re.findall(r"^\.PHONY: (.*)", text, re.MULTILINE)
     assert named == {goal for goal in phony.split() if not goal.startswith("system")} - {"help"}
     pages = (ROOT / name for name in ("README.md", "CONTRIBUTING.md", "examples/demo.py", "tools/prepare.py"))
-    command = re.compile(r"^ *(?:\w+=\S+ )*make ((?:[a-z]+ ?)+)(?:$| *#)", re.MULTILINE)
+    command = re.compile(r"^ *(?:\w+=\S+ )*make ((?:[a-z-]+ ?)+)(?:$| *#)", re.MULTILINE)
     goals = {goal for page in pages for goal in command.findall(page.read_text(encoding="utf-8"))}
     assert {word for goal in goals for word in goal.split()} <= named
 
