@@ -26,6 +26,7 @@ from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.regular import whole
 from robocomp_yaml.source.tree import Mapping as Tree
 from robocomp_yaml.source.tree import Node, Scalar, parse
 from robocomp_yaml.source.tree import Sequence as List
@@ -62,8 +63,11 @@ class Change(msgspec.Struct, frozen=True):
         return unified("".join(hidden_lines(old)), "".join(hidden_lines(new)), f"a/{self.file}", f"b/{self.file}")
 
     def apply(self) -> None:
-        """Writes the document, whole or not at all. Raises Refused where it cannot be written."""
+        """Writes the document, whole or not at all. Raises Refused where it cannot be written, or is another one than
+        it was."""
         try:
+            if whole(self.file)[0] != self.before:
+                raise Refused(f"{self.file} was changed meanwhile, and stays as it is: try again")
             whole_file.replace(self.file, self.after)
         except OSError as error:
             raise Refused(f"{self.file} cannot be written: {(error.strerror or str(error)).lower()}") from None
@@ -102,9 +106,12 @@ class Values:
     def _parameters(self) -> LinkedParameters:
         """Raises Faulty where it cannot be known whose values these are."""
         if self._linked is None or self._linked.parameters is None:
-            raise Faulty(self.diagnostics or [codes.NO_COMPONENT.at(Span(self.file)).as_severity("error")],
-                         self.documents_read)  # fmt: skip
+            raise self._unknown(self.diagnostics)
         return self._linked.parameters
+
+    def _unknown(self, told: Sequence[Diagnostic] = ()) -> Faulty:
+        """What is wrong, at the least that it is not known whose values these are."""
+        return Faulty(told or [codes.NO_COMPONENT.at(Span(self.file)).as_severity("error")], self.documents_read)
 
     @property
     def _effective(self) -> Effective:
@@ -112,7 +119,7 @@ class Values:
         if has_errors(self.diagnostics):
             raise Faulty(self.diagnostics, self.documents_read)
         if self._linked is None or self._linked.parameters is None:
-            raise Faulty([codes.NO_COMPONENT.at(Span(self.file)).as_severity("error")], self.documents_read)
+            raise self._unknown()
         values, found = effective(self._linked)
         if values is None:  # what is wrong is no error in this workspace, and leaves nothing to show all the same
             problem = "the values cannot be completed: `rcyaml check` says what is wrong with their parameters"
@@ -163,16 +170,15 @@ class Values:
         errors than before."""
         parameters = self._parameters
         if parameters.broken or self._linked is None:
-            raise Faulty(self.diagnostics or [codes.NO_COMPONENT.at(Span(self.file)).as_severity("error")],
-                         self.documents_read)  # fmt: skip
+            raise self._unknown(self.diagnostics)
         of = parameters.parameters.root
         named, type_ = _steps(path, of)
         steps = show.typed(of, named)
         is_text = isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
         is_text = is_text and not _REFERENCE.fullmatch(value)
-        raw = self._analysis.disk.read(self.file)[0]
-        text = source_text.decode(self.file, raw)[0] if raw is not None else None
-        assert raw is not None and text is not None  # it was read before
+        raw = self._analysis.disk.contents[self._linked.document.path]  # what the places are in
+        text = source_text.decode(self.file, raw)[0]
+        assert text is not None  # it was read before
         root = self._linked.document.root
         self._refuse_bad(type_, steps, value, _place_of(root, ["parameters", *steps]), is_text=is_text)
         try:

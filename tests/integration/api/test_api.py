@@ -124,6 +124,17 @@ def test_values(place: Path) -> None:
     assert "volume=9" in api.load().values("speech").export()
 
 
+def test_a_document_that_was_changed_meanwhile_stays(place: Path) -> None:
+    """Places are those of the text that was read, whatever stands there by now."""
+    values = api.load().values("speech")
+    write_tree(place, {"speech/etc/config.yaml": "# mine\ncomponent: ../speech.cdsl.yaml\nparameters: {volume: 4}\n"})
+    change = values.set("volume", "9")
+    assert change.after == b"component: ../speech.cdsl.yaml\nparameters: {volume: 9}\n"
+    with pytest.raises(api.Refused, match="changed meanwhile"):
+        change.apply()
+    assert (place / "speech/etc/config.yaml").read_text().startswith("# mine\n")
+
+
 def test_migrating_is_a_plan_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     write_tree(tmp_path, {"old/Mouth.idsl": "module RoboCompMouth { interface Mouth { void close(); }; };\n"})
