@@ -77,16 +77,17 @@ class Compilation:
     def look(self, *, with_diff: bool = False) -> Outcome:
         """What `apply` would do now; each file with its unified diff where that is asked for."""
         own = review(self._built.plans, merge=self._merge)
-        changes = self._prepare(own)
+        changes = self._prepare(own, self._other_roots())
         told = in_order([*self._lasting(own), *changes.diagnostics])
         return replace(_outcome_of(self._analysis, self._built, changes, told, with_diff=with_diff), planned=True)
 
     def apply(self) -> Outcome:
         """Writes all or nothing, and says what was done. Where something cannot be written, the diagnostics say so,
         and the files that it concerns are `refused`."""
-        recovered = writer.recover(self._built.plans, self._other_roots())
+        others = self._other_roots()
+        recovered = writer.recover(self._built.plans, others)
         own = review(self._built.plans, merge=self._merge)
-        changes = writer.commit(self._prepare(own))
+        changes = writer.commit(self._prepare(own, others))
         schemas = self._refresh_schemas()
         lasting = self._lasting(own)
         told = [*lasting, *recovered, *changes.diagnostics]
@@ -97,8 +98,8 @@ class Compilation:
                 made_already.keep(taken, self._paths, self._include, self._output, self._targets)
         return outcome
 
-    def _prepare(self, own: Review) -> Changes:
-        return writer.prepare(self._built.plans, adopt=self._adopt, others=self._other_roots(), merges=own.merges)
+    def _prepare(self, own: Review, others: Sequence[str]) -> Changes:
+        return writer.prepare(self._built.plans, adopt=self._adopt, others=others, merges=own.merges)
 
     def _lasting(self, own: Review) -> list[Diagnostic]:
         """What the same run made again would say again."""

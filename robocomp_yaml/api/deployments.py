@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.errors import Refused
-from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.discover import of_kind
 
 if TYPE_CHECKING:
     from robocomp_yaml.pipeline import Analysis
@@ -35,7 +35,7 @@ def one_of(found: list[str]) -> str:
 def deployments_of(folder: str, include: tuple[str, ...] = (), analysis: Analysis | None = None) -> list[str]:
     """The deployments of a folder, else those below it; those that others include are parts of these. `analysis` is of
     the folder, where there is one."""
-    all_of_them, here = below(folder), os.path.normpath(folder)
+    all_of_them, here = of_kind(folder, "ddsl"), os.path.normpath(folder)
     found = [path for path in all_of_them if (os.path.dirname(path) or ".") == here] or all_of_them
     if len(found) < 2:
         return found
@@ -45,8 +45,3 @@ def deployments_of(folder: str, include: tuple[str, ...] = (), analysis: Analysi
         analysis = analyse(found, include)
     parts = {real for real, linked in analysis.program.deployments.items() if linked.is_included}
     return [path for path in found if os.path.realpath(path) not in parts] or found
-
-
-def below(folder: str) -> list[str]:
-    """All deployments below a folder."""
-    return [os.path.normpath(path) for path in documents_below(folder) if kind_of(path) == "ddsl"]

@@ -9,7 +9,7 @@ from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.pipeline import Analysis
-from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.discover import of_kind
 
 
 def ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
@@ -34,7 +34,6 @@ def _neighbours(workspace: Workspace, analysis: Analysis) -> Program:
     """All components of a workspace, whether this run is about them or not."""
     if not workspace.declared:
         return Program()
-    disk = analysis.disk
-    paths = [path for path in documents_below(workspace.root, disk=disk) if kind_of(path, disk) == "cdsl"]
+    paths = of_kind(workspace.root, "cdsl", analysis.disk)
     around = Linker(analysis.linker.documents, analysis.linker.search)
     return around.link(paths)  # what is wrong with neighbours is for their own `check`

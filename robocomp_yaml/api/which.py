@@ -9,7 +9,7 @@ from collections.abc import Callable
 from robocomp_yaml.diag.errors import Refused
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.component_references import References, stem
-from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import component_in
 
@@ -45,7 +45,7 @@ def values(said: str) -> str:
 def _of_folder(folder: str) -> str:
     """The component of a folder: the only one in it, else the only one below it."""
     beside = References(Disk()).beside
-    nearest = (beside(folder, "cdsl"), beside(folder, "pdsl"), _below(folder, "cdsl"), _below(folder, "pdsl"))
+    nearest = (beside(folder, "cdsl"), beside(folder, "pdsl"), of_kind(folder, "cdsl"), of_kind(folder, "pdsl"))
     for found in nearest:
         if len(found) == 1:
             return found[0]
@@ -56,17 +56,14 @@ def _of_folder(folder: str) -> str:
                            "`rcyaml new component NAME` writes one")  # fmt: skip
 
 
-def _below(folder: str, kind: str) -> list[str]:
-    return [path for path in documents_below(folder or ".") if kind_of(path) == kind]
-
-
 def _named(name: str) -> str:
     """The component that is called so in this workspace; its document or its folder may be, and in another case."""
     from robocomp_yaml.link.workspace import root_above
 
     root = root_above("") or "."
     names = {
-        path: (component_in(path), stem(path), os.path.basename(os.path.dirname(path))) for path in _below(root, "cdsl")
+        path: (component_in(path), stem(path), os.path.basename(os.path.dirname(path)))
+        for path in of_kind(root, "cdsl")
     }
     same: list[Callable[[str], bool]] = [lambda other: other == name, lambda other: other.lower() == name.lower()]
     for is_same in same:

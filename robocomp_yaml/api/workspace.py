@@ -82,13 +82,12 @@ class Workspace:
             if path
             else {real for real, linked in program.deployments.items() if not linked.is_included}
         )
-        found = [network for real, network in self.analysis.networks.items() if real in wanted]
-        if len(found) == 1:
-            return found[0]
-        if found:
-            names = ", ".join(sorted(self.analysis.linker.documents.read[real].path for real in wanted))
-            raise Refused(f"there are several deployments, of which one is to be named: {names}")
         read = self.analysis.linker.documents.read
+        found = {read[real].path: network for real, network in self.analysis.networks.items() if real in wanted}
+        if found:
+            from robocomp_yaml.api.deployments import one_of
+
+            return found[one_of(list(found))]
         if any(document.kind == "ddsl" and (not path or real in wanted) for real, document in read.items()):
             raise Faulty(self.analysis.diagnostics, self.documents_read)
         raise Refused(f"there is no deployment at '{path}'" if path else "there is no deployment")

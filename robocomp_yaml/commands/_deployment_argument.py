@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from robocomp_yaml.api.deployments import below
+from robocomp_yaml.source.discover import of_kind
 
 
 class DocumentAnd(click.Argument):
@@ -31,11 +31,11 @@ class DocumentAnd(click.Argument):
             return ".", ()
         first, *rest = words
         is_folder = os.path.isdir(first)
-        if is_folder and (below(first) or not below(".")):
+        if is_folder and (of_kind(first, "ddsl") or not of_kind(".", "ddsl")):
             return first, tuple(rest)
         if not is_folder and os.path.exists(first):
             return first, tuple(rest)
         is_path = "/" in first or first.endswith((".yaml", ".yml"))
-        if self._most == 0 or is_path or not below("."):
+        if self._most == 0 or is_path or not of_kind(".", "ddsl"):
             raise click.BadParameter(f"Path '{first}' does not exist.", ctx, self, "'[DDSL]'")
         return ".", words

@@ -20,7 +20,7 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Linked
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
-from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
 
 SUFFIX = ".pdsl.yaml"
@@ -160,8 +160,7 @@ class Attachments(msgspec.Struct):
         """The documents whose component is called so, or whose file is: below a folder, and in this run."""
         if root not in self._names:
             known = self._names[root] = {}
-            disk = self._disk
-            below = [path for path in documents_below(root or ".", disk=disk) if kind_of(path, disk) == "cdsl"]
+            below = of_kind(root, "cdsl", self._disk)
             read = [document.path for document in self.documents.read.values() if document.kind == "cdsl"]
             documents = {document.real: document for document in map(self.documents.glance, (*below, *read))}
             for document in documents.values():

@@ -93,6 +93,12 @@ def discover(paths: list[str] | tuple[str, ...], disk: Disk | None = None) -> Fo
     return Found(tuple(documents), tuple(folders), tuple(roots), tuple(said))
 
 
+def of_kind(folder: str, kind: str, disk: Disk | None = None) -> list[str]:
+    """The documents of a kind below a folder, in the order of `documents_below`; '' is the working folder."""
+    disk = disk or Disk()
+    return [path for path in documents_below(folder or ".", disk=disk) if kind_of(path, disk) == kind]
+
+
 def documents_below(
     folder: str,
     roots: list[str] | None = None,

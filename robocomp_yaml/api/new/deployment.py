@@ -44,10 +44,9 @@ def _components(root: Path) -> list[LinkedComponent]:
     from robocomp_yaml.link.linker import Linker
     from robocomp_yaml.link.workspace import Search
     from robocomp_yaml.pipeline import search_folders
-    from robocomp_yaml.source.discover import documents_below, kind_of
+    from robocomp_yaml.source.discover import of_kind
 
-    paths = [path for path in documents_below(str(root)) if kind_of(path) == "cdsl"]
-    program = Linker(Documents(), Search(search_folders(()))).link(paths)
+    program = Linker(Documents(), Search(search_folders(()))).link(of_kind(str(root), "cdsl"))
     sound = (linked for linked in program.components.values() if not linked.broken)
     return sorted(sound, key=lambda linked: linked.component.path)
 

@@ -35,21 +35,20 @@ def _component(root: Path, name: str) -> Path | None:
     from robocomp_yaml.diag.suggest import suggest
     from robocomp_yaml.link.documents import Documents
     from robocomp_yaml.model.component import Component
-    from robocomp_yaml.source.discover import documents_below, kind_of
+    from robocomp_yaml.source.discover import of_kind
 
     documents = Documents()
     found: list[tuple[Path, bool]] = []
     without: list[str] = []
-    for path in documents_below(str(root)):
-        if kind_of(path) == "cdsl":
-            model = documents.get(path).model
-            called = model.name if isinstance(model, Component) else ""
-            stem = Path(path).name.removesuffix(".cdsl.yaml")
-            names_parameters = isinstance(model, Component) and bool(model.parameters)
-            if name.lower() in (called.lower(), stem.lower()):
-                found.append((Path(path), names_parameters))
-            elif not names_parameters and not list(Path(path).parent.glob("*.pdsl.yaml")):
-                without += [called, stem]
+    for path in of_kind(str(root), "cdsl"):
+        model = documents.get(path).model
+        called = model.name if isinstance(model, Component) else ""
+        stem = Path(path).name.removesuffix(".cdsl.yaml")
+        names_parameters = isinstance(model, Component) and bool(model.parameters)
+        if name.lower() in (called.lower(), stem.lower()):
+            found.append((Path(path), names_parameters))
+        elif not names_parameters and not list(Path(path).parent.glob("*.pdsl.yaml")):
+            without += [called, stem]
     if len(found) > 1:
         shown = ", ".join(str(path) for path, _ in found)
         raise Refused(f"several components are called '{name}': {shown}")

@@ -12,7 +12,7 @@ from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.document import List, Map, Name, Value
 from robocomp_yaml.legacy.draft import ComponentDraft
 from robocomp_yaml.legacy.networks.command import Command
-from robocomp_yaml.source.discover import documents_below, kind_of
+from robocomp_yaml.source.discover import of_kind
 from robocomp_yaml.source.text import decode, read_bytes
 from robocomp_yaml.source.tree import parse
 
@@ -39,8 +39,8 @@ def of_folder(folder: str, but: Iterable[str]) -> list[Known]:
     """Those that stand below a folder, but for these paths."""
     skipped = {os.path.normpath(path) for path in but}
     found = []
-    for path in documents_below(folder):
-        if kind_of(path) == "cdsl" and os.path.normpath(path) not in skipped:
+    for path in of_kind(folder, "cdsl"):
+        if path not in skipped:
             raw, _ = read_bytes(path)
             text = decode(path, raw)[0] if raw is not None else None
             tree, _ = parse(path, text) if text is not None else (None, [])
