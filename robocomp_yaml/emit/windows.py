@@ -23,6 +23,10 @@ def files(
         plans += copied(name, "qt", of_windows if component.compatibility else _NONE)
     if component.compatibility:
         plans += copied(name, "robocomp", _NONE if linked.machine else of_machines)
-    if component.gui:
-        plans.append(FilePlan(form.PATH, form.text(component.gui.base, component.name), ONCE))
-    return plans
+    return [*plans, *form_of(linked)]
+
+
+def form_of(linked: LinkedComponent) -> list[FilePlan]:
+    """The form of the component's window, if it has one."""
+    gui = linked.component.gui
+    return [FilePlan(form.PATH, form.text(gui.base, linked.component.name), ONCE)] if gui else []

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import msgspec
 
-from robocomp_yaml.emit.copied import copied
 from robocomp_yaml.emit.machines import lower
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.cpp import machine_text
@@ -63,14 +62,13 @@ def _comment(state: State) -> str:
 
 
 def files(machine: StateMachine) -> list[FilePlan]:
-    """The interpreter, and the tables of the component's machine."""
+    """The tables of the component's machine."""
     shown = TablesView(
         source=one_line(machine.path.rpartition("/")[2]),
         events=_events(machine),
         functions=machine_text.functions(lower.lower(machine), "makeTables"),
     )
     return [
-        *copied("cpp", "machine"),
         FilePlan("generated/statemachine.h", render("cpp/statemachine.h.j2", shown)),
         FilePlan("generated/statemachine.cpp", render("cpp/statemachine.cpp.j2", shown)),
     ]
