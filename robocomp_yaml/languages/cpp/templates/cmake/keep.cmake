@@ -31,7 +31,7 @@ endfunction()
 
 if(PART STREQUAL headers)
   file(MAKE_DIRECTORY "${KEPT}/headers")
-  file(WRITE "${work}/rcyaml.h" "#include \"${ROOT}/runtime/all.h\"\n")
+  file(WRITE "${work}/rcyaml.h" "#include <runtime/all.h>\n")
   run(${compile} -Wall -Wextra -Woverloaded-virtual "-isystem${KEPT}/include" -x c++-header rcyaml.h -o rcyaml.h.gch)
   file(RENAME "${work}/rcyaml.h" "${KEPT}/headers/rcyaml.h")
 else()
