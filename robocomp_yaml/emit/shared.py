@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Set
 
 from robocomp_yaml.emit import runtime
-from robocomp_yaml.emit.layout import ALONE, Layout, layout
+from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, layout
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.link.workspace import Workspace
@@ -30,8 +30,10 @@ class Shared:
         if options.output is not None or options.standalone:
             return ALONE
         workspace = options.workspace_of(linked.component.path)
-        is_within = all(self._is_of(workspace, scope) for scope in linked.modules())
-        return layout(linked, workspace, root, workspace.slice_folder if is_within else "")
+        if not all(self._is_of(workspace, scope) for scope in linked.modules()):
+            return layout(linked, workspace, root, "", "")
+        texts = {file.path: file.text for file in self._slices(linked.modules())}
+        return layout(linked, workspace, root, workspace.slice_folder, fingerprint(texts))
 
     def _is_of(self, workspace: Workspace, scope: LinkedModule) -> bool:
         other = self._options.workspace_of(scope.module.path)

@@ -39,6 +39,8 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     `runtime` are the folders of its templates that are its run time: the same for all of its components, copied as they
     stand, and shared by those of a workspace. Where it has some, `plan` is told where they are.
 
+    `states` is the generated file that says which Slice the component was made for, where it may share that.
+
     `program` is what is started, relative to the component's folder, with {name} for the component's. `build` are the
     commands that make it, with {folder} for that folder; none where `compile` writes it. `loaded` are the files that
     the program reads when it starts: folders, and how the names of the files there end. `suffixes` are those of code,
@@ -57,6 +59,7 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     taken: frozenset[str] = frozenset()
     members: frozenset[str] = frozenset()
     runtime: tuple[str, ...] = ()
+    states: str = ""
     program: str = "bin/{name}"
     build: tuple[tuple[str, ...], ...] = ()
     loaded: Mapping[str, tuple[str, ...]] = MappingProxyType({})

@@ -26,6 +26,7 @@ LANGUAGE = TargetLanguage(
     keywords=KEYWORDS,
     taken=EVER,
     members=frozenset(("change", "listen", "now", "set", "stderr", "stdin", "stdout")),
+    states="generated/component.cmake",
     runtime=("cmake", "machine", "qt", "robocomp", "runtime"),
     build=(("cmake", "-S", "{folder}", "-B", "{folder}/build"), ("cmake", "--build", "{folder}/build")),
     suffixes=("h", "hpp", "cpp"),

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.emit import runtime, windows
-from robocomp_yaml.emit.layout import Layout
+from robocomp_yaml.emit.layout import Layout, stated
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, lower
 from robocomp_yaml.emit.lowering.kinds import pattern_count
 from robocomp_yaml.emit.render import render
@@ -55,6 +55,7 @@ class View(msgspec.Struct, frozen=True):
     runtime: str
     version: str
     slice: str
+    made_for: str
     slices: list[str]
     parts: str
     sources: list[str]
@@ -158,6 +159,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         runtime=layout.runtime,
         version=runtime.version("cpp"),
         slice=layout.slice,
+        made_for=stated(layout.made_for) if layout.made_for else "",
         slices=_slices(linked),
         parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics)),
         sources=["genericworker.cpp", "parameters.cpp", *(["statemachine.cpp"] if linked.machine else [])],

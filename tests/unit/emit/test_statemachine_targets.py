@@ -57,7 +57,11 @@ def test_a_component_without_a_machine_has_nothing_of_it(language: str, tmp_path
     with_machine, without = planned(tmp_path / "a", DOOR, language), planned(tmp_path / "b", PLAIN, language)
     more = {path for path in with_machine if path not in without}
     assert more == {path for path in with_machine if "/machine/" in path or "/statemachine." in path}
-    assert not any("machine" in file.text for path, file in without.items() if not path.startswith(("generated/runtime/", "generated/cmake/")))
+    assert not any(
+        "machine" in file.text
+        for path, file in without.items()
+        if not path.startswith(("generated/runtime/", "generated/cmake/"))
+    )
 
 
 def test_the_part_that_evaluates_is_there_only_where_it_is_asked_for(tmp_path: Path) -> None:
