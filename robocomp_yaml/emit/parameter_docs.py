@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator
 
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import EnumType, ListType, MapType, Member, RecordType, Type, is_secret
-from robocomp_yaml.values.hidden import hidden
-from robocomp_yaml.values.json_schema import in_words, shortened
-from robocomp_yaml.values.prose import prose
+from robocomp_yaml.parameters.hidden import hidden
+from robocomp_yaml.parameters.json_schema import in_words, shortened
+from robocomp_yaml.parameters.prose import prose
+from robocomp_yaml.parameters.types import EnumType, ListType, MapType, Member, RecordType, Type, is_secret
 
 
 def parameter_docs(linked: LinkedComponent) -> str:

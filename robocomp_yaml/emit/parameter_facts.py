@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from robocomp_yaml.model.parameters import (
+from robocomp_yaml.parameters.hidden import hidden
+from robocomp_yaml.parameters.json_schema import shortened
+from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
@@ -13,8 +15,6 @@ from robocomp_yaml.model.parameters import (
     is_secret,
     unit_of,
 )
-from robocomp_yaml.values.hidden import hidden
-from robocomp_yaml.values.json_schema import shortened
 
 
 def facts(member: Member) -> str:

@@ -8,9 +8,9 @@ from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 
 from parameters import Data, documents, linked, mutated, values
-from robocomp_yaml.values.defaults import with_defaults
-from robocomp_yaml.values.effective import effective
-from robocomp_yaml.values.normalize import cerberus_verdict, normalized
+from robocomp_yaml.parameters.defaults import with_defaults
+from robocomp_yaml.parameters.layers.effective import effective
+from robocomp_yaml.parameters.layers.normalize import cerberus_verdict, normalized
 from verdicts import CASES, verdicts
 
 RELAXED = settings(

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.link.limits import inside
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.expression import NotInLanguage
-from robocomp_yaml.model.expression_types import check_constraint
+from robocomp_yaml.parameters.expressions.expression import NotInLanguage
+from robocomp_yaml.parameters.expressions.types import check_constraint
+from robocomp_yaml.parameters.resolution.limits import inside
 from robocomp_yaml.source.tree import Scalar
 
 

@@ -11,14 +11,14 @@ from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.expression_types import is_sound
 from robocomp_yaml.model.names import is_identifier
-from robocomp_yaml.model.parameters import Member, Parameters, RecordType
+from robocomp_yaml.parameters.defaults import defaults
+from robocomp_yaml.parameters.expressions import evaluate
+from robocomp_yaml.parameters.expressions.types import is_sound
+from robocomp_yaml.parameters.spelling.references import is_reference
+from robocomp_yaml.parameters.types import Member, Parameters, RecordType
+from robocomp_yaml.parameters.verdict.judge import Path, judge
 from robocomp_yaml.source.tree import Mapping, Node, Sequence
-from robocomp_yaml.values import evaluate
-from robocomp_yaml.values.defaults import defaults
-from robocomp_yaml.values.judge import Path, judge
-from robocomp_yaml.values.references import is_reference
 
 Languages = tuple[TargetLanguage, ...]
 

@@ -8,8 +8,8 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import LinkedParameters, Program
-from robocomp_yaml.model.parameters import RecordType, Type
-from robocomp_yaml.values.spelling import fault
+from robocomp_yaml.parameters.spelling.templates import fault
+from robocomp_yaml.parameters.types import RecordType, Type
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

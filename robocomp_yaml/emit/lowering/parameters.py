@@ -8,7 +8,7 @@ import msgspec
 
 from robocomp_yaml.emit.lowering.names import Names
 from robocomp_yaml.emit.parameter_facts import facts, inside, records
-from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Type
 
 ROOT = "."
 """The path of the record that holds all parameters."""

@@ -25,7 +25,7 @@ from robocomp_yaml.languages.cpp.literals import text as quoted
 from robocomp_yaml.languages.cpp.names import names
 from robocomp_yaml.languages.cpp.text import IN, comment, folded, one_line
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import (
+from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     Member,

@@ -23,7 +23,7 @@ from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import METHODS, TYPES
 from robocomp_yaml.languages.java.text import IN, comment, listed, literal, one_line, value
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import (
+from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
