@@ -14,8 +14,7 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.parameters.examples.example import example, example_of
-from robocomp_yaml.parameters.hidden import hidden, holds_secret
-from robocomp_yaml.parameters.prose import prose
+from robocomp_yaml.parameters.hidden import holds_secret
 from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import (
     LIMITS,
@@ -29,10 +28,8 @@ from robocomp_yaml.parameters.types import (
     ScalarType,
     Size,
     Type,
-    is_secret,
-    kind_in_words,
-    unit_of,
 )
+from robocomp_yaml.parameters.words import for_editors, in_words, label, prose
 from robocomp_yaml.source.schema import new_schema
 
 Schema = dict[str, Any]
@@ -117,15 +114,6 @@ def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Itera
 _PORTS = {"endpoints": "endpoint", "proxies": "proxy"}
 
 
-class _Facts(msgspec.Struct, frozen=True):
-    """What is told of a member: `description` is its `doc` and the facts as `text`."""
-
-    title: str
-    description: str
-    doc: str
-    text: str
-
-
 class _Maker(msgspec.Struct):
     """Makes schemas in one mode; structs go to `definitions`."""
 
@@ -175,7 +163,7 @@ class _Maker(msgspec.Struct):
             words = in_words(type_)
             made["else"]["errorMessage"] = f"this is {words}"
             if not (isinstance(type_, RecordType) and type_.is_group):
-                snippet = {"label": _label(type_), "description": words, "body": flow(example_of(type_))}
+                snippet = {"label": label(type_), "description": words, "body": flow(example_of(type_))}
                 made["anyOf"] = [{"type": "string", "defaultSnippets": [snippet]}, {}]
         return made
 
@@ -245,24 +233,16 @@ class _Maker(msgspec.Struct):
 
     def about(self, member: Member) -> Schema:
         """Title, description, default; an editor also shows Markdown and examples."""
-        facts = _facts(member, in_words(member.type))
-        made: Schema = {"title": facts.title, "description": facts.description}
+        unit, doc, facts = member.unit, member.documentation, for_editors(member)
+        made: Schema = {"title": f"{member.name} ({unit})" if unit else member.name}
+        made["description"] = "\n".join(part for part in (doc, facts) if part)
         can_be_shown = (not self.for_editors or _is_simple(example(member))) and not holds_secret(member.type)
         if member.default is not None and can_be_shown:
             made["default"] = member.default.data
         if self.for_editors:
-            made["markdownDescription"] = "\n\n".join(part for part in (prose(facts.doc), prose(facts.text)) if part)
+            made["markdownDescription"] = "\n\n".join(part for part in (prose(doc), prose(facts)) if part)
             made |= {"examples": [example(member)]} if can_be_shown else {}
         return made
-
-
-def _label(type_: Type) -> str:
-    if isinstance(type_, RecordType):
-        return type_.name
-    assert isinstance(type_, ListType | MapType)
-    element = type_.element
-    inner = _label(element) if isinstance(element, RecordType | ListType | MapType) else element.name
-    return f"{'list' if isinstance(type_, ListType) else 'map'} of {inner}"
 
 
 def _json_type(type_: ScalarType) -> str:
@@ -275,56 +255,8 @@ def _types(name: str, nullable: bool) -> str | list[str]:
     return [name, "null"] if nullable else name
 
 
-def in_words(type_: Type) -> str:
-    """A type with its limits and unit: `a number from 0 to 2 (rad/s)`."""
-    if isinstance(type_, RecordType):
-        return type_.name or "a mapping of parameters to values"
-    if isinstance(type_, ListType | MapType):
-        kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
-        size = f" of {type_.size.in_words} entries" if not type_.size.is_any else ""
-        unique = ", all different" if isinstance(type_, ListType) and type_.unique else ""
-        return f"a {kind}{size}{unique}, each {one} {in_words(type_.element)}"
-    words = kind_in_words(type_)
-    if isinstance(type_, BasicType):
-        if type_.values:
-            words = f"one of {', '.join(literal.lexeme for literal in type_.values)}"
-        elif type_.range:
-            words += f" {type_.range.in_words}"
-        elif type_.pattern:
-            words += f" that matches `{type_.pattern.text}`"
-        words += f" ({type_.unit})" if type_.unit else ""
-    return words
-
-
-def _facts(member: Member, kind: str) -> _Facts:
-    unit = unit_of(member.type)
-    doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
-    facts = [kind[0].upper() + kind[1:]] if not member.is_group else []
-    if member.default is not None:
-        facts.append(f"default: {shortened(hidden(member.type, member.default.data))}")
-    elif member.optional:
-        facts.append("may be left out")
-    elif not member.is_group:
-        facts.append("required")
-    if member.editable and not member.is_group:
-        facts.append("may change while running")
-    if is_secret(member.type):
-        facts.append("secret: give it as {env: NAME} or {file: PATH}")
-    text = "; ".join(facts) + ("." if facts else "")
-    if isinstance(member.type, EnumType):
-        text += "".join(f"\n- `{name}`: {said}" for name, said in member.type.enumerators if said)
-    title = f"{member.name} ({unit})" if unit else member.name
-    return _Facts(title, "\n".join(part for part in (doc, text) if part), doc, text)
-
-
 def _is_simple(data: object) -> bool:
     """Whether no list holds lists or mappings: of those, editors insert `[object Object]`."""
     if isinstance(data, dict):
         return all(map(_is_simple, data.values()))
     return not (isinstance(data, list) and any(isinstance(item, dict | list) for item in data))
-
-
-def shortened(data: object) -> str:
-    """Data as YAML spells it on one line, or how that begins."""
-    text = flow(data)
-    return text if len(text) <= 60 else f"{text[:59]}…"

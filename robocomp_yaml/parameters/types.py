@@ -7,7 +7,7 @@ range's limits are compared before anything is narrowed.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -190,6 +190,11 @@ class Member(Located, frozen=True):
     def unit(self) -> str:
         return unit_of(self.type)
 
+    @property
+    def documentation(self) -> str:
+        """What is said of it, or else of its type."""
+        return self.doc or (self.type.doc if isinstance(self.type, RecordType | EnumType) else "")
+
 
 class Constraint(Located, frozen=True):
     """What must hold between parameters, and what to say otherwise."""
@@ -219,17 +224,22 @@ class Parameters(msgspec.Struct, frozen=True):
         return next((spelling for spelling in self.spellings if spelling.path == path), None)
 
 
-def unit_of(type_: Type) -> str:
-    """The unit of a number, or of the numbers that a list or map holds."""
+def innermost(type_: Type) -> ScalarType | RecordType:
+    """What lists and maps, at any depth, hold."""
     while isinstance(type_, ListType | MapType):
         type_ = type_.element
+    return type_
+
+
+def unit_of(type_: Type) -> str:
+    """The unit of a number, or of the numbers that a list or map holds."""
+    type_ = innermost(type_)
     return type_.unit if isinstance(type_, BasicType) else ""
 
 
 def is_secret(type_: Type) -> bool:
     """Whether a plain value is a secret, or the plain values that a list or map holds are."""
-    while isinstance(type_, ListType | MapType):
-        type_ = type_.element
+    type_ = innermost(type_)
     return not isinstance(type_, RecordType) and type_.secret
 
 
@@ -241,27 +251,3 @@ def leaves(record: RecordType, prefix: str = "") -> Iterator[tuple[str, Member]]
             yield from leaves(member.type, f"{path}.")
         else:
             yield path, member
-
-
-def one_of(values: Collection[str], secret: bool) -> str:
-    """Which values something may have, for messages: of a secret, only how many."""
-    return f"one of the {len(values)} values allowed" if secret else f"one of {', '.join(values)}"
-
-
-def kind_in_words(type_: Type) -> str:
-    """What a value of a type is, for messages."""
-    match type_:
-        case BasicType(name="bool"):
-            return "true or false"
-        case BasicType(name="string"):
-            return "text"
-        case BasicType(name=name):
-            return "a whole number" if name in INTEGERS else "a number"
-        case EnumType(allowed=allowed, secret=secret):
-            return one_of(allowed, secret)
-        case ListType():
-            return "a list"
-        case MapType():
-            return "a mapping of names to values"
-        case _:
-            return f"a mapping of {', '.join(member.name for member in type_.members)}"

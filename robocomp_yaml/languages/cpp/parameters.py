@@ -15,9 +15,9 @@ from robocomp_yaml.emit.lowering.parameters import (
     about_member,
     capitals,
     group_of,
+    inside,
     path_of,
 )
-from robocomp_yaml.emit.parameter_facts import inside
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.cpp import LANGUAGE
 from robocomp_yaml.languages.cpp.literals import number, string, value

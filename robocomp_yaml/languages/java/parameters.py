@@ -15,9 +15,9 @@ from robocomp_yaml.emit.lowering.parameters import (
     about_member,
     capitals,
     group_of,
+    inside,
     path_of,
 )
-from robocomp_yaml.emit.parameter_facts import inside
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import METHODS, TYPES

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator
 import msgspec
 
 from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.emit.lowering.parameters import Spelling, Types, about_enum, about_member, group_of, path_of
-from robocomp_yaml.emit.parameter_facts import records
+from robocomp_yaml.emit.lowering.parameters import Spelling, Types, about_enum, about_member, group_of, path_of, records
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import docstring, literal, one_line

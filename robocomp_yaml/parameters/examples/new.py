@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from robocomp_yaml.parameters.types import EnumType, Member, Parameters, RecordType
+from robocomp_yaml.parameters.types import Member, Parameters, RecordType
 from robocomp_yaml.parameters.examples.fitting import Fitted, fitted
-from robocomp_yaml.parameters.json_schema import in_words
 from robocomp_yaml.parameters.spelling.paths import Step
 from robocomp_yaml.parameters.spelling.yaml import comment, flow, scalar
+from robocomp_yaml.parameters.words import for_documents
 
 Sections = list[tuple[str, list[tuple[str, str]]]]
 
@@ -58,18 +58,10 @@ def _record(record: RecordType, indent: str, above: tuple[str, ...], found: Fitt
 
 
 def _about(member: Member, indent: str) -> Iterator[str]:
-    doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
-    for line in doc.strip().splitlines():
+    for line in member.documentation.strip().splitlines():
         yield indent + comment(line)
     if not member.is_group:
-        yield indent + _facts(member)
-
-
-def _facts(member: Member) -> str:
-    facts = [in_words(member.type)]
-    facts += ["may be left out"] if member.optional else []
-    facts += ["may change while running"] if member.editable else []
-    return comment("; ".join(facts))
+        yield indent + comment(for_documents(member))
 
 
 def lines_above(root: RecordType, steps: Sequence[Step]) -> tuple[str, ...]:
@@ -85,4 +77,4 @@ def lines_above(root: RecordType, steps: Sequence[Step]) -> tuple[str, ...]:
             return ()
     if member is None or member.is_group:
         return ()
-    return _facts(member), *(_NO_EXAMPLE.format(what) for what in _ADVICE.values())
+    return comment(for_documents(member)), *(_NO_EXAMPLE.format(what) for what in _ADVICE.values())

@@ -31,6 +31,7 @@ from robocomp_yaml.parameters.types import (
     RecordType,
     Type,
 )
+from robocomp_yaml.parameters.words import in_brief
 
 BOOL, WHOLE, NUMBER, TEXT = BasicType("bool"), BasicType("long"), BasicType("double"), BasicType("string")
 
@@ -72,21 +73,7 @@ def check_constraint(expression: Expression, root: RecordType) -> None:
     """Raises NotInLanguage for what has no meaning, at its place."""
     type_ = type_of(expression, Scope(root))
     if not is_bool(type_):
-        raise NotInLanguage(f"a constraint is true or false, and this is {in_words(type_)}", 0, "compare it: … > 0")
-
-
-def in_words(type_: Type) -> str:
-    match type_:
-        case BasicType(name=name):
-            return {"bool": "true or false", "string": "text"}.get(name, "a number")
-        case EnumType(name=name):
-            return f"one of {name}"
-        case ListType():
-            return "a list"
-        case MapType():
-            return "a map"
-        case _:
-            return f"a {type_.name}" if type_.name else "a group"
+        raise NotInLanguage(f"a constraint is true or false, and this is {in_brief(type_)}", 0, "compare it: … > 0")
 
 
 def is_bool(type_: Type) -> bool:
@@ -146,7 +133,7 @@ def type_of(expression: Expression, scope: Scope) -> Type:
 def _want(expression: Expression, fits: object, wanted: str, where: str, scope: Scope) -> Type:
     found = type_of(expression, scope)
     if not fits(found):  # type: ignore[operator]
-        raise NotInLanguage(f"'{where}' needs {wanted} here, and this is {in_words(found)}", expression.at)
+        raise NotInLanguage(f"'{where}' needs {wanted} here, and this is {in_brief(found)}", expression.at)
     return found
 
 
@@ -158,7 +145,7 @@ def _unknown(name: str, known: list[str], at: int, of: str = "parameter") -> Not
 def _attribute(owner: Type, name: str, at: int) -> Type:
     if not isinstance(owner, RecordType):
         hint = "take an entry with [0], or go through them with 'for'" if isinstance(owner, ListType) else ""
-        raise NotInLanguage(f"{in_words(owner)} has no members, so no '{name}'", at, hint)
+        raise NotInLanguage(f"{in_brief(owner)} has no members, so no '{name}'", at, hint)
     found = find_member(owner, name)
     if found is None:
         raise _unknown(name, [member.code_name for member in owner.members], at, "member")
@@ -175,7 +162,7 @@ def _index(expression: Index, scope: Scope) -> Type:
     if isinstance(owner, MapType):
         _want(expression.index, is_text, "text", "[]", scope)
         return owner.element
-    raise NotInLanguage(f"{in_words(owner)} has no entries", expression.at)
+    raise NotInLanguage(f"{in_brief(owner)} has no entries", expression.at)
 
 
 def _listing(items: tuple[Expression, ...], scope: Scope, at: int) -> Type:
@@ -184,7 +171,7 @@ def _listing(items: tuple[Expression, ...], scope: Scope, at: int) -> Type:
         raise NotInLanguage("an empty list holds nothing to compare with", at)
     for item, type_ in zip(items, types, strict=True):
         if not comparable(types[0], type_):
-            raise NotInLanguage(f"{in_words(type_)} stands beside {in_words(types[0])}", item.at)
+            raise NotInLanguage(f"{in_brief(type_)} stands beside {in_brief(types[0])}", item.at)
     return ListType(types[0])
 
 
@@ -194,7 +181,7 @@ def _compare(expression: Compare, scope: Scope) -> Type:
         right = type_of(node, scope)
         if operator in ("in", "not in"):
             if not isinstance(right, ListType | MapType):
-                raise NotInLanguage(f"'{operator}' needs a list or a map here, and this is {in_words(right)}", node.at)
+                raise NotInLanguage(f"'{operator}' needs a list or a map here, and this is {in_brief(right)}", node.at)
             inner = right.element if isinstance(right, ListType) else TEXT
             _same(left, inner, left_node, node, operator)
             if isinstance(node, Listing):
@@ -203,14 +190,14 @@ def _compare(expression: Compare, scope: Scope) -> Type:
         else:
             _same(left, right, left_node, node, operator)
             if operator in ("<", "<=", ">", ">=") and not (is_number(left) and is_number(right)):
-                raise NotInLanguage(f"'{operator}' compares numbers, and this is {in_words(left)}", left_node.at)
+                raise NotInLanguage(f"'{operator}' compares numbers, and this is {in_brief(left)}", left_node.at)
         left_node, left = node, right
     return BOOL
 
 
 def _same(left: Type, right: Type, left_node: Expression, right_node: Expression, operator: str) -> None:
     if not comparable(left, right):
-        raise NotInLanguage(f"'{operator}' cannot compare {in_words(left)} with {in_words(right)}", right_node.at)
+        raise NotInLanguage(f"'{operator}' cannot compare {in_brief(left)} with {in_brief(right)}", right_node.at)
     for type_, node in ((left, right_node), (right, left_node)):
         if isinstance(type_, EnumType) and isinstance(node, Literal) and node.value not in type_.names:
             raise _unknown(str(node.value), list(type_.names), node.at, f"enumerator of {type_.name}")
@@ -237,7 +224,7 @@ def _call(call: Call, scope: Scope) -> Type:
         if function in _OF_ONE:
             return _of_one(function, operand, first)
         if not isinstance(operand, ListType):
-            raise NotInLanguage(f"{function}() needs a list here, and this is {in_words(operand)}", first.at)
+            raise NotInLanguage(f"{function}() needs a list here, and this is {in_brief(operand)}", first.at)
         element = operand.element
     return _of_many(function, element, first)
 
@@ -253,21 +240,21 @@ def _of_one(function: str, operand: Type, node: Expression) -> Type:
     if function in ("keys", "values") and isinstance(operand, MapType):
         return ListType(TEXT if function == "keys" else operand.element)
     wanted = {"abs": "a number", "len": "a list or a map"}.get(function, "a map")
-    raise NotInLanguage(f"{function}() needs {wanted} here, and this is {in_words(operand)}", node.at)
+    raise NotInLanguage(f"{function}() needs {wanted} here, and this is {in_brief(operand)}", node.at)
 
 
 def _of_many(function: str, element: Type, node: Expression | Each) -> Type:
     at = node.element.at if isinstance(node, Each) else node.at
     if function in ("all", "any"):
         if not is_bool(element):
-            raise NotInLanguage(f"{function}() needs true or false here, and this is {in_words(element)}", at)
+            raise NotInLanguage(f"{function}() needs true or false here, and this is {in_brief(element)}", at)
         return BOOL
     if function == "unique":
         if not isinstance(element, BasicType | EnumType):
-            raise NotInLanguage(f"unique() needs plain values, and this is {in_words(element)}", at)
+            raise NotInLanguage(f"unique() needs plain values, and this is {in_brief(element)}", at)
         return BOOL
     if not is_number(element):
-        raise NotInLanguage(f"{function}() needs numbers, and this is {in_words(element)}", at)
+        raise NotInLanguage(f"{function}() needs numbers, and this is {in_brief(element)}", at)
     return element
 
 
@@ -276,7 +263,7 @@ def _each(each: Each, scope: Scope) -> Type:
     if isinstance(source, MapType):
         raise NotInLanguage("a 'for' goes through a list", each.source.at, "write keys(…) or values(…) of a map")
     if not isinstance(source, ListType):
-        raise NotInLanguage(f"a 'for' goes through a list, and this is {in_words(source)}", each.source.at)
+        raise NotInLanguage(f"a 'for' goes through a list, and this is {in_brief(source)}", each.source.at)
     inner = scope.with_variable(each.variable, source.element)
     if each.condition is not None:
         _want(each.condition, is_bool, "true or false", "if", inner)

@@ -26,8 +26,8 @@ from robocomp_yaml.parameters.types import (
     RecordType,
     Size,
     Type,
-    kind_in_words,
 )
+from robocomp_yaml.parameters.words import kind_in_words
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 Found = list[Diagnostic]

@@ -28,8 +28,9 @@ from robocomp_yaml.parameters.types import (
     RecordType,
     ScalarType,
     Type,
-    kind_in_words,
+    innermost,
 )
+from robocomp_yaml.parameters.words import kind_in_words
 from robocomp_yaml.source.tree import Scalar
 
 MAX_DEPTH = 30
@@ -245,9 +246,7 @@ def _as_secret(type_: Type) -> Type:
 
 def _named_so(type_: Type) -> Type:
     """The type of what is secret by its name: texts and numbers are, and lists and maps of them."""
-    plain = type_
-    while isinstance(plain, ListType | MapType):
-        plain = plain.element
+    plain = innermost(type_)
     return _as_secret(type_) if isinstance(plain, BasicType) and plain.name != "bool" else type_
 
 

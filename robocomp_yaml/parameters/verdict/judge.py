@@ -25,9 +25,8 @@ from robocomp_yaml.parameters.types import (
     ScalarType,
     Type,
     is_secret,
-    kind_in_words,
-    one_of,
 )
+from robocomp_yaml.parameters.words import kind_in_words, one_of
 from robocomp_yaml.secrets import HIDDEN, url
 from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
