@@ -16,9 +16,9 @@ import jsonschema
 import jsonschema_rs
 
 import accessors
+from by_cerberus import cerberus_verdict
 from parameters import tree
-from robocomp_yaml.parameters.json_schema import EFFECTIVE, values_schema
-from robocomp_yaml.parameters.layers.normalize import cerberus_verdict
+from robocomp_yaml.parameters.schema.json_schema import EFFECTIVE, values_schema
 from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.parameters.verdict.judge import judge

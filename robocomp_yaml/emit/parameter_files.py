@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import msgspec
 
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE, document_schema
+from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE, document_schema
 from robocomp_yaml.transactions.plan import FilePlan
 
 SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Self
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import msgspec
 
@@ -10,15 +11,24 @@ if TYPE_CHECKING:
     from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
     from robocomp_yaml.parameters.types import Parameters
 
+Made = TypeVar("Made")
+
 
 class ResolvedParameters(msgspec.Struct, frozen=True, eq=False):
     """Parameters with their document, if there is one; `broken` when some have no usable type (then values are not
-    judged). `compiled` is for what is made of them once and used often (validators)."""
+    judged)."""
 
     parameters: Parameters
     document: ParameterDocument | None = None
     broken: bool = False
-    compiled: dict[object, Any] = {}
+    _made: dict[str, Any] = {}
+
+    def once(self, name: str, make: Callable[[], Made]) -> Made:
+        """What is made of the parameters once, and used often: validators, say."""
+        if name not in self._made:
+            self._made[name] = make()
+        made: Made = self._made[name]
+        return made
 
 
 class LayeredValues(msgspec.Struct, frozen=True, eq=False):

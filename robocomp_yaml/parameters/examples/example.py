@@ -8,7 +8,6 @@ from itertools import islice
 from typing import Any
 
 from robocomp_yaml.parameters.types import (
-    LIMITS,
     BasicType,
     EnumType,
     ListType,
@@ -106,23 +105,3 @@ def _nearest(type_: BasicType) -> int | float:
     if low is not None and high is not None:
         return (low.value + high.value) / 2
     return low.value + 1 if low is not None else high.value - 1  # type: ignore[union-attr]
-
-
-def fits(type_: ScalarType, value: Any) -> bool:
-    """Whether a plain value is one of its type."""
-    if isinstance(type_, EnumType):
-        return value in type_.allowed
-    if type_.name == "string":
-        allowed = [str(literal.value) for literal in type_.values]
-        return (
-            isinstance(value, str)
-            and (type_.pattern is None or type_.pattern.matches(value))
-            and (not allowed or value in allowed)
-        )
-    if type_.name == "bool" or isinstance(value, bool):
-        return type_.name == "bool" and isinstance(value, bool)
-    if not isinstance(value, int if type_.is_integer else int | float):
-        return False
-    low, high = LIMITS[type_.name]
-    is_allowed = not type_.values or value in [literal.value for literal in type_.values]
-    return is_allowed and low <= value <= high and (type_.range is None or type_.range.holds(value))

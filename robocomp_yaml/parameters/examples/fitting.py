@@ -27,8 +27,8 @@ from robocomp_yaml.parameters.types import (
 )
 from robocomp_yaml.parameters.expressions import evaluate
 from robocomp_yaml.parameters.defaults import defaults, with_defaults
-from robocomp_yaml.parameters.examples.example import count_of, example, fits, reference, simplest
-from robocomp_yaml.parameters.layers.normalize import as_data
+from robocomp_yaml.parameters.examples.example import count_of, example, reference, simplest
+from robocomp_yaml.parameters.verdict.plain import wrong
 
 _STEPS = 3000  # of one search
 _MOST_STEPS = 12_000  # of all, with up to ten parameters; with more, each step takes longer
@@ -248,7 +248,7 @@ class _Search:
         for path, member in self.members.items():  # still to be chosen
             if member.required and _at(data, path) is None:
                 _put(data, path, _UNKNOWN)
-        named = evaluate.by_code_names(root, as_data(root, data))
+        named = evaluate.by_code_names(root, data)
         return all(
             evaluate.holds(each.expression, named)
             for each in constraints
@@ -272,7 +272,7 @@ class _Search:
                 found += [end.value for end in (type_.range.low, type_.range.high) if end is not None]
         elif isinstance(type_, BasicType) and type_.name == "string":
             found += self.texts
-        return list({repr(each): each for each in found if fits(type_, each)}.values())
+        return list({repr(each): each for each in found if not wrong(type_, each)}.values())
 
 
 def _plain(number: float) -> int | float:

@@ -10,14 +10,14 @@ import msgspec
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.parameters.defaults import with_defaults
 from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
-from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE
+from robocomp_yaml.parameters.layers.completion import completed
 from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
-from robocomp_yaml.parameters.layers.normalize import fits, normalized
+from robocomp_yaml.parameters.schema.gate import fits
+from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE
 from robocomp_yaml.parameters.types import MapType, Parameters, RecordType, Type
 from robocomp_yaml.parameters.verdict.judge import Path, judge, missing, wrong_size
-from robocomp_yaml.parameters.verdict.usable import is_usable
+from robocomp_yaml.parameters.verdict.specification import is_usable
 from robocomp_yaml.source.tree import Mapping
 
 
@@ -55,8 +55,7 @@ def effective(values: LayeredValues) -> tuple[Effective | None, list[Diagnostic]
         found += _not_misspelled(found, _incomplete(root, place, (), _head(values)))
     if found or values.broken or not is_usable(linked):
         return None, found
-    # All judges agree (a test sees to it); were Cerberus ever to differ, the schema's verdict stands.
-    complete = normalized(linked, data) or with_defaults(root, data)
+    complete = completed(linked, data)
     found = list(_broken_constraints(linked.parameters, complete, place, _head(values)))
     return (None if found else Effective(complete, place, linked.parameters)), found
 

@@ -180,3 +180,18 @@ def _same(value: object) -> object:
 def _whole(value: object) -> object:
     """1.0 is a whole number, and becomes 1."""
     return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+def as_data(type_: Type, data: Any) -> Any:
+    """What Cerberus made as plain data: references as `{"env": NAME}`, say; members in the order of their type."""
+    if isinstance(data, Reference):
+        return dict(data.data)
+    match type_:
+        case ListType(element=element) if isinstance(data, list):
+            return [as_data(element, item) for item in data]
+        case MapType(element=element) if isinstance(data, dict):
+            return {key: as_data(element, value) for key, value in data.items()}
+        case RecordType() if isinstance(data, dict):
+            return {m.name: as_data(m.type, data[m.name]) for m in type_.members if m.name in data}
+        case _:
+            return data

@@ -27,6 +27,7 @@ from robocomp_yaml.parameters.types import (
     Size,
     Type,
 )
+from robocomp_yaml.parameters.verdict.plain import CHOICE, KIND, PATTERN, RANGE, wrong
 from robocomp_yaml.parameters.words import kind_in_words
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -64,7 +65,7 @@ def _range(type_: Type, node: Node, found: Found) -> Type:
             return type_
         least, most = LIMITS[type_.name]
         if not least <= scalar.data <= most:  # type: ignore[operator]
-            problem = f"{scalar.lexeme} cannot be reached: {type_.name} goes from {least} to {most}"
+            problem = f"{scalar.lexeme} cannot be reached: {_reach(type_)}"
             found.append(codes.UNREACHABLE.at(scalar.span, problem=problem))
             return type_
     if problem := _both_ends(node):
@@ -196,23 +197,22 @@ def _values(type_: Type, node: Node, found: Found) -> Type:
 
 
 def _unreachable(type_: BasicType, item: Scalar, before: list[Literal]) -> str:
-    value: Any = item.data
-    fits = isinstance(value, str) if type_.name == "string" else _is_number(value)
-    if not fits or (type_.is_integer and value != int(value)):
+    fault = wrong(type_, item.data)
+    if fault == KIND:
         return f"'{item.lexeme}' is not {kind_in_words(type_)}"
-    if any(value == other.value for other in before):
+    if any(item.data == other.value for other in before):
         return f"'{item.lexeme}' stands twice"
-    if type_.values and all(value != other.value for other in type_.values):
+    if fault == CHOICE:
         return f"'{item.lexeme}' is none of the values of its type"
-    if isinstance(value, str):
-        matches = type_.pattern is None or type_.pattern.matches(value)
-        return "" if matches else f"'{item.lexeme}' does not match the pattern"
-    least, most = LIMITS[type_.name]
-    if not least <= value <= most:
-        return f"{item.lexeme} cannot be reached: {type_.name} goes from {least} to {most}"
-    if type_.range and not type_.range.holds(value):
+    if fault == PATTERN:
+        return f"'{item.lexeme}' does not match the pattern"
+    if fault == RANGE and type_.range is not None:
         return f"{item.lexeme} cannot be reached: the range goes {type_.range.in_words}"
-    return ""
+    return f"{item.lexeme} cannot be reached: {_reach(type_)}" if fault else ""
+
+
+def _reach(type_: BasicType) -> str:
+    return "{} goes from {} to {}".format(type_.name, *LIMITS[type_.name])
 
 
 def _pattern(type_: Type, node: Node, found: Found) -> Type:

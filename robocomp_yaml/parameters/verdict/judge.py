@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from math import isfinite
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import values as codes
@@ -26,6 +25,7 @@ from robocomp_yaml.parameters.types import (
     Type,
     is_secret,
 )
+from robocomp_yaml.parameters.verdict.plain import CHOICE, KIND, PATTERN, RANGE, wrong
 from robocomp_yaml.parameters.words import kind_in_words, one_of
 from robocomp_yaml.secrets import HIDDEN, url
 from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
@@ -126,12 +126,16 @@ def _unit(type_: Type) -> str:
 def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
     if references.node_is_reference(node):
         yield from _reference(node, path)
-    elif isinstance(node, Mapping | Sequence) or node.data is None:
+        return
+    fault = wrong(type_, node.data)
+    if fault == KIND:
         yield _wrong_type(type_, node, path, key)
-    elif isinstance(type_, EnumType):
-        yield from _enumerated(type_, node, path, key)
-    else:
-        yield from _basic(type_, node, path, key)
+    elif fault == PATTERN:
+        assert isinstance(type_, BasicType) and type_.pattern is not None
+        value = HIDDEN if type_.secret else f"'{_short(str(node.data))}'"
+        yield _at(codes.NO_MATCH, node, key, path=in_words(path), value=value, pattern=type_.pattern.text)
+    elif fault:
+        yield _outside(type_, fault, node, path, key)
 
 
 def _reference(node: Node, path: Path) -> Iterator[Diagnostic]:
@@ -155,79 +159,24 @@ _REFERENCE_HINTS = {
 }
 
 
-def _enumerated(type_: EnumType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
-    if node.data in type_.allowed and isinstance(node.data, str):
-        return
-    if not isinstance(node.data, str):
-        yield _wrong_type(type_, node, path, key)
-        return
-    value = HIDDEN if type_.secret else f"'{node.data}'"
-    yield _at(
-        codes.OUT_OF_RANGE,
-        node,
-        key,
-        path=in_words(path),
-        value=value,
-        wanted=kind_in_words(type_),
-        hint=NO_HINT if type_.secret else did_you_mean(node.data, type_.allowed),
-    )
-
-
-def _basic(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
-    value = node.data
-    if type_.name == "bool":
-        if not isinstance(value, bool):
-            yield _wrong_type(type_, node, path, key)
-    elif type_.name == "string":
-        if not isinstance(value, str):
-            yield _wrong_type(type_, node, path, key)
-        elif type_.values and all(value != allowed.value for allowed in type_.values):
-            yield _not_allowed(type_, node, path, key)
-        elif type_.pattern and not type_.pattern.matches(value):
-            said = HIDDEN if type_.secret else f"'{_short(value)}'"
-            yield _at(codes.NO_MATCH, node, key, path=in_words(path), value=said, pattern=type_.pattern.text)
-    elif isinstance(value, bool) or not isinstance(value, int | float):
-        yield _wrong_type(type_, node, path, key)
-    elif isinstance(value, float) and not isfinite(value):
-        yield _wrong_type(type_, node, path, key)
-    elif type_.is_integer and value != int(value):
-        yield _wrong_type(type_, node, path, key)
-    else:
-        yield from _number(type_, value, node, path, key)
-
-
-def _number(type_: BasicType, value: int | float, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
-    if type_.values:
-        if all(value != allowed.value for allowed in type_.values):
-            yield _not_allowed(type_, node, path, key)
-        return
-    least, most = LIMITS[type_.name]
-    unit = f" {type_.unit}" if type_.unit else ""
-    wanted = ""
-    if type_.range and not type_.range.holds(value):
+def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
+    """Of the right kind, and not allowed."""
+    assert isinstance(node, Scalar)
+    unit = f" {type_.unit}" if isinstance(type_, BasicType) and type_.unit else ""
+    hint: str | Hint = NO_HINT
+    value = _short(node.lexeme)
+    if isinstance(node.data, str):
+        value = f"'{node.data}'" if isinstance(type_, EnumType) else repr(value)
+    if fault == CHOICE:
+        allowed = type_.allowed if isinstance(type_, EnumType) else [each.lexeme for each in type_.values]
+        wanted = f"{one_of(allowed, type_.secret)}{unit}"
+        hint = did_you_mean(node.data, allowed) if isinstance(node.data, str) and not type_.secret else NO_HINT
+    elif fault == RANGE and isinstance(type_, BasicType) and type_.range is not None:
         wanted = f"{type_.range.in_words}{unit}"
-    elif not least <= value <= most:
-        wanted = f"from {least} to {most} ({type_.name})"
-    if wanted:
-        lexeme = HIDDEN if type_.secret else node.lexeme if isinstance(node, Scalar) else str(value)
-        yield _at(codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{_short(lexeme)}{unit}", wanted=wanted)
-
-
-def _not_allowed(type_: BasicType, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
-    allowed = [value.lexeme for value in type_.values]
-    unit = f" {type_.unit}" if type_.unit else ""
-    found = HIDDEN if type_.secret else _short(node.lexeme) if isinstance(node, Scalar) else ""
-    value = f"{found!r}" if type_.name == "string" and not type_.secret else f"{found}{unit}"
-    wanted = f"{one_of(allowed, type_.secret)}{unit}"
-    return _at(
-        codes.OUT_OF_RANGE,
-        node,
-        key,
-        path=in_words(path),
-        value=value,
-        wanted=wanted,
-        hint=did_you_mean(str(node.data), allowed) if type_.name == "string" and not type_.secret else NO_HINT,
-    )
+    else:
+        wanted = "from {} to {} ({})".format(*LIMITS[type_.name], type_.name)
+    value = HIDDEN if type_.secret else value
+    return _at(codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{value}{unit}", wanted=wanted, hint=hint)
 
 
 def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:

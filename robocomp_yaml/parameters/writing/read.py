@@ -10,8 +10,7 @@ import os
 from collections.abc import Mapping
 from typing import Any
 
-from robocomp_yaml.parameters.layers.normalize import as_data
-from robocomp_yaml.parameters.layers.rules import ParameterValidator, Reference, rules_of
+from robocomp_yaml.parameters.layers.rules import ParameterValidator, Reference, as_data, rules_of
 from robocomp_yaml.parameters.specification.document import Spelling
 from robocomp_yaml.parameters.spelling import references, rows
 from robocomp_yaml.parameters.spelling.paths import unescaped
