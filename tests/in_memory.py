@@ -22,6 +22,8 @@ class Said(NamedTuple):
     message: str
     hint: str = ""
     file: str = ""
+    related: tuple[tuple[str, str], ...] = ()
+    """Other places, with what is said about them."""
 
 
 def analysed(documents: Mapping[str, str], *asked: str) -> Analysis:
@@ -42,8 +44,18 @@ def program(documents: Mapping[str, str], *asked: str) -> Program:
 
 
 def _said(found: Diagnostic, documents: Mapping[str, str]) -> Said:
-    file = found.span.file.removeprefix(f"{ROOT}/")
-    return Said(found.code, text_at(documents.get(file, ""), found.span), found.message, str(found.hint or ""), file)
+    file, at = _at(found.span, documents)
+    related = tuple((plain(one.message), _at(one.span, documents)[1]) for one in found.related)
+    return Said(found.code, at, plain(found.message), plain(str(found.hint or "")), file, related)
+
+
+def plain(text: str) -> str:
+    return text.replace(f"{ROOT}/", "").replace(ROOT, ".")
+
+
+def _at(span: Span, documents: Mapping[str, str]) -> tuple[str, str]:
+    file = plain(span.file)
+    return file, text_at(documents.get(file, ""), span)
 
 
 def text_at(text: str, span: Span) -> str:
