@@ -24,14 +24,15 @@ def shown(row: Code) -> str:
     documents = in_memory(row.wrong)
     if command != "check" or not set(asked) <= {".", *documents}:
         return ""
+    found = said(documents, *(name for name in asked if name != "."))
     lines = []
-    for one in said(documents, *(name for name in asked if name != ".")):
+    for one in found if row.id in {one.code for one in found} else ():
         if one.code == row.id or one.code not in NOT_BUILT:
             at = one.at if one.at.count("\n") < 2 and len(one.at) < 100 else f"{one.at.splitlines()[0][:50]} …"
             lines += [f"{one.code} in {one.file}, at `{at}`:", f"  {one.message}"]
             lines += [f"  hint: {one.hint}"] if one.hint else []
             lines += [f"  {text}: `{place}`" for text, place in one.related]
-    return "\n".join([*lines, ""])
+    return "\n".join([*lines, ""]) if lines else ""
 
 
 def test_the_wrong_examples(golden: Callable[[str, Mapping[str, str]], None]) -> None:
