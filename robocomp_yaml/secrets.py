@@ -8,26 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from typing import Any
 
-
-class _Pattern:
-    """A pattern that is compiled when it is asked for something: most runs meet no secret."""
-
-    def __init__(self, text: str, flags: int = 0) -> None:
-        self._given = text, flags
-
-    def __getattr__(self, name: str) -> Any:
-        found = getattr(re.compile(*self._given), name)
-        setattr(self, name, found)
-        return found
-
+from robocomp_yaml.patterns import pattern
 
 HIDDEN = "***"
 """What is shown instead of a secret."""
 
 # Letters beyond ASCII are said by what they are not: ranges up to the end of Unicode take `re` milliseconds to compile.
-_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[^\x00-`{-\x7f]+|[0-9]+")
+_WORD = pattern(r"[A-Z]+(?![a-z])|[A-Z]?[^\x00-`{-\x7f]+|[0-9]+")
 _STEMS = (
     "password", "passwd", "passphrase", "passcode", "secret", "credential", "contrase",
     "apikey", "accesskey", "privatekey", "authkey", "bearer", "authorization",
@@ -59,20 +47,20 @@ def is_secret(name: str) -> bool:
     return any(word in _WORDS or word.endswith(_ENDS) for word in words)
 
 
-_USER_INFO = _Pattern(r"([A-Za-z][A-Za-z0-9+.-]{0,30}://[^\s/?#:@'\"<>]*):([^\s/?#'\"<>]+)@")
-_ASSIGNMENT = _Pattern(
+_USER_INFO = pattern(r"([A-Za-z][A-Za-z0-9+.-]{0,30}://[^\s/?#:@'\"<>]*):([^\s/?#'\"<>]+)@")
+_ASSIGNMENT = pattern(
     r"(?P<name>(?<![\w.])[^\x00-@\[-^`{-\x7f][\w.\-]{0,60})"
     r"(?P<sign>(?P<close>[\"']?)[ \t]*=[ \t]*|[\"']?[ \t]*:[ \t]+|[\"']:)"
     r"(?P<value>\"(?:[^\"\\]|\\.)*\"?|'[^']*'?|(?:(?:Bearer|Basic|Digest)[ \t]+)?[^\s\"'&;,)}\]]+)"
 )
-_OPTION = _Pattern(
+_OPTION = pattern(
     r"(?P<name>(?<![\w-])--?[A-Za-z][\w.\-]{0,60})(?P<sign>[ \t]+)"
     r"(?P<value>\"[^\"]*\"?|'[^']*'?|[^\s\"'&;-][^\s\"'&;]*)"
 )
-_IS_OPTION = _Pattern(r"--?[A-Za-z][\w.\-]*\Z")
-_WHOLE = _Pattern(r"((?:--?)?[^\x00-@\[-^`{-\x7f][\w.\-]*)([=:])(?!//)(.+)\Z", re.DOTALL)
+_IS_OPTION = pattern(r"--?[A-Za-z][\w.\-]*\Z")
+_WHOLE = pattern(r"((?:--?)?[^\x00-@\[-^`{-\x7f][\w.\-]*)([=:])(?!//)(.+)\Z", re.DOTALL)
 # One that can be followed, as far as that is seen: others are what somebody meant to be a secret.
-_REFERENCE = _Pattern(
+_REFERENCE = pattern(
     r"\$\{?[A-Za-z_]|\{ *env *: *([\"']?)[A-Za-z_][A-Za-z0-9_]*\1 *(?:\}|\Z)|\{ *file *: *[^\s\[\]{},]"
 )
 
@@ -133,7 +121,7 @@ def command(words_: Iterable[str], names: Collection[str] = ()) -> str:
     return " ".join(words(words_, names))
 
 
-_SUSPECT = re.compile(
+_SUSPECT = pattern(
     r"pass|secret|credential|contrase|key|token|pwd|private|bearer|authorization|://[^\s/]*@", re.IGNORECASE
 )
 
@@ -155,14 +143,12 @@ def hidden_lines(text: str, names: Collection[str] = ()) -> list[str]:
     return lines
 
 
-_KEY = _Pattern(r"[\"']?(?P<name>(?<![\w.])[^\x00-@\[-^`{-\x7f][\w.\-\[\]]{0,60})[\"']?[ \t]*(?P<sign>[:=])")
-_FLOW_VALUE = _Pattern(r"[ \t]*(?:\"(?:[^\"\\]|\\.)*\"?|'(?:[^']|'')*'?|[^,}\]]*)")
-_LISTED = _Pattern(
-    r"(?P<name>(?<![\w-])--?[A-Za-z][\w.\-]{0,60})[\"']?,[ \t]*(?P<value>\"[^\"]*\"?|'[^']*'?|[^\s,\]]+)"
-)
-_ANY_ITEM = _Pattern(r"[ \t]*-[ \t]+")
-_ITEM = _Pattern(r"[ \t]*-[ \t]+[\"']?(?P<name>--?[A-Za-z][\w.\-]*)[\"']?[ \t]*\Z")
-_INDENT = _Pattern(r"[ \t]*(?:-[ \t]+)*")
+_KEY = pattern(r"[\"']?(?P<name>(?<![\w.])[^\x00-@\[-^`{-\x7f][\w.\-\[\]]{0,60})[\"']?[ \t]*(?P<sign>[:=])")
+_FLOW_VALUE = pattern(r"[ \t]*(?:\"(?:[^\"\\]|\\.)*\"?|'(?:[^']|'')*'?|[^,}\]]*)")
+_LISTED = pattern(r"(?P<name>(?<![\w-])--?[A-Za-z][\w.\-]{0,60})[\"']?,[ \t]*(?P<value>\"[^\"]*\"?|'[^']*'?|[^\s,\]]+)")
+_ANY_ITEM = pattern(r"[ \t]*-[ \t]+")
+_ITEM = pattern(r"[ \t]*-[ \t]+[\"']?(?P<name>--?[A-Za-z][\w.\-]*)[\"']?[ \t]*\Z")
+_INDENT = pattern(r"[ \t]*(?:-[ \t]+)*")
 
 
 def parts_of_lines(lines: Sequence[str], names: Collection[str] = ()) -> dict[int, list[Part]]:
@@ -200,7 +186,9 @@ def _parts_of_line(line: str, names: Collection[str]) -> tuple[list[Part], int |
         if not is_secret(key["name"]) and last not in names and key["name"] not in names:
             continue
         is_first = first is not None and key.start() == first.end()
-        end = len(line.rstrip()) if is_first else _FLOW_VALUE.match(line, at).end()
+        value = _FLOW_VALUE.match(line, at)
+        assert value is not None  # it may be empty
+        end = len(line.rstrip()) if is_first else value.end()
         begin = at + len(line[at:end]) - len(line[at:end].lstrip())
         if is_first and (begin == end or line[begin] in "|>\"'&!"):
             return [*parts, (begin, end)] if begin < end else parts, key.start()

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import re
-import shlex
 from collections.abc import Collection, Iterable, Iterator
 
 import msgspec
@@ -19,6 +18,7 @@ from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.documents import Document
 from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.parameters.hidden import declared, named_nodes, nodes, plain_below
@@ -63,7 +63,7 @@ def _of_configurations(program: Program) -> Iterator[Diagnostic]:
             names = set(declared(component.parameters.parameters.root)) if component is not None else set()
             line = _line_of_secret(program.disk.contents[path].decode("utf-8", "replace"), names)
             if line:
-                file, hint = os.path.relpath(path), f"`chmod 600 {shlex.quote(os.path.relpath(path))}`"
+                file, hint = os.path.relpath(path), f"`{typed('chmod', '600', os.path.relpath(path))}`"
                 yield network_codes.OPEN_CONFIG.at(given.span, file=file, line=line, hint=hint)
 
 
@@ -112,7 +112,7 @@ def _others_can_read(path: str) -> bool:
 
 
 def _warning(document: Document, secret: Secret) -> Diagnostic:
-    mode = f"`chmod 600 {shlex.quote(document.path)}`"
+    mode = f"`{typed('chmod', '600', document.path)}`"
     code = network_codes.OPEN_SECRET if document.kind == "ddsl" else codes.OPEN_SECRET
     hint = {
         "config": f"{mode}, or give {{env: NAME}} or {{file: PATH}}",

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import json
 import os
-import re
 
 import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.fix import NO_HINT, Hint
 from robocomp_yaml.diag.suggest import meaning, suggest
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
 
-_PLAIN = re.compile(r"[\w./][\w./() -]*[\w./()]")
+_PLAIN = pattern(r"[\w./][\w./() -]*[\w./()]")
 _WORDS = {
     "idsl": "interfaces", "cdsl": "a component", "pdsl": "parameters", "ddsl": "a deployment", "config": "values",
 }  # fmt: skip

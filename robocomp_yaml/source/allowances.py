@@ -12,18 +12,19 @@ from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Edit, Fix, Hint
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.spelled import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 OURS = re.compile(rb"#[ \t]*rcyaml[ \t]*(?::|allow\b)")
 """What no document has that has no such comment."""
 
-_COMMENT = re.compile(r"(?:(?<=[ \t])|(?<![^\r\n]))#[ \t]*rcyaml(?:[ \t]*:|(?=[ \t]*allow\b))[^\r\n]*")
-_PARTS = re.compile(r"#[ \t]*rcyaml(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?")
-_WORD = re.compile(r"[^\s,]+")
-_CODE = re.compile(r"(?i:RC\d{4})|[A-Z]{2,}\d{3,4}")
+_COMMENT = pattern(r"(?:(?<=[ \t])|(?<![^\r\n]))#[ \t]*rcyaml(?:[ \t]*:|(?=[ \t]*allow\b))[^\r\n]*")
+_PARTS = pattern(r"#[ \t]*rcyaml(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?")
+_WORD = pattern(r"[^\s,]+")
+_CODE = pattern(r"(?i:RC\d{4})|[A-Z]{2,}\d{3,4}")
 _FORM = "write `# rcyaml: allow RC1234 -- reason`"
-_EMPTY_LINE = re.compile(r"[ \t]*(?:#.*|---[ \t]*(?:#.*)?|%.*)?")
+_EMPTY_LINE = pattern(r"[ \t]*(?:#.*|---[ \t]*(?:#.*)?|%.*)?")
 
 
 class Allowance(msgspec.Struct, frozen=True):

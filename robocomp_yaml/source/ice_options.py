@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 
 import msgspec
 
+from robocomp_yaml.patterns import pattern
+
 BLANKS = " \t\r\n"
 LAST_PORT = 65535
 
-_INT = re.compile(r"[ \t\n\v\f\r]*[-+]?[0-9]+\Z")
-_BASE64 = re.compile(r"[A-Za-z0-9+/=]+\Z")
-_DEVICE = re.compile(r"[0-9A-Fa-f]{2}(:[0-9A-Fa-f]{2}){5}\Z")
+_INT = pattern(r"[ \t\n\v\f\r]*[-+]?[0-9]+\Z")
+_BASE64 = pattern(r"[A-Za-z0-9+/=]+\Z")
+_DEVICE = pattern(r"[0-9A-Fa-f]{2}(:[0-9A-Fa-f]{2}){5}\Z")
 
 
 class Refused(ValueError):

@@ -16,16 +16,17 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import IMPORT, LIST, QUOTE, UNQUOTE, UNTAG, VALUE, WORD, Edit, Fix
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as MappingNode
 from robocomp_yaml.source.tree import Node, Scalar, end_of, parse
 from robocomp_yaml.source.tree import Sequence as SequenceNode
 
-_LINE_END = re.compile("\r\n|\r|\n")
-_MARKS = re.compile(r"(?:[&!]\S*[ \t]+)+")  # anchor and tag before a value
-_IN_A_TEXT = re.compile(r"[\w ./+@=<>-]+")  # may stand in any text, however it is quoted
-_PLAIN = re.compile(r"[\w./](?:[\w ./+-]*[\w./+-])?")  # needs no quotes, unless it would be read as something else
-_ITEM = re.compile(r"[ ]*-[ \t]+")
+_LINE_END = pattern("\r\n|\r|\n")
+_MARKS = pattern(r"(?:[&!]\S*[ \t]+)+")  # anchor and tag before a value
+_IN_A_TEXT = pattern(r"[\w ./+@=<>-]+")  # may stand in any text, however it is quoted
+_PLAIN = pattern(r"[\w./](?:[\w ./+-]*[\w./+-])?")  # needs no quotes, unless it would be read as something else
+_ITEM = pattern(r"[ ]*-[ \t]+")
 
 
 def spelled(diagnostics: Iterable[Diagnostic], contents: Mapping[str, bytes]) -> Iterator[Diagnostic]:

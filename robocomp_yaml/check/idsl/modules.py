@@ -6,7 +6,6 @@ and component that brings two such documents together, and of none that merely i
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
@@ -17,10 +16,11 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.references import macro
+from robocomp_yaml.patterns import pattern
 
 Importer = LinkedModule | LinkedComponent
 
-_FILE_NAME = re.compile(r"\w[\w.+-]*\Z")
+_FILE_NAME = pattern(r"\w[\w.+-]*\Z")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

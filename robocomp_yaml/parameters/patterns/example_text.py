@@ -36,7 +36,7 @@ def example_text(pattern: Pattern) -> str:
 
 
 class _Reader(msgspec.Struct):
-    """Goes over a portable pattern, which holds no more than `model.pattern` writes."""
+    """Goes over a portable pattern, which holds no more than `patterns.pattern` writes."""
 
     text: str
     at: int = 0

@@ -11,10 +11,12 @@ from functools import cache
 
 import msgspec
 
+from robocomp_yaml.patterns import pattern
+
 MAX_PLACES = 5_000  # so many that `[a-z]{1,1000}` is none of the large ones
 _KEPT = 10_000
-_ATOM = re.compile(r"\[(?:\\.|[^\]\\])*\]|\\.|.", re.DOTALL)
-_COUNT = re.compile(r"[*+?]|\{(\d+)(,(\d*))?\}")
+_ATOM = pattern(r"\[(?:\\.|[^\]\\])*\]|\\.|.", re.DOTALL)
+_COUNT = pattern(r"[*+?]|\{(\d+)(,(\d*))?\}")
 
 
 class TooLarge(ValueError):
@@ -23,7 +25,7 @@ class TooLarge(ValueError):
 
 @cache
 def matcher(portable: str) -> Matcher:
-    """For what `model.pattern` writes. Raises TooLarge, where counts of counts come to more than MAX_PLACES."""
+    """For what `patterns.pattern` writes. Raises TooLarge, where counts of counts come to more than MAX_PLACES."""
     parser = _Parser(portable)
     parsed = parser.alternatives()
     if _size(parsed) > MAX_PLACES:

@@ -7,11 +7,10 @@ read differently: classes as sorted ranges, shorthands spelled out (ASCII), anch
 
 from __future__ import annotations
 
-import re
-
 import msgspec
 
 from robocomp_yaml.parameters.patterns.match import MAX_PLACES, TooLarge, matcher
+from robocomp_yaml.patterns import pattern
 
 MAX_COUNT = 1000
 _SHORTHANDS = {
@@ -22,7 +21,7 @@ _SHORTHANDS = {
 _CONTROLS = {"t": "\t", "n": "\n", "r": "\r", "f": "\f", "v": "\v"}
 _SPELLED = {"\t": "\\t", "\n": "\\n", "\r": "\\r", "\f": "\\f", "\v": "\\v"}
 _SYNTAX = frozenset("^$\\.*+?()[]{}|/")
-_COUNT = re.compile(r"\{(\d{1,4})(,(\d{1,4})?)?\}")
+_COUNT = pattern(r"\{(\d{1,4})(,(\d{1,4})?)?\}")
 
 
 class NotPortable(ValueError):

@@ -1,4 +1,4 @@
-"""The PDSL model as written: names of types are not looked up yet. `model.parameters` is what becomes of it."""
+"""The PDSL model as written: names of types are not looked up yet. `parameters.types` is what becomes of it."""
 
 from __future__ import annotations
 

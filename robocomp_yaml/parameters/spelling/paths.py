@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from robocomp_yaml.patterns import pattern
+
 Step = str | int
-_PLAIN = re.compile(r"[A-Za-z0-9_-]+\Z")
-_STEP = re.compile(r"\[(?:(\d{1,9})|\"((?:[^\"\\]|\\.)*)\"|'([^']*)')\]|\.?([^.\[\]]+)")
-_ESCAPE = re.compile(r"%([0-9A-Fa-f]{2})")
+_PLAIN = pattern(r"[A-Za-z0-9_-]+\Z")
+_STEP = pattern(r"\[(?:(\d{1,9})|\"((?:[^\"\\]|\\.)*)\"|'([^']*)')\]|\.?([^.\[\]]+)")
+_ESCAPE = pattern(r"%([0-9A-Fa-f]{2})")
 
 
 def in_words(steps: Iterable[Step]) -> str:

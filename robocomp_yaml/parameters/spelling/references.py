@@ -7,15 +7,15 @@ gives it; what is written says it from the folder of the file that is written, f
 from __future__ import annotations
 
 import os
-import re
 from typing import Any
 
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.tree import Mapping, Node, Sequence
 
 ENV, FILE = "env", "file"
 KINDS = (ENV, FILE)
-_VARIABLE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
-_TEXT = re.compile(r"\$\{(?:env:([A-Za-z_][A-Za-z0-9_]*)|file:([^\r\n\0]+))\}\Z")
+_VARIABLE = pattern(r"[A-Za-z_][A-Za-z0-9_]*\Z")
+_TEXT = pattern(r"\$\{(?:env:([A-Za-z_][A-Za-z0-9_]*)|file:([^\r\n\0]+))\}\Z")
 
 
 def is_reference(data: object) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from in_memory import ROOT, pdsl, program, refused, said
-from robocomp_yaml.model.parameters import Member, RecordType, is_secret
+from robocomp_yaml.parameters.types import Member, RecordType, is_secret
 
 
 def parameters(flow: str, types: str = "", component: str = "") -> dict[str, Member]:
