@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
+from robocomp_yaml.digraph import inner_first
 from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
 from robocomp_yaml.emit.slice_literal import literal
 from robocomp_yaml.link.program import Definition, LinkedModule
@@ -51,19 +52,12 @@ def in_order(linked: LinkedModule) -> list[Definition]:
     and nothing uses them."""
     module = linked.module
     own: dict[str, Definition] = {d.name: d for d in (*module.constants, *module.types, *module.exceptions)}
-    done: dict[str, Definition] = {}
-    entered: set[str] = set()
-    todo = [(definition, False) for definition in reversed(own.values())]
-    while todo:  # without recursion: types may be nested a thousand deep
-        definition, ready = todo.pop()
-        if ready:
-            done[definition.name] = definition
-        elif definition.name not in entered:
-            entered.add(definition.name)
-            todo.append((definition, True))
-            found = [linked.find(ref) for ref in types_of(definition) if not ref.is_basic]
-            todo += [(other[1], False) for other in reversed(found) if other and other[0] is linked]
-    return [*done.values(), *module.all_interfaces]
+
+    def used(name: str) -> list[str]:
+        found = (linked.find(ref) for ref in types_of(own[name]) if not ref.is_basic)
+        return [other[1].name for other in found if other and other[0] is linked and other[1].name in own]
+
+    return [*(own[name] for name in inner_first(own, used)), *module.all_interfaces]
 
 
 class _File:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.digraph import inner_first
 from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.model.deployment import Deployment
 from robocomp_yaml.source.disk import Disk
@@ -20,9 +21,9 @@ def too_large(deployments: Mapping[str, Deployment], disk: Disk) -> dict[str, Di
     includes such a one."""
     sizes: dict[str, tuple[int, int]] = {}
     found: dict[str, Diagnostic | None] = {}
-    for real in _inner_first(deployments, disk):
-        model = deployments[real]
-        inner = [other for other in _includes(model, disk) if other in sizes]
+    included = {real: list(_includes(model, disk)) for real, model in deployments.items()}
+    for real in inner_first(deployments, lambda real: [other for other in included[real] if other in included]):
+        model, inner = deployments[real], [other for other in included[real] if other in sizes]
         size = sum(entry.instances or 1 for entry in model.entries) + sum(sizes[other][0] for other in inner)
         depth = 1 + max((sizes[other][1] for other in inner), default=0)
         sizes[real] = size, depth
@@ -42,17 +43,3 @@ def _includes(model: Deployment, disk: Disk) -> Iterator[str]:
         path = paths.include_at(model, include.text, disk)
         if path is not None:
             yield os.path.realpath(path)
-
-
-def _inner_first(deployments: Mapping[str, Deployment], disk: Disk) -> Iterator[str]:
-    """Each document behind those that it includes; an include that leads back is left out."""
-    entered: set[str] = set()
-    todo = [(real, False) for real in reversed(list(deployments))]
-    while todo:  # without recursion: a chain of includes may be long
-        real, left = todo.pop()
-        if left:
-            yield real
-        elif real not in entered and real in deployments:
-            entered.add(real)
-            todo.append((real, True))
-            todo += [(other, False) for other in dict.fromkeys(_includes(deployments[real], disk))]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from robocomp_yaml.digraph import inner_first
+
 
 def layers(nodes: Iterable[str], needs: Mapping[str, Sequence[str]]) -> dict[str, int]:
     """The layer of each node, 0 the topmost. A line that closes a circle counts for nothing. What needs nothing stands
@@ -26,17 +28,6 @@ def layers(nodes: Iterable[str], needs: Mapping[str, Sequence[str]]) -> dict[str
 def _depths(names: Sequence[str], needs: Mapping[str, Sequence[str]]) -> dict[str, int]:
     """How many others stand below each node, one below the other; found without recursion, for chains may be long."""
     depth: dict[str, int] = {}
-    open_: set[str] = set()
-    for start in names:
-        stack = [(start, False)]
-        while stack:
-            name, is_done = stack.pop()
-            if is_done:
-                below = [depth[other] for other in needs.get(name, ()) if other in depth]
-                depth[name] = 1 + max(below, default=-1)
-                open_.discard(name)
-            elif name not in depth and name not in open_:
-                open_.add(name)
-                stack.append((name, True))
-                stack += [(other, False) for other in needs.get(name, ()) if other not in depth and other not in open_]
+    for name in inner_first(names, lambda name: needs.get(name, ())):
+        depth[name] = 1 + max((depth[other] for other in needs.get(name, ()) if other in depth), default=-1)
     return depth
