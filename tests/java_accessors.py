@@ -19,7 +19,7 @@ class Program(CppProgram):
         (folder / "generated").mkdir()
         text = java_parameters.text(parameters, "Driver", "x.pdsl.yaml")
         (folder / "generated" / "Parameters.java").write_text(text, encoding="utf-8")
-        (folder / "generated" / "runtime").symlink_to(language("java").templates / "runtime")
+        (folder / "generated" / "runtime").symlink_to(Path(language("java").templates) / "runtime")
         jars = ":".join(map(str, Path("/usr/share/java").glob("ice*-3.7*.jar")))
         command = [
             "javac",

@@ -6,7 +6,6 @@ import json
 import os
 import re
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -222,15 +221,14 @@ class Values:
             raise Faulty(self._analysis.veiled(found), 1)
 
 
-def write_new(file: str, include: Sequence[str] = ()) -> Path:
+def write_new(file: str, include: Sequence[str] = ()) -> str:
     """Writes a first values document: `file` is that document, or what `which.component` knows a component by. Values
     and connections of the component's `etc/config` are taken over. Raises Refused and Faulty."""
     is_values = kind_of(file) == "config" or file.endswith(".config.yaml") or os.path.basename(file) == "config.yaml"
-    target = Path(file) if is_values else None
-    if target is not None and os.path.lexists(target):
-        raise Refused(f"{target} is there already, and stays as it is")
-    component = which.component(file) if target is None else which.component_near(file)
-    target = target or Path(component).parent / which.VALUES
+    if is_values and os.path.lexists(file):
+        raise Refused(f"{os.path.normpath(file)} is there already, and stays as it is")
+    component = which.component_near(file) if is_values else which.component(file)
+    target = os.path.normpath(file if is_values else os.path.join(os.path.dirname(component), which.VALUES))
     if os.path.lexists(target):
         raise Refused(f"{target} is there already, and stays as it is")
     analysis = analyse((component,), include)
@@ -243,8 +241,8 @@ def write_new(file: str, include: Sequence[str] = ()) -> Path:
     from robocomp_yaml.emit.first_values import first_values
 
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        whole_file.create(target, first_values(linked, component, str(target), ports(analysis)))
+        os.makedirs(os.path.dirname(target) or ".", exist_ok=True)
+        whole_file.create(target, first_values(linked, component, target, ports(analysis)))
     except OSError as error:
         raise Refused(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
     return target

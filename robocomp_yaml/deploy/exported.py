@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
-from pathlib import Path
 
 from robocomp_yaml.deploy import folder
 from robocomp_yaml.source.digest import digest
@@ -16,7 +16,7 @@ RECORD = ".rcyaml/exports.json"
 def in_the_way(output: str, files: Mapping[str, str]) -> list[str]:
     """The paths where something else stands than an export wrote. Raises OSError."""
     written = _record(output)
-    found = {path: _read(Path(output, path)) for path in files}
+    found = {path: _read(os.path.join(output, path)) for path in files}
     return [
         path
         for path, data in found.items()
@@ -35,13 +35,13 @@ def write(output: str, files: Mapping[str, str]) -> None:
 def _record(output: str) -> dict[str, str]:
     """Digests by path; without a record that can be read, nothing counts as ours."""
     try:
-        raw = json.loads(_read(Path(output, RECORD)) or b"{}")
+        raw = json.loads(_read(os.path.join(output, RECORD)) or b"{}")
     except (ValueError, RecursionError):
         return {}
     return raw if isinstance(raw, dict) else {}
 
 
-def _read(path: Path) -> bytes | None:
+def _read(path: str) -> bytes | None:
     try:
         with open(path, "rb", opener=regular) as file:
             return file.read()

@@ -11,7 +11,7 @@ from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedModule
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import text
 
 
 def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
@@ -40,10 +40,8 @@ def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
 def _differs(folder: str, linked: LinkedModule, texts: dict[LinkedModule, str]) -> bool:
     """`texts` remembers what was rendered for other components."""
     path = os.path.join(folder, "slice", slice_target.file_name(linked))
-    try:
-        with open(path, encoding="utf-8", errors="replace", opener=regular) as file:
-            found = file.read()
-    except OSError:
+    found = text(path)
+    if found is None:
         return False
     if linked not in texts:
         texts[linked] = slice_target.text(linked)

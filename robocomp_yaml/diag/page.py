@@ -105,7 +105,7 @@ def page(name: str) -> Page:
 
 def names() -> list[str]:
     """The names of all pages."""
-    return sorted(path.stem for path in resources.folder("diagnostics").glob("*.md"))
+    return [name.removesuffix(".md") for name in resources.names("diagnostics") if name.endswith(".md")]
 
 
 def _message(id_: str, text: str) -> str:

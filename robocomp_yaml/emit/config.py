@@ -13,7 +13,7 @@ from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.network.port_numbers import default_port
 from robocomp_yaml.source.ice_endpoint import IceEndpoint
 from robocomp_yaml.source.properties import entry_line, read, unquoted
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 DEFAULT_PERIOD = 100
@@ -73,11 +73,7 @@ def names(key: str) -> tuple[str, ...]:
 
 def standing(folder: str) -> dict[str, str]:
     """The properties of the `etc/config` in a component's folder; none where there is none."""
-    try:
-        with open(os.path.join(folder, CONFIG), encoding="utf-8", errors="replace", opener=regular) as file:
-            return dict(read(file.read()).values)
-    except OSError:
-        return {}
+    return dict(read(text(os.path.join(folder, CONFIG)) or "").values)
 
 
 def _others(linked: LinkedComponent, port: Port, table: Ports) -> list[tuple[LinkedComponent, str]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from functools import cache
 
 from robocomp_yaml.languages import language
@@ -14,7 +15,7 @@ def copied(name: str, folder: str, without: frozenset[str] = frozenset()) -> tup
     called as in `without`."""
     target = language(name)
     return tuple(
-        FilePlan(f"generated/{folder}/{file.name}", target.text(f"{folder}/{file.name}"))
-        for file in sorted((target.templates / folder).iterdir())
-        if file.is_file() and file.name not in without
+        FilePlan(f"generated/{folder}/{file}", target.text(f"{folder}/{file}"))
+        for file in sorted(os.listdir(os.path.join(target.templates, folder)))
+        if file not in without and os.path.isfile(os.path.join(target.templates, folder, file))
     )

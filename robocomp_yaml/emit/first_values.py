@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 from robocomp_yaml.emit import config
@@ -16,7 +15,7 @@ from robocomp_yaml.parameters.examples.new import Sections, new_document
 from robocomp_yaml.parameters.types import Parameters, RecordType
 from robocomp_yaml.parameters.writing.read import properties_to_values
 from robocomp_yaml.source.properties import read, unquoted
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions.manifest import BASE
 
 
@@ -26,9 +25,9 @@ def first_values(
     """`component` is the path of the CDSL (or PDSL), `target` that of the document to be; `table` gives the ports of a
     component's workspace."""
     folder = os.path.dirname(target) or "."
-    where = Path(os.path.relpath(component, folder)).as_posix()
-    schema = Path(os.path.relpath(os.path.join(os.path.dirname(component), "generated", "config.schema.json"), folder))
-    modeline = f"# yaml-language-server: $schema={schema.as_posix()}"
+    where = os.path.relpath(component, folder)
+    schema = os.path.relpath(os.path.join(os.path.dirname(component), "generated", "config.schema.json"), folder)
+    modeline = f"# yaml-language-server: $schema={schema}"
     sections: Sections = []
     values: dict[str, Any] = {}
     if linked.component is not None:
@@ -57,12 +56,8 @@ def _connections(linked: LinkedComponent, standing: Mapping[str, str], table: Po
 
 def _changed(folder: str, standing: Mapping[str, str], usual: str) -> dict[str, str]:
     """What of an `etc/config` is not as rcyaml wrote it: a user's."""
-    try:
-        with open(os.path.join(folder, BASE, CONFIG), encoding="utf-8", errors="replace", opener=regular) as file:
-            usual = file.read()
-    except OSError:
-        pass
-    written = read(usual).values
+    before = text(os.path.join(folder, BASE, CONFIG))
+    written = read(usual if before is None else before).values
     return {key: value for key, value in standing.items() if value and written.get(key) != value}
 
 

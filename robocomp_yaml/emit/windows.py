@@ -3,10 +3,27 @@ them, and the window's form."""
 
 from __future__ import annotations
 
-from robocomp_yaml.emit import form
+import msgspec
+
 from robocomp_yaml.emit.copied import copied
+from robocomp_yaml.emit.render import render
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
+
+PATH = "src/mainUI.ui"
+
+
+class View(msgspec.Struct, frozen=True):
+    """`base` is a class of Qt; `is_main` says that its widgets stand in a central one."""
+
+    base: str
+    title: str
+    is_main: bool
+
+
+def text(base: str, title: str) -> str:
+    return render("qt/mainUI.ui.j2", View(base, title, base == "QMainWindow"))
+
 
 _NONE: frozenset[str] = frozenset()
 
@@ -24,5 +41,5 @@ def files(
     if component.compatibility:
         plans += copied(name, "robocomp", _NONE if linked.machine else of_machines)
     if component.gui:
-        plans.append(FilePlan(form.PATH, form.text(component.gui.base, component.name), ONCE))
+        plans.append(FilePlan(PATH, text(component.gui.base, component.name), ONCE))
     return plans

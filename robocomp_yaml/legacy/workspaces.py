@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Iterable
-from pathlib import Path
 
 import msgspec
 
@@ -73,7 +72,7 @@ def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
 
 
 def modeline(document: str, root: str, kind: str) -> str:
-    return workspace_files.modeline(kind, Path(document), Path(root)) + "\n"
+    return workspace_files.modeline(kind, document, root) + "\n"
 
 
 def values_modeline(document: str, folder: str) -> str:

@@ -11,6 +11,7 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related, has_errors
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.digraph import reached
 from robocomp_yaml.link import component_references as references
 from robocomp_yaml.link.component_references import References
 from robocomp_yaml.link.documents import Document, Documents
@@ -295,15 +296,7 @@ class Attachments(msgspec.Struct):
         return self.tables.parameters.get(real)
 
     def _reaches(self, start: str, goal: str) -> bool:
-        todo, seen = [start], set()
-        while todo:
-            real = todo.pop()
-            if real == goal:
-                return True
-            if real not in seen:
-                seen.add(real)
-                todo += self._extends.get(real, ())
-        return False
+        return goal in reached([start], lambda real: self._extends.get(real, ()))
 
 
 def _is_compiled(document: Document) -> bool:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from robocomp_yaml.digraph import inner_first
 from robocomp_yaml.model.interface import (
     Constant,
     ExceptionType,
@@ -57,32 +58,14 @@ class LinkedModule(msgspec.Struct, frozen=True, eq=False):
     def _look_up(self, ref: TypeRef) -> tuple[LinkedModule, Definition] | None:
         qualifier = ref.module
         for scope in (self, *self.imports):
-            known_as = (
-                ("", scope.module.name, scope.module.stem)
-                if scope is self
-                else (
-                    scope.module.name,
-                    scope.module.stem,
-                )
-            )
+            known_as = (*([""] if scope is self else []), scope.module.name, scope.module.stem)
             if qualifier in known_as and ref.name in scope._own:
                 return scope, scope._own[ref.name]
         return None
 
     def closure(self) -> list[LinkedModule]:
         """This module and all that it imports, directly or not: imported ones first, each once."""
-        done: dict[LinkedModule, None] = {}
-        todo: list[tuple[LinkedModule, bool]] = [(self, False)]
-        entered: set[LinkedModule] = set()
-        while todo:  # without recursion: a chain of imports may be long
-            scope, left = todo.pop()
-            if left:
-                done[scope] = None
-            elif scope not in entered:
-                entered.add(scope)
-                todo.append((scope, True))
-                todo += [(imported, False) for imported in reversed(scope.imports)]
-        return list(done)
+        return list(inner_first([self], lambda scope: scope.imports))
 
 
 class Port(msgspec.Struct, frozen=True):

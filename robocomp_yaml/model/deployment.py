@@ -179,3 +179,8 @@ class Deployment(Located, frozen=True):
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
     span: Span = Span("")
+
+    @property
+    def all_includes(self) -> tuple[Text, ...]:
+        """Those of groups, too."""
+        return (*self.includes, *(group.include for group in self.groups if group.include))

@@ -20,6 +20,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import UNTAG, Edit, Fix, quoting, removal
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.digraph import reached
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source import syntax
 from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
@@ -59,6 +60,14 @@ class Node:
         start, end = self._start, self._end
         return Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
 
+    def get(self, key: str) -> Node | None:
+        """The value of a mapping's key; None where it is missing or null, and where this is no mapping."""
+        return None
+
+    def children(self) -> Iterable[Node]:
+        """The values of a mapping, the items of a sequence."""
+        return ()
+
 
 class Scalar(Node):
     """`lexeme` is the text as spelled, without quotes; `quoted` holds for every style but plain."""
@@ -82,12 +91,14 @@ class Mapping(Node):
         self.is_flow = bool(node.flow_style)
 
     def get(self, key: str) -> Node | None:
-        """The value of a key; None where it is missing or null."""
         entry = self.entries.get(key)
         return entry[1] if entry and entry[1].data is not None else None
 
     def items(self) -> Iterator[tuple[Scalar, Node]]:
         return iter(self.entries.values())
+
+    def children(self) -> Iterable[Node]:
+        return [value for _, value in self.entries.values()]
 
 
 class Sequence(Node):
@@ -97,6 +108,19 @@ class Sequence(Node):
         super().__init__(file, node, [item.data for item in items])
         self.items = items
         self.is_flow = bool(node.flow_style)
+
+    def children(self) -> Iterable[Node]:
+        return self.items
+
+
+def below(root: Node) -> Iterable[Node]:
+    """A node and all that stands in it, each once."""
+    return reached([root], lambda node: node.children())
+
+
+def pairs_below(root: Node) -> Iterator[tuple[Scalar, Node]]:
+    """The keys and values of all mappings in a node."""
+    return (pair for node in below(root) if isinstance(node, Mapping) for pair in node.items())
 
 
 def last_end(node: Mapping) -> int | None:

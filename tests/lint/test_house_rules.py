@@ -34,6 +34,15 @@ def test_modules_of_tests_have_names_of_their_own() -> None:
     assert [name for name, count in names.items() if count > 1] == []
 
 
+def test_paths_are_texts() -> None:
+    """One dialect: `os.path`, which tells what a link leads to from what its path says."""
+    for path in MODULES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+            assert "pathlib" not in names, f"{named(path)}:{node.lineno}: use os.path"
+
+
 SPEAKING = {
     *("click.echo", "click.secho", "click.style", "click.echo_via_pager", "click.confirm", "print"),
     *("sys.stdout.write", "sys.stderr.write", "sys.stdout.buffer.write", "sys.stderr.buffer.write"),

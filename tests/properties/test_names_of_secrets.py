@@ -79,7 +79,7 @@ WORDS = st.lists(
 
 def python_rule() -> ModuleType:
     module = ModuleType("secrecy")
-    source = (language("python").templates / "runtime" / "secrecy.py").read_text(encoding="utf-8")
+    source = (Path(language("python").templates) / "runtime" / "secrecy.py").read_text(encoding="utf-8")
     exec(compile(source, "secrecy.py", "exec"), module.__dict__)
     return module
 
@@ -108,7 +108,7 @@ def test_python_run_time_hides_the_same_in_urls(text: str) -> None:
 def asker(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A program that says of each line, between two signs, what C++ makes of it."""
     folder = tmp_path_factory.mktemp("secrecy")
-    runtime = language("cpp").templates / "runtime"
+    runtime = Path(language("cpp").templates) / "runtime"
     (folder / "main.cpp").write_text(
         f'#include "{runtime}/secrecy.cpp"\n#include <iostream>\nint main()\n{{\n'
         "    for (std::string line; std::getline(std::cin, line);)\n"

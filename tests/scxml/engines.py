@@ -31,8 +31,8 @@ class Trace:
 
 
 HERE = Path(__file__).resolve().parent
-PYTHON = language("python").templates / "machine"
-CPP = language("cpp").templates / "machine"
+PYTHON = Path(language("python").templates) / "machine"
+CPP = Path(language("cpp").templates) / "machine"
 _OF_WORKERS = {"reports.cpp", "worker.cpp"}  # they need Ice
 
 

@@ -5,20 +5,50 @@ The part that evaluates Python text is copied only where the machine's data mode
 
 from __future__ import annotations
 
+import json
 import re
+from dataclasses import MISSING, fields, is_dataclass
 
 import msgspec
 
 from robocomp_yaml.emit.copied import copied
 from robocomp_yaml.emit.machines import lower
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.languages.python import machine_text
 from robocomp_yaml.languages.python.names import python_name
 from robocomp_yaml.languages.python.text import docstring, one_line
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import PYTHON, State, StateMachine
 from robocomp_yaml.transactions.plan import FilePlan
+
+WIDTH = 110
+
+
+def text(table: object, indent: str = "") -> str:
+    """A call of the table's class, without what is as by default; long ones with one argument a line."""
+    if isinstance(table, tuple):
+        return _sequence([text(item, indent + "    ") for item in table], indent)
+    if isinstance(table, str):
+        return json.dumps(table, ensure_ascii=False)
+    if not is_dataclass(table):
+        return repr(table)
+    name = type(table).__name__
+    given = [f for f in fields(table) if f.default is MISSING or getattr(table, f.name) != f.default]
+    inner = indent + "    "
+    parts = [f"{f.name}={text(getattr(table, f.name), inner)}" for f in given]
+    line = f"{name}({', '.join(parts)})"
+    if "\n" not in line and len(indent) + len(line) <= WIDTH:
+        return line
+    return f"{name}(\n" + "".join(f"{inner}{part},\n" for part in parts) + f"{indent})"
+
+
+def _sequence(items: list[str], indent: str) -> str:
+    line = f"({', '.join(items)}{',' if len(items) == 1 else ''})"
+    if "\n" not in line and len(indent) + len(line) <= WIDTH:
+        return line
+    inner = indent + "    "
+    return "(\n" + "".join(f"{inner}{item},\n" for item in items) + f"{indent})"
+
 
 _SCRIPTING = "scripting.py"
 
@@ -77,7 +107,7 @@ def files(machine: StateMachine, component: str) -> list[FilePlan]:
 
 def tables(machine: StateMachine, component: str) -> str:
     """The module that holds the tables."""
-    literal = machine_text.text(lower.lower(machine))
+    literal = text(lower.lower(machine))
     return render(
         "python/statemachine.py.j2",
         TablesView(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable
-from pathlib import Path
 
 from lark import Token, Tree
 
@@ -14,7 +14,7 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
 from robocomp_yaml.legacy.draft import ComponentDraft, NamedMachine, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source import regular
 
 LISTS = ("implements", "requires", "publishes", "subscribesto")
 
@@ -63,15 +63,9 @@ class _Converter:
 
     def _has_code_of_robocomp(self) -> bool:
         """Whether the user's code beside the file was written against what RoboComp's own tool generates."""
-        folder = Path(self.reader.source.path).parent
-        for name, pattern in self.reader.rules.code.items():
-            try:
-                with open(folder / name, encoding="utf-8", errors="replace", opener=regular) as file:
-                    if re.search(pattern, file.read()):
-                        return True
-            except OSError:
-                continue  # it is not there, or it is none of our business
-        return False
+        folder = os.path.dirname(self.reader.source.path)
+        code = self.reader.rules.code.items()
+        return any(re.search(pattern, regular.text(os.path.join(folder, name)) or "") for name, pattern in code)
 
     def _once(self, clause: Tree[Token]) -> None:
         """A clause stands at most once; of two, nobody knows which one holds."""

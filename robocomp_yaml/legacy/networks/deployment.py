@@ -9,6 +9,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import managers as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.digraph import reached
 from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
 from robocomp_yaml.legacy.networks.components import Known, match
@@ -202,15 +203,8 @@ class _Builder(msgspec.Struct, eq=False):
 
     def is_in_circle(self, node: Node) -> bool:
         """Whether it waits, by way of others, for itself: a deployment passes over one of these dependences."""
-        todo, seen = list(self.waits.get(node.name, ())), set[str]()
-        while todo:
-            name = todo.pop()
-            if name == node.name:
-                return True
-            if name not in seen:
-                seen.add(name)
-                todo += self.waits.get(name, ())
-        return False
+        waits = self.waits
+        return node.name in reached(waits.get(node.name, ()), lambda name: waits.get(name, ()))
 
     def keep_dependences(self, node: Node) -> None:
         """The dependences as the file has them, where `after:` does not say the same."""
