@@ -24,6 +24,8 @@ from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type, is_secret, leaves
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import whole
@@ -32,14 +34,13 @@ from robocomp_yaml.source.tree import Node, Scalar, parse
 from robocomp_yaml.source.tree import Sequence as List
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
-from robocomp_yaml.values import paths, show
+from robocomp_yaml.values import show
 from robocomp_yaml.values.edit import NotEditable
 from robocomp_yaml.values.edit import set_value as edit
 from robocomp_yaml.values.effective import Effective, effective
 from robocomp_yaml.values.hidden import hidden
 from robocomp_yaml.values.judge import judge
 from robocomp_yaml.values.new import lines_above
-from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.show import Value
 
 # As `rcyaml config get` prints them; one that cannot be followed is refused, and no text that happens to look so.

@@ -15,7 +15,6 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.model import pattern
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.parameters import (
-    LIMITS,
     BasicType,
     Bound,
     EnumType,
@@ -28,6 +27,7 @@ from robocomp_yaml.model.parameters import (
     kind_in_words,
 )
 from robocomp_yaml.model.pdsl import Limits
+from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 Found = list[Diagnostic]

@@ -7,7 +7,7 @@ range's limits are compared before anything is narrowed.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -17,19 +17,25 @@ from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.located import Located
 from robocomp_yaml.model.pattern import Pattern
 from robocomp_yaml.model.pdsl import Spelling
+from robocomp_yaml.semantics.limits import (
+    INTEGERS,
+    LIMITS,
+    LIST,
+    MAP,
+    WORDS,
+    Number,
+    has_size,
+    holds,
+    one_of,
+    range_in_words,
+    record_in_words,
+    size_in_words,
+)
 from robocomp_yaml.source.tree import Node
 
 if TYPE_CHECKING:
     from robocomp_yaml.model.expression import Expression
 
-Number = int | float
-LIMITS: dict[str, tuple[Number, Number]] = {
-    "int": (-(2**31), 2**31 - 1),
-    "long": (-(2**63), 2**63 - 1),
-    "float": (-3.4028234663852886e38, 3.4028234663852886e38),
-    "double": (-1.7976931348623157e308, 1.7976931348623157e308),
-}
-INTEGERS = ("int", "long")
 BASIC_TYPES = ("bool", *LIMITS, "string")
 
 
@@ -47,20 +53,23 @@ class Range(Located, frozen=True):
     span: Span = Span("")
 
     def holds(self, value: Number) -> bool:
-        low, high = self.low, self.high
-        if low is not None and (value <= low.value if low.is_open else value < low.value):
-            return False
-        return high is None or not (value >= high.value if high.is_open else value > high.value)
+        return holds(value, **self.limits)
 
     @property
     def in_words(self) -> str:
         """`from 0 to 2`, `at least 0`, `above 0 and at most 5`."""
-        low, high = self.low, self.high
-        if low and high and not low.is_open and not high.is_open:
-            return f"from {low.lexeme} to {high.lexeme}"
-        parts = [f"{'above' if low.is_open else 'at least'} {low.lexeme}"] if low else []
-        parts += [f"{'below' if high.is_open else 'at most'} {high.lexeme}"] if high else []
-        return " and ".join(parts)
+        return range_in_words(**{name: bound.lexeme for name, bound in self._ends()})
+
+    @property
+    def limits(self) -> dict[str, Number]:
+        """Its ends by what code calls them: `at_least` and `at_most` may be reached, `above` and `below` not."""
+        return {name: bound.value for name, bound in self._ends()}
+
+    def _ends(self) -> Iterator[tuple[str, Bound]]:
+        if self.low is not None:
+            yield "above" if self.low.is_open else "at_least", self.low
+        if self.high is not None:
+            yield "below" if self.high.is_open else "at_most", self.high
 
 
 class Size(Located, frozen=True):
@@ -71,7 +80,7 @@ class Size(Located, frozen=True):
     span: Span = Span("")
 
     def holds(self, count: int) -> bool:
-        return self.least <= count and (self.most is None or count <= self.most)
+        return has_size(count, self.least, self.most)
 
     @property
     def is_any(self) -> bool:
@@ -79,11 +88,7 @@ class Size(Located, frozen=True):
 
     @property
     def in_words(self) -> str:
-        if self.most is None:
-            return f"at least {self.least}"
-        if self.least == self.most:
-            return f"exactly {self.least}"
-        return f"from {self.least} to {self.most}" if self.least else f"at most {self.most}"
+        return size_in_words(self.least, self.most)
 
 
 class BasicType(msgspec.Struct, frozen=True):
@@ -243,25 +248,16 @@ def leaves(record: RecordType, prefix: str = "") -> Iterator[tuple[str, Member]]
             yield path, member
 
 
-def one_of(values: Collection[str], secret: bool) -> str:
-    """Which values something may have, for messages: of a secret, only how many."""
-    return f"one of the {len(values)} values allowed" if secret else f"one of {', '.join(values)}"
-
-
 def kind_in_words(type_: Type) -> str:
     """What a value of a type is, for messages."""
     match type_:
-        case BasicType(name="bool"):
-            return "true or false"
-        case BasicType(name="string"):
-            return "text"
         case BasicType(name=name):
-            return "a whole number" if name in INTEGERS else "a number"
+            return WORDS[name]
         case EnumType(allowed=allowed, secret=secret):
             return one_of(allowed, secret)
         case ListType():
-            return "a list"
+            return LIST
         case MapType():
-            return "a mapping of names to values"
+            return MAP
         case _:
-            return f"a mapping of {', '.join(member.name for member in type_.members)}"
+            return record_in_words([member.name for member in type_.members])

@@ -8,7 +8,6 @@ from itertools import islice
 from typing import Any
 
 from robocomp_yaml.model.parameters import (
-    LIMITS,
     BasicType,
     EnumType,
     ListType,
@@ -19,6 +18,7 @@ from robocomp_yaml.model.parameters import (
     Type,
     is_secret,
 )
+from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.values.example_text import example_texts
 from robocomp_yaml.values.hidden import hidden
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from robocomp_yaml import secrets
 from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, RecordType, Type
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics.references import is_sound
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
-from robocomp_yaml.values import paths
-from robocomp_yaml.values.references import is_sound
 
 
 def holds_secret(type_: Type) -> bool:

@@ -15,7 +15,6 @@ import msgspec
 
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.parameters import (
-    LIMITS,
     BasicType,
     EnumType,
     ListType,
@@ -30,6 +29,7 @@ from robocomp_yaml.model.parameters import (
     kind_in_words,
     unit_of,
 )
+from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.source.schema import new_schema
 from robocomp_yaml.values.example import example, example_of
 from robocomp_yaml.values.hidden import hidden, holds_secret

@@ -13,7 +13,6 @@ from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, hint_for_key
 from robocomp_yaml.model.parameters import (
-    LIMITS,
     BasicType,
     EnumType,
     ListType,
@@ -24,13 +23,14 @@ from robocomp_yaml.model.parameters import (
     Type,
     is_secret,
     kind_in_words,
-    one_of,
 )
 from robocomp_yaml.secrets import HIDDEN, url
+from robocomp_yaml.semantics import references
+from robocomp_yaml.semantics.limits import beyond, entries, one_of
+from robocomp_yaml.semantics.paths import Step, in_words
 from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
-from robocomp_yaml.values import references
-from robocomp_yaml.values.paths import Step, in_words
+from robocomp_yaml.values.references import node_is_reference
 
 Path = tuple[Step, ...]
 
@@ -125,7 +125,7 @@ def _unit(type_: Type) -> str:
 
 
 def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
-    if references.node_is_reference(node):
+    if node_is_reference(node):
         yield from _reference(node, path)
     elif isinstance(node, Mapping | Sequence) or node.data is None:
         yield _wrong_type(type_, node, path, key)
@@ -202,13 +202,11 @@ def _number(type_: BasicType, value: int | float, node: Node, path: Path, key: S
         if all(value != allowed.value for allowed in type_.values):
             yield _not_allowed(type_, node, path, key)
         return
-    least, most = LIMITS[type_.name]
     unit = f" {type_.unit}" if type_.unit else ""
-    wanted = ""
     if type_.range and not type_.range.holds(value):
         wanted = f"{type_.range.in_words}{unit}"
-    elif not least <= value <= most:
-        wanted = f"from {least} to {most} ({type_.name})"
+    else:
+        wanted = beyond(type_.name, value)
     if wanted:
         lexeme = HIDDEN if type_.secret else node.lexeme if isinstance(node, Scalar) else str(value)
         yield _at(codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{_short(lexeme)}{unit}", wanted=wanted)
@@ -255,8 +253,8 @@ def wrong_size(
     type_: ListType | MapType, count: int, node: Node, path: Path, key: Scalar | None
 ) -> Iterator[Diagnostic]:
     if not type_.size.holds(count):
-        entries = f"{count} entr{'y' if count == 1 else 'ies'}"
-        yield _at(codes.WRONG_SIZE, node, key, path=in_words(path), count=entries, wanted=type_.size.in_words)
+        wanted = type_.size.in_words
+        yield _at(codes.WRONG_SIZE, node, key, path=in_words(path), count=entries(count), wanted=wanted)
 
 
 def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:

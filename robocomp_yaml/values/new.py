@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from robocomp_yaml.model.parameters import EnumType, Member, Parameters, RecordType
+from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.values.fitting import Fitted, fitted
 from robocomp_yaml.values.json_schema import in_words
-from robocomp_yaml.values.paths import Step
 from robocomp_yaml.values.spell_yaml import comment, flow, scalar
 
 Sections = list[tuple[str, list[tuple[str, str]]]]

@@ -21,7 +21,7 @@ from robocomp_yaml.model.parameters import (
     RecordType,
     Type,
 )
-from robocomp_yaml.values import references
+from robocomp_yaml.semantics.references import Unresolved, is_sound
 from robocomp_yaml.values.defaults import defaults
 from robocomp_yaml.values.json_schema import (
     COMPLETE,
@@ -142,13 +142,11 @@ _NOTHING = object()  # for null, which Cerberus would take for a wish for the de
 
 def with_references(type_: Type, data: Any) -> Any:
     """A reference, where a plain value stands, as an object of its own, so that Cerberus takes it for one."""
-    from robocomp_yaml.values.rules import Reference
-
     if data is None:
         return _NOTHING
     match type_:
         case BasicType() | EnumType():
-            return Reference(dict(data)) if references.is_sound(data) else data
+            return Unresolved(dict(data)) if is_sound(data) else data
         case ListType(element=element) if isinstance(data, list):
             return [with_references(element, item) for item in data]
         case MapType(element=element) if isinstance(data, dict):
@@ -162,9 +160,7 @@ def with_references(type_: Type, data: Any) -> Any:
 
 def as_data(type_: Type, data: Any) -> Any:
     """What Cerberus made as plain data: references as `{"env": NAME}`, say; members in the order of their type."""
-    from robocomp_yaml.values.rules import Reference
-
-    if isinstance(data, Reference):
+    if isinstance(data, Unresolved):
         return dict(data.data)
     match type_:
         case ListType(element=element) if isinstance(data, list):

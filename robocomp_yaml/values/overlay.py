@@ -8,8 +8,8 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.model.parameters import ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.semantics import paths
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, mapping_at, sequence_at, text_at
-from robocomp_yaml.values import paths
 from robocomp_yaml.values.layers import Place
 
 Entries = dict[str, tuple[Scalar, Node]]

@@ -19,11 +19,11 @@ from robocomp_yaml.model.parameters import (
     unit_of,
 )
 from robocomp_yaml.secrets import HIDDEN
+from robocomp_yaml.semantics.paths import Step, in_words
 from robocomp_yaml.source.tree import Node, Scalar, parse
 from robocomp_yaml.values.effective import Effective
 from robocomp_yaml.values.hidden import hidden, holds_secret
 from robocomp_yaml.values.layers import Place, child
-from robocomp_yaml.values.paths import Step, in_words
 from robocomp_yaml.values.spell_yaml import flow
 from robocomp_yaml.values.write import Path, Where, node_of, step
 

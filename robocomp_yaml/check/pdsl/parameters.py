@@ -14,11 +14,11 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.expression_types import is_sound
 from robocomp_yaml.model.names import is_identifier
 from robocomp_yaml.model.parameters import Member, Parameters, RecordType
+from robocomp_yaml.semantics.references import is_reference
 from robocomp_yaml.source.tree import Mapping, Node, Sequence
 from robocomp_yaml.values import evaluate
 from robocomp_yaml.values.defaults import defaults
 from robocomp_yaml.values.judge import Path, judge
-from robocomp_yaml.values.references import is_reference
 
 Languages = tuple[TargetLanguage, ...]
 

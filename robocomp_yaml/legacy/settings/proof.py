@@ -24,12 +24,12 @@ from robocomp_yaml.link.parameters import resolve
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model import build_parameters
 from robocomp_yaml.model.pdsl import ValuesDocument
+from robocomp_yaml.semantics.paths import in_words
 from robocomp_yaml.source import schema, tree
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as Mapping_
 from robocomp_yaml.source.tree import Node
 from robocomp_yaml.source.tree import Sequence as Sequence_
-from robocomp_yaml.values.paths import in_words
 
 
 def proven(planned: Sequence[Plan], configs: Sequence[Config], links: Mapping[str, Links]) -> list[Plan]:
