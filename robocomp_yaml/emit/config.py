@@ -11,8 +11,9 @@ from robocomp_yaml.emit.ports import Ports, interface_key
 from robocomp_yaml.emit.specific.entries import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.network.port_numbers import default_port
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import IceEndpoint
-from robocomp_yaml.source.properties import entry_line, read, unquoted
+from robocomp_yaml.source.properties import entry_line, read
 from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 

@@ -7,6 +7,7 @@ import msgspec
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import LinkedValues
 from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, given
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
@@ -51,7 +52,7 @@ class Base(msgspec.Struct):
         return f"{prefix}/{name}" if prefix else name
 
     def first(self, *keys: str) -> str:
-        return next((properties.unquoted(text) for key in keys if (text := self.properties.get(key))), "")
+        return next((unquoted(text) for key in keys if (text := self.properties.get(key))), "")
 
     def proxy_key(self, name: str) -> Scalar | None:
         """The property that a proxy has instead of its usual one."""
@@ -71,4 +72,4 @@ def base_of(instance: LinkedInstance, disk: Disk) -> Base:
 
 
 def _text(node: Node | None) -> str:
-    return properties.unquoted(node.lexeme) if isinstance(node, Scalar) else ""
+    return unquoted(node.lexeme) if isinstance(node, Scalar) else ""

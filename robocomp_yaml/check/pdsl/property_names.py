@@ -8,8 +8,9 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Program
-from robocomp_yaml.parameters.spelling.templates import exact_keys, row_templates
+from robocomp_yaml.parameters.spelling.templates import exact_keys, row_keys
 from robocomp_yaml.parameters.types import BasicType, EnumType, leaves
+from robocomp_yaml.semantics.spellings import pattern
 
 _ICE = (
     "Ice",
@@ -68,14 +69,14 @@ def _among_themselves(linked: LinkedParameters, places: dict[str, Span]) -> Iter
         other = keys.setdefault(key, path)
         if other != path:
             yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=key)
-    templates: dict[str, str] = {}
-    for path, template in row_templates(linked.parameters):
-        other = templates.setdefault(template.text, path)
+    rows: dict[str, str] = {}
+    for path, row in row_keys(linked.parameters):
+        other = rows.setdefault(row, path)
         if other != path:
-            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=template.text)
-        pattern = template.pattern()
+            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=row)
+        in_row = pattern(row)
         for key, owner in keys.items():
-            if owner != path and pattern.match(key):
+            if owner != path and in_row.match(key):
                 yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{owner}'", property=key)
 
 

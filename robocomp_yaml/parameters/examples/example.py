@@ -18,6 +18,7 @@ from robocomp_yaml.parameters.types import (
     Type,
     is_secret,
 )
+from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.parameters.patterns.example_text import example_texts
 from robocomp_yaml.parameters.hidden import hidden
 

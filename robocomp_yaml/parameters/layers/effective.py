@@ -16,8 +16,9 @@ from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
 from robocomp_yaml.parameters.schema.gate import fits
 from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE
 from robocomp_yaml.parameters.types import MapType, Parameters, RecordType, Type
-from robocomp_yaml.parameters.verdict.judge import Path, judge, missing, wrong_size
+from robocomp_yaml.parameters.verdict.judge import judge, missing, wrong_size
 from robocomp_yaml.parameters.verdict.specification import is_usable
+from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source.tree import Mapping
 
 

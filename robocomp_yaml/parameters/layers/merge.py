@@ -10,8 +10,10 @@ from typing import Any
 
 import msgspec
 
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
+from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
@@ -27,6 +29,8 @@ class Place(msgspec.Struct):
 
 
 Given = tuple[Scalar | None, Node]
+Where = Place | Node | None
+"""Where a value stands, if anywhere: among merged ones, or inside of one that is not merged."""
 
 
 def merged(values: LayeredValues) -> Place | None:
@@ -111,10 +115,34 @@ def _without_null(data: Any, type_: Type) -> Any:
     return data
 
 
-def child(node: Node | None, step: str | int) -> Given | None:
+def child(node: Node | None, name: Step) -> Given | None:
     """Key and node one step further down."""
-    if isinstance(node, Mapping) and isinstance(step, str):
-        return node.entries.get(step)
-    if isinstance(node, Sequence) and isinstance(step, int) and step < len(node.items):
-        return None, node.items[step]
+    if isinstance(node, Mapping) and isinstance(name, str):
+        return node.entries.get(name)
+    if isinstance(node, Sequence) and isinstance(name, int) and name < len(node.items):
+        return None, node.items[name]
     return None
+
+
+def step(where: Where, name: Step) -> Where:
+    """One step further down: the merged entry, or the node."""
+    if isinstance(where, Place):
+        if where.entries is not None:
+            return where.entries.get(name) if isinstance(name, str) else None
+        where = where.node
+    found = child(where, name)
+    return None if found is None or found[1].data is None else found[1]
+
+
+def node_of(where: Where) -> Node | None:
+    return where.node if isinstance(where, Place) else where
+
+
+def span_of(where: Where) -> Span | None:
+    """A value's place; its key's where it fills many lines."""
+    node = node_of(where)
+    if node is None:
+        return None
+    span = node.span
+    key = where.key if isinstance(where, Place) else None
+    return key.span if key is not None and span.line != span.end_line else span

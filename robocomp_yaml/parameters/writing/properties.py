@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 
 import msgspec
@@ -17,11 +16,12 @@ from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.parameters.writing.write import Property, Writer
-from robocomp_yaml.source.properties import unquoted, unwritable
+from robocomp_yaml.semantics.spellings import quotes_texts
+from robocomp_yaml.semantics.texts import unquoted
+from robocomp_yaml.source.properties import unwritable
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
-_OF_TOML = re.compile(r"(?:Endpoints|Period|Agent)\.|Proxies\.(?!.*Prefix$)")  # as in the components' run time
 _OF_PORTS = ("endpoints", "proxies", "topics")
 
 
@@ -89,7 +89,7 @@ def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:
     spelled = [key for each in parameters.spellings for key in (each.key, each.count, *(key for _, key in each.fields))]
     own = [f"{member.name}." for member in parameters.root.members]
     others = [made.key for section in sections for made in section.properties]
-    return any(_OF_TOML.match(key) for key in (*spelled, *own, *others))
+    return quotes_texts((*spelled, *own, *others))
 
 
 def secret_keys(sections: list[Section]) -> tuple[str, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
 
 
@@ -38,7 +39,7 @@ def test_escapes_and_comments() -> None:
     ],
 )
 def test_quotes_of_flat_toml(value: str, bare: str) -> None:
-    assert properties.unquoted(value) == bare
+    assert unquoted(value) == bare
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import Ice
 from generated.runtime.errors import StartError
+from generated.runtime.semantics.texts import unquoted
 
 
 class Settings:
@@ -119,12 +120,6 @@ def _check_text(file: Path) -> None:
             line.partition(b"#")[0].decode("utf-8")
         except UnicodeDecodeError:
             raise StartError(f"{shown(file)}:{number}: this line is not in UTF-8") from None
-
-
-def unquoted(value: str) -> str:
-    """Without the double quotes around it that TOML wants and Ice does not know."""
-    quoted = len(value) > 1 and value[0] == value[-1] == '"' and '"' not in value[1:-1]
-    return value[1:-1] if quoted else value
 
 
 def shown(file: Path) -> str:

@@ -1,16 +1,18 @@
+# Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
 """Paths of values: `motors[0].vel` for people, `motors.0.vel` for properties and command lines."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from typing import Union
 
-from robocomp_yaml.patterns import pattern
+Step = Union[str, int]
+Path = tuple[Step, ...]
 
-Step = str | int
-_PLAIN = pattern(r"[A-Za-z0-9_-]+\Z")
-_STEP = pattern(r"\[(?:(\d{1,9})|\"((?:[^\"\\]|\\.)*)\"|'([^']*)')\]|\.?([^.\[\]]+)")
-_ESCAPE = pattern(r"%([0-9A-Fa-f]{2})")
+_PLAIN = r"[A-Za-z0-9_-]+\Z"
+_STEP = r"\[(?:(\d{1,9})|\"((?:[^\"\\]|\\.)*)\"|'([^']*)')\]|\.?([^.\[\]]+)"
+_ESCAPE = r"%([0-9A-Fa-f]{2})"
 
 
 def in_words(steps: Iterable[Step]) -> str:
@@ -19,7 +21,7 @@ def in_words(steps: Iterable[Step]) -> str:
     for step in steps:
         if isinstance(step, int):
             out += f"[{step}]"
-        elif _PLAIN.match(step):
+        elif re.match(_PLAIN, step):
             out += f".{step}" if out else step
         else:
             quoted = step.replace("\\", "\\\\").replace('"', '\\"')
@@ -27,14 +29,19 @@ def in_words(steps: Iterable[Step]) -> str:
     return out
 
 
-def parse(text: str) -> list[str] | None:
-    """The steps of a path in either spelling, all as text; None for what is no path."""
+def dotted(steps: Iterable[Step]) -> str:
+    """`motors.0.vel`."""
+    return ".".join(str(step) if isinstance(step, int) else escaped(step) for step in steps)
+
+
+def parse(text: str) -> list[str]:
+    """The steps of a path in either spelling, all as text; none for what is no path."""
     steps: list[str] = []
     at = 0
     while at < len(text):
-        found = _STEP.match(text, at)
+        found = re.compile(_STEP).match(text, at)
         if found is None or (found[4] is not None and (text[at] == ".") != bool(steps)):
-            return None
+            return []
         number, double, single, name = found.groups()
         if name is not None:
             steps.append(unescaped(name))
@@ -43,7 +50,7 @@ def parse(text: str) -> list[str] | None:
         else:
             steps.append(single if double is None else re.sub(r"\\(.)", r"\1", double))
         at = found.end()
-    return steps or None
+    return steps
 
 
 def escaped(key: str) -> str:
@@ -72,7 +79,7 @@ def unescaped(segment: str) -> str:
         return segment
     raw = bytearray()
     at = 0
-    for found in _ESCAPE.finditer(segment):
+    for found in re.finditer(_ESCAPE, segment):
         raw += segment[at : found.start()].encode("utf-8", "surrogatepass")
         raw.append(int(found[1], 16))
         at = found.end()
