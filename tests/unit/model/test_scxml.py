@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 
-import msgspec
 import pytest
 
-from in_memory import ROOT, analysed, said, text_at
-from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.statemachine import Text
+from in_memory import ROOT, analysed, outline, said
 
 CDSL = "component: Door\nlanguage: python\nstatemachine: door.scxml\n"
 
@@ -125,30 +122,7 @@ FILES = {
 }
 
 
-def outline(name: str, it: object, depth: int = 0) -> Iterator[str]:
-    """A part of a machine as lines; a text that does not stand at its place, and an element that has none, say so."""
-    indent = "  " * depth
-    if isinstance(it, Text):
-        here = text_at(SCXML, it.span)
-        yield f"{indent}{name}: {it.text!r}" + ("" if here.strip() == it.text else f" at {here!r}")
-    elif isinstance(it, tuple):
-        for one in it:
-            yield from outline(name, one, depth)
-        if name == "entry":
-            yield f"{indent}{name}: {len(it)} blocks"
-    elif isinstance(it, msgspec.Struct):
-        fields = {one: getattr(it, one) for one in it.__struct_fields__ if one != "path"}
-        span = fields.pop("span", Span(""))
-        at = text_at(SCXML, span) if span.file == f"{ROOT}/door.scxml" else ""
-        yield f"{indent}{name}: {type(it).__name__} at {at!r}"
-        for one, value in fields.items():
-            if not isinstance(value, Span) and value not in ("", None, False, ()):
-                yield from outline(one, value, depth + 1)
-    else:
-        yield f"{indent}{name}: {it!r}"
-
-
 def test_what_a_machine_comes_to(golden: Callable[[str, Mapping[str, str]], None]) -> None:
     program = analysed(FILES).program
     machine = program.components[f"{ROOT}/door.cdsl.yaml"].machine
-    golden("machine", {"door.txt": "\n".join(outline("machine", machine)) + "\n"})
+    golden("read/scxml", {"machine.txt": "\n".join(outline("machine", machine, FILES)) + "\n"})
