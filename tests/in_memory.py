@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
+
+import msgspec
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.pipeline import Analysis, analyse
+from robocomp_yaml.source.tree import Node
 
 ROOT = "/in-memory"
 COMPONENT = "component: C\nlanguage: python\n"
@@ -65,6 +68,31 @@ def text_at(text: str, span: Span) -> str:
     lines[-1] = lines[-1][: span.end_column - 1]
     lines[0] = lines[0][span.column - 1 :]
     return "\n".join(lines)
+
+
+def outline(name: str, it: object, documents: Mapping[str, str], depth: int = 0) -> Iterator[str]:
+    """What a document was read as, in lines: each part with the text to which its spans point, where they say more."""
+    indent = "  " * depth
+    if isinstance(it, tuple | list) and any(isinstance(one, tuple | list | msgspec.Struct) for one in it):
+        for one in it:
+            yield from outline(name, one, documents, depth)
+    elif isinstance(it, Span):
+        yield f"{indent}{name}: at `{_short(_at(it, documents)[1])}`"
+    elif isinstance(it, msgspec.Struct):
+        fields = {one: getattr(it, one) for one in it.__struct_fields__ if one != "path"}
+        places = {one: _at(fields.pop(one), documents)[1] for one in list(fields) if isinstance(fields[one], Span)}
+        shown = "".join(f", {one} at `{_short(text)}`" for one, text in places.items() if text)
+        yield f"{indent}{name}: {type(it).__name__}{shown}"
+        for one, value in fields.items():
+            if value is not None and value is not False and value not in ("", (), {}):
+                yield from outline(one, value, documents, depth + 1)
+    else:
+        yield f"{indent}{name}: {_short(str(it.data)) if isinstance(it, Node) else repr(it)}"
+
+
+def _short(text: str) -> str:
+    text = " ".join(text.split())
+    return text if len(text) < 60 else f"{text[:50]} …"
 
 
 # Parameters

@@ -67,7 +67,7 @@ class DeploymentDocuments(msgspec.Struct):
     def _component(self, model: Deployment, target: Text) -> str | None:
         found = paths.components_at(model, target.text, self.documents.disk)
         if len(found) > 1:
-            names = " or ".join(os.path.basename(path) for path in found)
+            names = " or ".join(os.path.join(target.text, os.path.basename(path)) for path in found)
             self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
         elif not found:
             path = paths.joined(paths.folder_of(model), target.text)

@@ -23,6 +23,8 @@ _COMMENT = pattern(r"(?:(?<=[ \t])|(?<![^\r\n]))#[ \t]*rcyaml(?:[ \t]*:|(?=[ \t]
 _PARTS = pattern(r"#[ \t]*rcyaml(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?")
 _WORD = pattern(r"[^\s,]+")
 _CODE = pattern(r"(?i:RC\d{4})|[A-Z]{2,}\d{3,4}")
+GUESSED = "guessed"
+"""The word that `migrate` writes where it guessed, `# rcyaml: guessed`: a mark for readers, which allows nothing."""
 _FORM = "write `# rcyaml: allow RC1234 -- reason`"
 _EMPTY_LINE = pattern(r"[ \t]*(?:#.*|---[ \t]*(?:#.*)?|%.*)?")
 
@@ -70,6 +72,8 @@ def allowances(
     texts = [node for node in (*below(text.tree), *keys) if _is_long(node)]
     for comment in _COMMENT.finditer(text.text):
         if any(node.start <= comment.start() < node.end for node in texts if isinstance(node, Scalar)):
+            continue
+        if re.fullmatch(rf"#[ \t]*rcyaml[ \t]*:[ \t]*{GUESSED}\s*", comment[0]):
             continue
         made, wrong = _read(text, comment, more)
         first, last = _lines(text, comment, texts)

@@ -10,8 +10,9 @@ from robocomp_yaml.legacy.settings.entries import STRING
 from robocomp_yaml.legacy.settings.headers import free
 from robocomp_yaml.legacy.settings.plan import Path, Plan, Spelled
 from robocomp_yaml.legacy.settings.shapes import Field, ListOf, Record, Scalar, Shape, leaves
+from robocomp_yaml.source.allowances import GUESSED
 
-MARK = "rcyaml: guessed"
+MARK = f"rcyaml: {GUESSED}"
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 
 

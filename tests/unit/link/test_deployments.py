@@ -281,19 +281,3 @@ def test_what_is_set_completes_a_configuration(link: Link, tmp_path: Path) -> No
         "other/some.config.yaml": "component: other.cdsl.yaml\nparameters: {number: 5}\n",
     })  # fmt: skip
     link("components:\n  a: {component: other, config: some.config.yaml, set: {id: x}}\n")
-
-
-@pytest.mark.parametrize(
-    "documents",
-    [
-        {f"l{n}": f"deployment: L{n}\ninclude: {{a: l{n + 1}.ddsl.yaml, b: l{n + 1}.ddsl.yaml}}\n" for n in range(40)},
-        {f"l{n}": f"deployment: L{n}\ninclude: [l{n + 1}.ddsl.yaml]\n" for n in range(1500)},
-    ],
-    ids=["by two", "one by one"],
-)
-def test_includes_that_grow_without_end_are_refused(tmp_path: Path, documents: dict[str, str]) -> None:
-    last = "deployment: Last\ncomponents:\n  x{i}: {program: sleep, instances: 3}\n"
-    files = {f"{name}.ddsl.yaml": text for name, text in documents.items()}
-    write_tree(tmp_path, {**files, f"l{len(documents)}.ddsl.yaml": last})
-    said = analyse([str(tmp_path / "l0.ddsl.yaml")]).diagnostics
-    assert [d.code for d in said] == ["RC4108"]
