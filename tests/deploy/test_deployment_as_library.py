@@ -22,7 +22,9 @@ components:
   lamp: {program: sleep, args: ["600"]}
 groups: {both: {components: [left, right]}}
 """
-BROKEN = LEGS.replace("groups:", "  knee: {program: sh, args: [-c, 'echo it hurts; exit 4'], after: [right], restart: \"no\"}\ngroups:")
+BROKEN = LEGS.replace(
+    "groups:", "  knee: {program: sh, args: [-c, 'echo it hurts; exit 4'], after: [right], restart: \"no\"}\ngroups:"
+)
 
 
 @pytest.fixture
