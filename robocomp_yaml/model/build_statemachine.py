@@ -30,6 +30,7 @@ from robocomp_yaml.model.statemachine import (
     Text,
     Transition,
     Value,
+    numbered,
     walk,
     words,
 )
@@ -54,7 +55,7 @@ def build(node: Mapping, name: str, path: str) -> StateMachine:
     """The machine under `statemachine:` of the component `name`."""
     names = _Names()
     _collect(node, names)
-    root = _state("", node, STATE, node.span, names)
+    root = numbered(_state("", node, STATE, node.span, names))
     known = {state.id for state in walk(root.states)}
     return StateMachine(
         name,

@@ -122,12 +122,12 @@ def _composed_with_stand_ins(path: str, text: str) -> Node | None:
 
 def _nodes(root: Node | None) -> Iterator[Node]:
     """A node and all below it, each once."""
-    todo, seen = [root] if root is not None else [], set()
+    todo, seen = [root] if root is not None else [], set[Node]()
     while todo:
         node = todo.pop()
-        if id(node) in seen:
+        if node in seen:
             continue
-        seen.add(id(node))
+        seen.add(node)
         yield node
         if isinstance(node, MappingNode):
             todo += [part for pair in node.value for part in pair]

@@ -192,13 +192,13 @@ class _Builder:
         self.has_anchors = "&" in text
         self.last = None if text.endswith("\n") else _last_mark(text)  # libyaml's blocks end in the line behind it
         self.diagnostics: list[Diagnostic] = []
-        self.known: dict[int, tuple[Node, int]] = {}  # by composed node: ours, and its size with aliases expanded
-        self.open: set[int] = set()
+        self.known: dict[YamlNode, tuple[Node, int]] = {}  # by composed node: ours, and its size with aliases expanded
+        self.open: set[YamlNode] = set()
         self.size = 0
         self.aliased = 0
 
     def build(self, node: YamlNode) -> Node:
-        known = self.known.get(id(node))
+        known = self.known.get(node)
         if known is not None:
             self._alias(node, known[1])
             return known[0]
@@ -208,21 +208,21 @@ class _Builder:
         self.size += 1
         if isinstance(node, ScalarNode):
             built: Node = self._scalar(node)
-        elif id(node) in self.open:
+        elif node in self.open:
             self._say(codes.ALIASES, node, problem="an alias stands inside of what it repeats")
             return Scalar(self.path, ScalarNode(None, "", node.start_mark, node.end_mark), None)
         else:
-            self.open.add(id(node))
+            self.open.add(node)
             built = (
                 self._mapping(node)
                 if isinstance(node, MappingNode)
                 else Sequence(self.path, cast("SequenceNode", node), [self.build(item) for item in node.value])
             )
-            self.open.discard(id(node))
+            self.open.discard(node)
         if self.last is not None and built._end.line > self.last.line:
             built._end = self.last
         if self.has_anchors:  # the composer does not say which nodes have one
-            self.known[id(node)] = (built, self.size - before)
+            self.known[node] = (built, self.size - before)
         return built
 
     def _alias(self, node: YamlNode, size: int) -> None:

@@ -65,6 +65,14 @@ def test_text_meets_a_terminal_in_one_place() -> None:
                     assert is_ours, f"{named(path)}:{node.lineno}: what is asked is a text of ours"
 
 
+def test_nothing_is_kept_by_the_address_of_an_object() -> None:
+    """Another object has it as soon as the first is gone. What has no name of its own gets a number."""
+    for path in MODULES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call):
+                assert ast.unparse(node.func) != "id", f"{named(path)}:{node.lineno}: `id()`"
+
+
 # What these read is the project's own, has been looked at, or was named by the user.
 READING_OTHERWISE = {"legacy/settings/corrections.py", "link/options.py"}
 

@@ -42,14 +42,14 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
         for target in transition.targets
     ):
         return
-    targets = {index.number(target) for _, transition in index.transitions() for target in index.targets(transition)}
+    targets = {target.number for _, transition in index.transitions() for target in index.targets(transition)}
     reached: set[int] = set()
     todo = [index.machine.root]
     while todo:
         state = todo.pop()
-        if index.number(state) in reached:
+        if state.number in reached:
             continue
-        reached.add(index.number(state))
+        reached.add(state.number)
         if state.kind == HISTORY:
             around = index.ancestors(state)[:1]
             todo += index.targets(state.initial) if state.initial else index.defaults(around[0])
@@ -59,13 +59,13 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
         for parent in around:
             if parent.kind == PARALLEL:
                 todo += index.defaults(parent)
-        if index.number(state) in targets or not any(index.number(child) in reached for child in state.states):
+        if state.number in targets or not any(child.number in reached for child in state.states):
             todo += index.defaults(state)  # it is not only entered because a state in it is
         for transition in state.transitions:
             todo += index.targets(transition)
     for state in index.machine.states:
-        lost = index.number(state) not in reached
-        if lost and state.kind != HISTORY and all(index.number(one) in reached for one in index.ancestors(state)[:1]):
+        lost = state.number not in reached
+        if lost and state.kind != HISTORY and all(one.number in reached for one in index.ancestors(state)[:1]):
             yield codes.UNREACHABLE.at(state.span, id=state.id or "(without a name)")
 
 
@@ -75,13 +75,13 @@ def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
     for start in index.machine.states:
         path: dict[int, State] = {}
         state: State | None = start
-        while state is not None and index.number(state) not in seen:
-            seen.add(index.number(state))
-            path[index.number(state)] = state
+        while state is not None and state.number not in seen:
+            seen.add(state.number)
+            path[state.number] = state
             state = _at_once(index, state)
-        if state is not None and index.number(state) in path:
+        if state is not None and state.number in path:
             members = list(path.values())
-            circle = members[list(path).index(index.number(state)) :]
+            circle = members[list(path).index(state.number) :]
             place = next(t.span for s in _sources(index, state) for t in s.transitions if not t.events)
             names = " → ".join(member.id or "(without a name)" for member in (*circle, state))
             yield codes.ENDLESS.at(place, circle=names, hint="give one of the transitions an event or a condition")
