@@ -6,7 +6,7 @@ Short mappings and lists stand on one line, in flow style; what is longer, or ho
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import msgspec
 
@@ -40,6 +40,9 @@ class Raw(msgspec.Struct, frozen=True):
     lexeme: str
 
 
+TRUE = Raw("true")
+
+
 class Name(msgspec.Struct):
     """The name of something, which may turn out to be spelled in another way."""
 
@@ -64,10 +67,19 @@ class Map(msgspec.Struct):
         self.entries.append(entry)
         return entry
 
+    def put_some(self, key: str, value: Value, notes: Notes | None = None) -> None:
+        """As `put`, but for what says nothing: None, an empty text, what has no entries."""
+        if value.entries if isinstance(value, Map) else value.items if isinstance(value, List) else value:
+            self.put(key, value, notes)
+
 
 class List(msgspec.Struct):
     items: list[Entry] = []
     block: bool = False
+
+    @classmethod
+    def of(cls, values: Iterable[Value]) -> List:
+        return cls([Entry("", value) for value in values])
 
     def put(self, value: Value, notes: Notes | None = None) -> Entry:
         entry = Entry("", value, notes or Notes())
