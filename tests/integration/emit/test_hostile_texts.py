@@ -21,9 +21,9 @@ from ruamel.yaml import YAML
 from conftest import write_tree
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.emit import exports
-from robocomp_yaml.emit.exports._xml import _name
 from robocomp_yaml.emit.graphs import of_network
 from robocomp_yaml.emit.graphs.forms import draw
+from robocomp_yaml.emit.xml_text import _name
 from robocomp_yaml.network.network import Network
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import properties
