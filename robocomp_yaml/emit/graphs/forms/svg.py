@@ -172,4 +172,4 @@ def _place(block: Block) -> str:
 
 def _text(text: str) -> str:
     """A text as XML's; what XML cannot hold is left out."""
-    return escape(IMPOSSIBLE.sub("", text))
+    return escape(IMPOSSIBLE.sub("", text.replace("\r", "")))
