@@ -9,7 +9,7 @@ from unittest import mock
 
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.python import parameters as python_parameters
-from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.parameters.types import Parameters
 
 _LAST: list[Any] = []  # the parameters and the module that were asked for last
 

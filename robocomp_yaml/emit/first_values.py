@@ -11,12 +11,12 @@ from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
-from robocomp_yaml.model.parameters import Parameters, RecordType
+from robocomp_yaml.parameters.examples.new import Sections, new_document
+from robocomp_yaml.parameters.types import Parameters, RecordType
+from robocomp_yaml.parameters.writing.read import properties_to_values
 from robocomp_yaml.source.properties import read, unquoted
 from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions.manifest import BASE
-from robocomp_yaml.values.new import Sections, new_document
-from robocomp_yaml.values.read import properties_to_values
 
 
 def first_values(

@@ -8,8 +8,8 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Program
-from robocomp_yaml.model.parameters import BasicType, EnumType, leaves
-from robocomp_yaml.values.spelling import exact_keys, row_templates
+from robocomp_yaml.parameters.spelling.templates import exact_keys, row_templates
+from robocomp_yaml.parameters.types import BasicType, EnumType, leaves
 
 _ICE = (
     "Ice",

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, Member, RecordType, Size, Type
-from robocomp_yaml.model.pdsl import Spelling
+from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Size, Type
 
 
 class Builders(msgspec.Struct, frozen=True):
