@@ -7,7 +7,6 @@ import re
 from collections.abc import Collection
 
 from robocomp_yaml.parameters.hidden import hidden
-from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -19,6 +18,7 @@ from robocomp_yaml.parameters.types import (
     is_secret,
     unit_of,
 )
+from robocomp_yaml.source.yaml_text import flow
 
 _CODE_OR_TAG = re.compile(r"((`+)(?!`).*?(?<!`)\2(?!`))|(?<!\\)<(?!https?://)", re.DOTALL)
 
