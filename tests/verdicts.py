@@ -19,9 +19,9 @@ import accessors
 from by_cerberus import cerberus_verdict
 from parameters import tree
 from robocomp_yaml.parameters.schema.json_schema import EFFECTIVE, values_schema
-from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.parameters.verdict.judge import judge
+from robocomp_yaml.source.yaml_text import flow
 
 Judge = Callable[[Parameters, Any], bool]
 CASES = int(os.environ.get("RCYAML_CASES", "200"))

@@ -57,11 +57,8 @@ def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
         folder = os.path.relpath(os.path.dirname(path) or ".", root)
         folders.setdefault(kind, set()).add(folder)
     if folders["idsl"]:
-        listed = List()
-        for folder in sorted(folders["idsl"]):
-            if folder.isprintable():  # what is not UTF-8 cannot be said
-                listed.put(folder)
-        document.put("interfaces", listed)
+        listed = [folder for folder in sorted(folders["idsl"]) if folder.isprintable()]  # what is not UTF-8 is no text
+        document.put("interfaces", List.of(listed))
     for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT, machines.UNREADABLE):
         lint.put(row.id, "warning")
     if components and max(components.values()) > 1:

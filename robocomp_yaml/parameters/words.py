@@ -6,7 +6,6 @@ from __future__ import annotations
 import re
 
 from robocomp_yaml.parameters.hidden import hidden
-from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -19,6 +18,7 @@ from robocomp_yaml.parameters.types import (
     unit_of,
 )
 from robocomp_yaml.semantics.limits import LIST, MAP, WORDS, one_of, record_in_words
+from robocomp_yaml.source.yaml_text import flow
 
 _CODE_OR_TAG = re.compile(r"((`+)(?!`).*?(?<!`)\2(?!`))|(?<!\\)<(?!https?://)", re.DOTALL)
 

@@ -70,7 +70,7 @@ def _entry(
     yield f"    component: {document}"
     missing = {} if _has_values(linked) else _required(linked.parameters.parameters)
     if missing:
-        from robocomp_yaml.parameters.spelling.yaml import flow
+        from robocomp_yaml.source.yaml_text import flow
 
         yield f"    set: {flow(missing)}  # examples: these have no default"
     connect = list(_connections(linked, names, components))

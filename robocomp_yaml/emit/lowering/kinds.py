@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import msgspec
 
 from robocomp_yaml.parameters.specification.document import Spelling
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Size, Type
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Size, Type
 
 _LIMITS = {"at_least": "atLeast", "above": "above", "at_most": "atMost", "below": "below"}
 
@@ -38,6 +38,12 @@ class Builders(msgspec.Struct, frozen=True):
                 return f"{self.prefix}map({self.kind(element, functions)}){_size(size)}"
             case _:
                 return f"{functions[type_.name or group or '']}()"
+
+    def member(self, start: str, member: Member, functions: Mapping[str, str], group: str | None) -> str:
+        """The same of a member; `start` is the call up to its name."""
+        made = f"{start}, {self.kind(member.type, functions, group)})"
+        made += f".byDefault({self.value(member.default.data)})" if member.default is not None else ""
+        return made + "".join(f".{word}()" for word in ("optional", "editable") if getattr(member, word))
 
     def _plain(self, type_: BasicType) -> str:
         if type_.name == "bool":

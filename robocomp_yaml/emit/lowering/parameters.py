@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import msgspec
 
 from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, Parameters, RecordType, Type
 from robocomp_yaml.parameters.words import for_code
 
 ROOT = "."
@@ -24,6 +25,14 @@ class Spelling(msgspec.Struct, frozen=True):
     own: str = "{}"
     boxed: Mapping[str, str] = {}
     path: str = "{}"
+
+
+class ConstraintView(msgspec.Struct, frozen=True):
+    """A rule that parameters keep: as it is written, what is said where it is broken, and what judges it, in code."""
+
+    text: str
+    otherwise: str
+    value: str
 
 
 class Types:
@@ -53,12 +62,33 @@ class Types:
             case _:
                 return spelling.own.format(self.of[type_.name or group or ""])
 
+    def setters(
+        self, member: Member, taken: Names, around: str = ROOT, before: str = ""
+    ) -> Iterator[tuple[str, Member, str]]:
+        """Name, member and path of each setter: of the member, or of what the group holds."""
+        in_code, path = inside(around, member.code_name), f"{before}{member.name}"
+        if member.is_group and isinstance(member.type, RecordType):
+            for inner in member.type.members:
+                yield from self.setters(inner, taken, in_code, f"{path}.")
+        elif member.editable:
+            yield taken.take(f"set{capitals(in_code[1:])}"), member, path
+
     def about_record(self, path: str, record: RecordType) -> str:
         if path == ROOT:
             return "All parameters, as they were at one moment."
         if record.doc:
             return record.doc
         return f"The group {self.spelling.path.format(path[1:])}." if record.is_group else f"The record {record.name}."
+
+
+def declared(linked: LinkedComponent) -> tuple[Parameters, str, str]:
+    """The parameters of a component, its name, and the path of the document that they stand in."""
+    found, component = linked.parameters, linked.component
+    return found.parameters, component.name, found.document.path if found.document is not None else component.path
+
+
+def titled(said: str, doc: str) -> str:
+    return f"{said}\n\n{doc}" if doc else said
 
 
 def about_enum(enum: EnumType) -> list[str]:

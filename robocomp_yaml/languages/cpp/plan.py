@@ -23,7 +23,7 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 if TYPE_CHECKING:
-    from robocomp_yaml.languages.cpp.statemachine import MachineView
+    from robocomp_yaml.emit.machines.views import MachineView
 
 _TOPICS = frozenset(("topics.cpp", "topics.h"))  # of the run time, only where a component has topics
 # Targets that CMake makes by itself.

@@ -7,7 +7,18 @@ from collections.abc import Iterable, Iterator
 import msgspec
 
 from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.emit.lowering.parameters import Spelling, Types, about_enum, about_member, group_of, path_of, records
+from robocomp_yaml.emit.lowering.parameters import (
+    ConstraintView,
+    Spelling,
+    Types,
+    about_enum,
+    about_member,
+    declared,
+    group_of,
+    path_of,
+    records,
+    titled,
+)
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import docstring, literal, one_line
@@ -52,12 +63,6 @@ class RecordView(msgspec.Struct, frozen=True):
     members: list[MemberView]
 
 
-class ConstraintView(msgspec.Struct, frozen=True):
-    text: str
-    otherwise: str
-    value: str
-
-
 class View(msgspec.Struct, frozen=True):
     source: str
     title: str
@@ -70,9 +75,7 @@ class View(msgspec.Struct, frozen=True):
 
 def plan(linked: LinkedComponent) -> FilePlan:
     """`generated/parameters.py`."""
-    found = linked.parameters
-    source = found.document.path if found.document is not None else linked.component.path
-    return FilePlan("generated/parameters.py", text(found.parameters, linked.component.name, source))
+    return FilePlan("generated/parameters.py", text(*declared(linked)))
 
 
 def text(parameters: Parameters, component: str, source: str) -> str:
@@ -84,10 +87,9 @@ def _view(parameters: Parameters, name: str, source: str) -> View:
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
     constraints = _constraints(parameters) if parameters.constraints else []
-    said = f"The parameters of {name}."
     return View(
         source=source,
-        title=docstring(f"{said}\n\n{parameters.doc}" if parameters.doc else said, ""),
+        title=docstring(titled(f"The parameters of {name}.", parameters.doc), ""),
         imports=list(_imports(views, bool(types.enums), bool(parameters.spellings), bool(constraints))),
         enums=[types.enum(enum) for enum in types.enums],
         records=views,

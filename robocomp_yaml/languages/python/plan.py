@@ -29,7 +29,7 @@ from robocomp_yaml.link.references import groups
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 if TYPE_CHECKING:
-    from robocomp_yaml.languages.python.statemachine import MachineView
+    from robocomp_yaml.emit.machines.views import MachineView
 
 
 class SliceModule(msgspec.Struct, frozen=True):

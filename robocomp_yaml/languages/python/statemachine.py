@@ -12,13 +12,13 @@ from dataclasses import MISSING, fields, is_dataclass
 import msgspec
 
 from robocomp_yaml.emit.copied import copied
-from robocomp_yaml.emit.machines import lower
+from robocomp_yaml.emit.machines import lower, views
+from robocomp_yaml.emit.machines.views import EventView, MachineView
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python.names import python_name
 from robocomp_yaml.languages.python.text import docstring, one_line
-from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.statemachine import PYTHON, State, StateMachine
+from robocomp_yaml.model.statemachine import PYTHON, StateMachine
 from robocomp_yaml.transactions.plan import FilePlan
 
 WIDTH = 110
@@ -53,28 +53,6 @@ def _sequence(items: list[str], indent: str) -> str:
 _SCRIPTING = "scripting.py"
 
 
-class EventView(msgspec.Struct, frozen=True):
-    name: str
-    method: str
-
-
-class StateView(msgspec.Struct, frozen=True):
-    name: str
-    docstring: str
-
-
-class MachineView(msgspec.Struct, frozen=True):
-    """What the worker has of a machine: states, names of guards and actions. `fires` is an example of an event.
-    `member` and `signals` are for code for RoboComp's own tool."""
-
-    states: list[StateView]
-    guards: list[str]
-    actions: list[str]
-    fires: str
-    member: str
-    signals: list[str]
-
-
 class TablesView(msgspec.Struct, frozen=True):
     source: str
     name: str
@@ -85,18 +63,7 @@ class TablesView(msgspec.Struct, frozen=True):
 
 
 def view(machine: StateMachine) -> MachineView:
-    return MachineView(
-        [StateView(state.id, _docstring(state)) for state in names.with_handler(machine)],
-        [guard.name for guard in names.guards(machine)],
-        [action.name for action in names.actions(machine) if action.name not in names.CALLABLE],
-        next((f"self.events.{event.method}()" for event in _events(machine)), "there are none"),
-        python_name(names.robocomps_machine(machine)),
-        names.robocomps_signals(machine),
-    )
-
-
-def _docstring(state: State) -> str:
-    return docstring(f"The state '{state.id}' has been entered.\n\n{state.doc}", "        ")
+    return views.view(machine, python_name, lambda text: docstring(text, " " * 8), "self.events.")
 
 
 def files(machine: StateMachine, component: str) -> list[FilePlan]:
@@ -115,7 +82,7 @@ def tables(machine: StateMachine, component: str) -> str:
             name=component,
             scripting=_scripts(machine),
             tables=", ".join(sorted(set(re.findall(r"\b([A-Z][a-z]+)\(", _without_texts(literal))))),
-            events=_events(machine),
+            events=views.events(machine, python_name),
             machine=literal,
         ),
     )
@@ -123,10 +90,6 @@ def tables(machine: StateMachine, component: str) -> str:
 
 def _without_texts(literal: str) -> str:
     return re.sub(r"""'(?:[^'\\\n]|\\.)*'|"(?:[^"\\\n]|\\.)*\"""", "''", literal)
-
-
-def _events(machine: StateMachine) -> list[EventView]:
-    return [EventView(event.text.text, python_name(event.name)) for event in names.events(machine)]
 
 
 def _scripts(machine: StateMachine) -> bool:

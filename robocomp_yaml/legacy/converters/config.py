@@ -30,8 +30,7 @@ _PROTECTED = re.compile(r'\s*"(?P<value>[^"]*#[^"]*)"\s*(?:#(?P<comment>.*))?$')
 
 def convert(reader: Reader) -> ConfigDraft | None:
     """The settings of a file. Lines that set nothing stay as comments above the next setting."""
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     lines = flat.lines(tree)
     last = properties.last(line.entry for line in lines if line.entry is not None)
     dialect = _dialect(reader, lines)

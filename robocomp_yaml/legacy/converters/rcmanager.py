@@ -41,8 +41,7 @@ class _Element(msgspec.Struct, eq=False):
 
 
 def convert(reader: Reader) -> DeploymentDraft | None:
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     if trees(tree, "refused_doctype"):
         return None
     return _Converter(reader).draft(trees(tree, "element")[0])

@@ -29,8 +29,7 @@ class _Block(msgspec.Struct, eq=False):
 
 def convert(reader: Reader) -> MachineDraft | None:
     """The document of a file's machine."""
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     return _Converter(reader).draft(tree)
 
 

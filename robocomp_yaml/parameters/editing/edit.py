@@ -14,9 +14,9 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.parameters.spelling.yaml import quoted, scalar, single_quoted
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, end_of, last_end, parse
+from robocomp_yaml.source.yaml_text import quoted, scalar, single_quoted
 
 _COLON = re.compile(r"[ \t]*:")
 _LINE = re.compile(r"(?<=\n)(?P<indent>[ ]*)(?P<body>[^\r\n]*?)[ \t]*(?=\r?\n|\Z)")

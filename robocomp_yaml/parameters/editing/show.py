@@ -12,7 +12,6 @@ from robocomp_yaml import secrets
 from robocomp_yaml.parameters.hidden import hidden, holds_secret
 from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.layers.merge import Place, Where, child, node_of, step
-from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import (
     BasicType,
     ListType,
@@ -25,6 +24,7 @@ from robocomp_yaml.parameters.types import (
 from robocomp_yaml.secrets import HIDDEN
 from robocomp_yaml.semantics.paths import Path, Step, in_words
 from robocomp_yaml.source.tree import Node, Scalar, parse
+from robocomp_yaml.source.yaml_text import flow
 
 
 class Value(msgspec.Struct, frozen=True):

@@ -15,7 +15,6 @@ import msgspec
 
 from robocomp_yaml.parameters.examples.example import example, example_of
 from robocomp_yaml.parameters.hidden import holds_secret
-from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -31,6 +30,7 @@ from robocomp_yaml.parameters.types import (
 from robocomp_yaml.parameters.words import for_editors, in_words, label, prose
 from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.source.schema import new_schema
+from robocomp_yaml.source.yaml_text import flow
 
 Schema = dict[str, Any]
 DOCUMENT, EFFECTIVE, COMPLETE = "document", "effective", "complete"

@@ -10,7 +10,6 @@ from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.layers.merge import Where, node_of, step
 from robocomp_yaml.parameters.spelling import references
-from robocomp_yaml.parameters.spelling.yaml import quoted
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -24,6 +23,7 @@ from robocomp_yaml.parameters.writing.properties import CLASSIC, Section, dialec
 from robocomp_yaml.semantics.spellings import holes
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.tree import Scalar
+from robocomp_yaml.source.yaml_text import quoted
 
 _NUMBER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][-+]?[0-9]+)?\Z")
 _BARE = re.compile(r"[A-Za-z0-9_-]+\Z")

@@ -12,8 +12,8 @@ from conftest import write_tree
 from fuzz.hostile import STRINGS
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.java.text import literal
-from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.pipeline import analyse
+from robocomp_yaml.source.yaml_text import flow
 from robocomp_yaml.transactions.plan import FilePlan
 
 SHARE = 1 if "RCYAML_CASES" in os.environ else 8

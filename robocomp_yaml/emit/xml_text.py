@@ -9,7 +9,7 @@ from robocomp_yaml.emit.exports._unwritable import note
 
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'
 _ESCAPES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
-_IMPOSSIBLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+IMPOSSIBLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _STARTS = (
     "A-Z_a-z\xc0-\xd6\xd8-\xf6\xf8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f\u2c00-\u2fef"
     "\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
@@ -22,7 +22,7 @@ _TABLE = str.maketrans(_ESCAPES)
 
 def escaped(text: str) -> str:
     """A text as XML's, in an attribute or an element; what XML cannot hold becomes U+FFFD, and is noted."""
-    return _IMPOSSIBLE.sub(_replaced, text).translate(_TABLE)
+    return IMPOSSIBLE.sub(_replaced, text).translate(_TABLE)
 
 
 def _replaced(found: re.Match[str]) -> str:
@@ -40,11 +40,20 @@ def _name(text: str) -> str:
     return name
 
 
+def comment(lines: Iterable[str]) -> list[str]:
+    """The lines of a comment, in which `--` cannot stand; without the empty ones around it."""
+    kept = [line.replace("--", "- -").replace("--", "- -").rstrip() for line in lines]
+    text = "\n".join(kept).strip("\n").split("\n")
+    if len(text) > 1:
+        return ["<!--", *(f"  {line}".rstrip() for line in text), "-->"]
+    return [f"<!-- {text[0].strip()} -->"] if text[0] else []
+
+
 def element(name: str, attributes: Mapping[str, str], children: Iterable[str] = (), text: str = "") -> list[str]:
     """The lines of an element; `children` are lines of their own."""
     name, named = _name(name), {_name(key): value for key, value in attributes.items()}
     inside = "".join(f' {key}="{escaped(value)}"' for key, value in named.items())
-    below = [f"  {line}" for line in children]
+    below = [f"  {line}" if line else "" for line in children]
     if text:
         return [f"<{name}{inside}>{escaped(text)}</{name}>"]
     return [f"<{name}{inside}>", *below, f"</{name}>"] if below else [f"<{name}{inside}/>"]
