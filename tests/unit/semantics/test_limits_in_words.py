@@ -1,11 +1,10 @@
-"""Ranges, sizes and types: what is within them, and how they are said; and which events a descriptor matches."""
+"""Ranges, sizes and types: what is within them, and how they are said."""
 
 from __future__ import annotations
 
 import pytest
 
 from robocomp_yaml.semantics import limits
-from robocomp_yaml.semantics.descriptors import matches
 
 
 @pytest.mark.parametrize(
@@ -48,20 +47,3 @@ def test_what_a_type_cannot_hold() -> None:
 def test_which_values_there_are() -> None:
     assert limits.one_of(("a", "b"), secret=False) == "one of a, b"
     assert limits.one_of(("a", "b"), secret=True) == "one of the 2 values allowed"
-
-
-@pytest.mark.parametrize(
-    ("descriptor", "event", "is_one"),
-    [
-        ("door", "door", True),
-        ("door", "door.open", True),
-        ("door", "doors", False),
-        ("door.*", "door.open", True),
-        ("door.", "door", True),
-        ("door.open", "door", False),
-        ("*", "anything.at.all", True),
-        ("error.*", "error", True),
-    ],
-)
-def test_descriptors_of_events(descriptor: str, event: str, is_one: bool) -> None:
-    assert matches(["other", descriptor], event) == is_one
