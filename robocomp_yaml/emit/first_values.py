@@ -14,7 +14,7 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
 from robocomp_yaml.parameters.examples.new import Sections, new_document
 from robocomp_yaml.parameters.kinds import recording
 from robocomp_yaml.parameters.types import Parameters, RecordType
-from robocomp_yaml.semantics import composite
+from robocomp_yaml.semantics import composite, connections
 from robocomp_yaml.semantics.plain import Taking
 from robocomp_yaml.semantics.reading import Reader
 from robocomp_yaml.semantics.references import unresolved
@@ -53,9 +53,9 @@ def _connections(linked: LinkedComponent, standing: Mapping[str, str], table: Po
     usual = config.connections(linked, table, standing)
     found = {key: config.stated(standing, key) or value for key, value in usual.items()}
     served = [(key.removesuffix(".Endpoints"), text) for key, text in found.items() if key.endswith(".Endpoints")]
-    proxies = [(port.name, found[f"{port.name}Proxy"]) for port in linked.requires]
-    manager = found.get("TopicManager.Proxy", "")
-    topics = [("manager", manager)] if manager != usual.get("TopicManager.Proxy", "") else []
+    proxies = [(port.name, found[connections.proxy(port.name)[0]]) for port in linked.requires]
+    manager = found.get(connections.MANAGER[0], "")
+    topics = [("manager", manager)] if manager != usual.get(connections.MANAGER[0], "") else []
     return [("endpoints", served), ("proxies", proxies), ("topics", topics)]
 
 

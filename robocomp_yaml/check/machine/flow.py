@@ -10,7 +10,7 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
-from robocomp_yaml.semantics.descriptors import beginning
+from robocomp_yaml.semantics.events import beginning
 
 _MANY = 500  # names to look for a similar one in
 _PLATFORM = ("done.", "error", "*", ".*")

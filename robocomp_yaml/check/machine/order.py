@@ -13,7 +13,7 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PYTHON, State, StateMachine, Text, Transition
-from robocomp_yaml.semantics.descriptors import beginning
+from robocomp_yaml.semantics.events import beginning
 
 _AT_ONCE = "an event"  # what a transition without events does not wait for
 

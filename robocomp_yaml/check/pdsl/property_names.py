@@ -10,6 +10,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Program
 from robocomp_yaml.parameters.spelling.templates import exact_keys, row_keys
 from robocomp_yaml.parameters.types import BasicType, EnumType, leaves
+from robocomp_yaml.semantics.connections import endpoints, proxy
 from robocomp_yaml.semantics.spellings import pattern
 
 _ICE = (
@@ -85,8 +86,8 @@ def _taken(component: LinkedComponent) -> Iterator[tuple[str, str]]:
     names = [port.name for port in (*component.implements, *component.subscribes)]
     for name in ("CommonBehavior", *names, *(f"{port.name}Topic" for port in component.subscribes)):
         yield name, f"the adapter {name}"
-        yield f"{name}.Endpoints", f"the endpoints of {name}"
+        yield endpoints(name)[0], f"the endpoints of {name}"
     for port in component.publishes:
         yield port.name, f"the topic {port.name}"
     for port in component.requires:
-        yield f"{port.name}Proxy", f"the proxy {port.name}"
+        yield proxy(port.name)[0], f"the proxy {port.name}"

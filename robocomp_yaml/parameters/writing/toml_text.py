@@ -20,6 +20,7 @@ from robocomp_yaml.parameters.types import (
     leaves,
 )
 from robocomp_yaml.parameters.writing.properties import CLASSIC, Section, dialect, legacy_file, properties
+from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.spellings import holes
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.tree import Scalar
@@ -53,11 +54,11 @@ def _connections(sections: list[Section], unquotes: bool) -> Iterator[tuple[list
             name, _, tail = made.key.rpartition(".")
             key = made.key
             if tail == "Endpoints" and name:
-                key = f"Endpoints.{name}"
-            elif key == "TopicManager.Proxy":
-                key = "Proxies.TopicManager"
+                key = connections.endpoints(name)[1]
+            elif key == connections.MANAGER[0]:
+                key = connections.MANAGER[1]
             elif key.endswith("Proxy") and "." not in key and key != "Proxy":
-                key = f"Proxies.{key.removesuffix('Proxy')}"
+                key = connections.proxy(key.removesuffix("Proxy"))[1]
             is_bare = made.value in ("true", "false") or _NUMBER.match(made.value)
             plain = unquoted(made.value) if unquotes or made.read is not None else made.value
             yield key.split(".", 1), made.value if is_bare else quoted(plain)

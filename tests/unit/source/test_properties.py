@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
 
 
@@ -25,21 +24,6 @@ def test_escapes_and_comments() -> None:
     assert properties.read(r"a\=b=x\#y = z#c" + "\n").values == {"a=b": "x#y = z"}
     assert properties.read('a="x # y"').values == {"a": '"x'}
     assert properties.read("a=b\\\nc=\\n").values == {"a": "b\\", "c": "\\n"}
-
-
-@pytest.mark.parametrize(
-    ("value", "bare"),
-    [
-        ('"tcp -p 1"', "tcp -p 1"),
-        ('" ""0"', '" ""0"'),
-        ('"', '"'),
-        ('""', ""),
-        ("x", "x"),
-        ('"a" b', '"a" b'),
-    ],
-)
-def test_quotes_of_flat_toml(value: str, bare: str) -> None:
-    assert unquoted(value) == bare
 
 
 @pytest.mark.parametrize(

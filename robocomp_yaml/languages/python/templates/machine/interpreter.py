@@ -14,7 +14,7 @@ from generated.machine.entering import Entry, entry_of
 from generated.machine.events import INTERNAL, PLATFORM, Data, Event
 from generated.machine.model import ModelError
 from generated.machine.tree import ROOT, Tree
-from generated.runtime.semantics.descriptors import matches
+from generated.runtime.semantics.events import matches
 from generated.runtime.semantics.tables import Action, Condition, Machine, Param, Transition, Value
 
 MAX_STEPS = 10_000  # without an event from outside: more is a loop that never ends
