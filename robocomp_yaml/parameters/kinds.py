@@ -13,13 +13,11 @@ class _Text(plain.Text):
     """Patterns are matched by our own matcher, whose time is bounded."""
 
     def __init__(self, values: tuple[str, ...], pattern: Pattern | None) -> None:
-        super().__init__(values)
+        super().__init__(values, shown_as="" if pattern is None else pattern.text)
         self._matching = pattern
 
-    def limit(self, value: Any) -> str:
-        if self._matching is not None and not self._matching.matches(value):
-            return f"match {self._matching.text}"
-        return super().limit(value)
+    def matches(self, value: str) -> bool:
+        return self._matching is None or self._matching.matches(value)
 
 
 def recording(record: RecordType) -> composite.Recording:

@@ -1,10 +1,13 @@
 # Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
-"""What values of a type may be: ranges, sizes, and how that is said."""
+"""What values of a type may be: kinds, ranges, sizes, and how that is said."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from typing import Union
+from collections.abc import Callable, Collection, Mapping
+from math import isfinite, trunc
+from numbers import Integral, Real
+from types import MappingProxyType
+from typing import Any, Optional, Union
 
 Number = Union[int, float]
 LIMITS: dict[str, tuple[Number, Number]] = {
@@ -29,10 +32,43 @@ def one_of(values: Collection[str], secret: bool = False) -> str:
     return f"one of the {len(values)} values allowed" if secret else f"one of {', '.join(values)}"
 
 
-def beyond(type_: str, value: Number) -> str:
-    """What a number that its type cannot hold must be, or ''."""
+def is_of(type_: str, data: Any) -> bool:
+    """Whether data is of the kind of a plain type. A bool is no number, 2.0 is a whole number, and neither NaN nor an
+    infinity is any."""
+    if type_ == "bool":
+        return isinstance(data, bool)
+    if type_ not in LIMITS:
+        return isinstance(data, str)
+    if isinstance(data, bool) or not isinstance(data, Real):
+        return False
+    return isinstance(data, Integral) or (isfinite(data) and (type_ not in INTEGERS or data == trunc(data)))
+
+
+CHOICE, PATTERN, RANGE, LIMIT = "choice", "pattern", "range", "limit"
+_NO_ENDS: Mapping[str, Number] = MappingProxyType({})
+Matches = Optional[Callable[[str], bool]]
+
+
+def outside(
+    type_: str, value: Any, values: Collection[Any] = (), ends: Mapping[str, Number] = _NO_ENDS, matches: Matches = None
+) -> str:
+    """Why a value of the right kind is not allowed: CHOICE for none of the values there are, PATTERN for a text that
+    does not match, RANGE for a number beyond the ends that `holds` takes, LIMIT for one that its type cannot hold; or
+    ''."""
+    if values:
+        return "" if value in values else CHOICE
+    if type_ not in LIMITS:
+        return "" if matches is None or matches(value) else PATTERN
+    if not holds(value, **ends):
+        return RANGE
     least, most = LIMITS[type_]
-    return "" if least <= value <= most else f"from {least} to {most} ({type_})"
+    return "" if least <= value <= most else LIMIT
+
+
+def limits_in_words(type_: str) -> str:
+    """What its type can hold."""
+    least, most = LIMITS[type_]
+    return f"from {least} to {most} ({type_})"
 
 
 def holds(

@@ -6,8 +6,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from math import isfinite, trunc
-from numbers import Integral, Real
+from math import trunc
+from numbers import Real
 from typing import Any
 
 from . import limits, references, texts
@@ -103,7 +103,7 @@ class Truth(Plain):
         super().__init__("bool")
 
     def of(self, raw: Any) -> Any:
-        return raw if isinstance(raw, bool) else None
+        return raw if limits.is_of("bool", raw) else None
 
 
 class Numeric(Plain):
@@ -121,37 +121,33 @@ class Numeric(Plain):
     ) -> None:
         super().__init__(name)
         self.values = values
-        self._ends = at_least, at_most, above, below
+        ends = {"at_least": at_least, "at_most": at_most, "above": above, "below": below}
+        self._ends = {name: end for name, end in ends.items() if end is not None}
         self.unit = unit
 
     def limit(self, value: Any) -> str:
         unit = f" {self.unit}" if self.unit else ""
-        if self.values:
-            return "" if value in self.values else f"be {self.one_of(self.values)}{unit}"
-        if not limits.holds(value, *self._ends):
-            return f"be {limits.range_in_words(*self._ends)}{unit}"
-        beyond = limits.beyond(self.name, value)
-        return beyond and f"be {beyond}"
+        fault = limits.outside(self.name, value, self.values, self._ends)
+        if fault == limits.CHOICE:
+            return f"be {self.one_of(self.values)}{unit}"
+        if fault == limits.RANGE:
+            return f"be {limits.range_in_words(**self._ends)}{unit}"
+        return f"be {limits.limits_in_words(self.name)}" if fault else ""
 
 
 class Whole(Numeric):
     def of(self, raw: Any) -> Any:
-        if isinstance(raw, bool):
-            return None
-        if isinstance(raw, Integral):
-            return int(raw)
-        return trunc(raw) if isinstance(raw, Real) and isfinite(raw) and raw == trunc(raw) else None
+        return trunc(raw) if limits.is_of(self.name, raw) else None
 
 
 class Decimal(Numeric):
     def of(self, raw: Any) -> Any:
-        if isinstance(raw, bool) or not isinstance(raw, Real):
+        if not limits.is_of(self.name, raw):
             return None
         try:
-            value = float(raw)
+            return float(raw)
         except OverflowError:
-            return None
-        return value if isfinite(value) else None
+            return raw  # no type can hold it
 
 
 class Text(Plain):
@@ -166,14 +162,16 @@ class Text(Plain):
         self._shown_as = shown_as or pattern
 
     def of(self, raw: Any) -> Any:
-        return str(raw) if isinstance(raw, str) else None
+        return str(raw) if limits.is_of(self.name, raw) else None
+
+    def matches(self, value: str) -> bool:
+        return self._pattern is None or self._pattern.fullmatch(value) is not None
 
     def limit(self, value: Any) -> str:
-        if self.values and value not in self.values:
-            return f"be {self.one_of(self.values)}"
-        if self._pattern and not self._pattern.fullmatch(value):
-            return f"match {self._shown_as}"
-        return ""
+        fault = limits.outside(self.name, value, self.values, matches=self.matches)
+        return (
+            f"be {self.one_of(self.values)}" if fault == limits.CHOICE else f"match {self._shown_as}" if fault else ""
+        )
 
 
 class Choice(Plain):
@@ -186,10 +184,10 @@ class Choice(Plain):
         self.names = names
 
     def of(self, raw: Any) -> Any:
-        return str(raw) if isinstance(raw, str) else None
+        return str(raw) if limits.is_of("string", raw) else None
 
     def limit(self, value: Any) -> str:
-        return "" if value in self.names else f"be {self.words}"
+        return f"be {self.words}" if limits.outside(self.name, value, self.names) else ""
 
 
 def truth() -> Plain:

@@ -26,9 +26,9 @@ from robocomp_yaml.parameters.types import (
     Size,
     Type,
 )
-from robocomp_yaml.parameters.verdict.plain import CHOICE, KIND, PATTERN, RANGE, wrong
+from robocomp_yaml.parameters.verdict.plain import KIND, wrong
 from robocomp_yaml.parameters.words import kind_in_words
-from robocomp_yaml.semantics.limits import LIMITS
+from robocomp_yaml.semantics.limits import CHOICE, LIMITS, PATTERN, RANGE
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 Found = list[Diagnostic]

@@ -1,33 +1,22 @@
-"""What is wrong with a plain value, whoever asks: the judge of values, of limits, or of examples."""
+"""What is wrong with a plain value, whoever asks: the judge of values, of limits, or of examples.
+
+Components decide it by the same code, `semantics.limits`.
+"""
 
 from __future__ import annotations
 
-from math import isfinite
-
 from robocomp_yaml.parameters.types import EnumType, ScalarType
-from robocomp_yaml.semantics.limits import beyond
+from robocomp_yaml.semantics.limits import is_of, outside
 
-KIND, CHOICE, PATTERN, RANGE, LIMIT = "kind", "choice", "pattern", "range", "limit"
+KIND = "kind"
 
 
 def wrong(type_: ScalarType, data: object) -> str:
-    """KIND for data of another kind, CHOICE for none of the values allowed, PATTERN for a text that does not match,
-    RANGE for a number out of its range, LIMIT for one that its type cannot hold; '' where all is well."""
+    """KIND for data of another kind, else what `outside` says."""
     if isinstance(type_, EnumType):
-        return "" if data in type_.allowed and isinstance(data, str) else CHOICE if isinstance(data, str) else KIND
-    if type_.name == "bool":
-        return "" if isinstance(data, bool) else KIND
-    if type_.name == "string":
-        if not isinstance(data, str):
-            return KIND
-    elif isinstance(data, bool) or not isinstance(data, int | float):
+        return outside(type_.name, data, type_.allowed) if is_of("string", data) else KIND
+    if not is_of(type_.name, data):
         return KIND
-    elif isinstance(data, float) and (not isfinite(data) or (type_.is_integer and data != int(data))):
-        return KIND
-    if type_.values:
-        return "" if any(data == allowed.value for allowed in type_.values) else CHOICE
-    if isinstance(data, str):
-        return "" if type_.pattern is None or type_.pattern.matches(data) else PATTERN
-    if type_.range and not type_.range.holds(data):
-        return RANGE
-    return LIMIT if beyond(type_.name, data) else ""
+    values = [allowed.value for allowed in type_.values]
+    matches = type_.pattern.matches if type_.pattern is not None else None
+    return outside(type_.name, data, values, type_.range.limits if type_.range is not None else {}, matches)
