@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import re
@@ -27,7 +28,7 @@ from robocomp_yaml.parameters.editing.edit import set_value as edit
 from robocomp_yaml.parameters.editing.show import Value
 from robocomp_yaml.parameters.examples.new import lines_above
 from robocomp_yaml.parameters.hidden import hidden
-from robocomp_yaml.parameters.layers.effective import Effective, effective
+from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.spelling import paths
 from robocomp_yaml.parameters.spelling.paths import Step
 from robocomp_yaml.parameters.types import BasicType, EnumType, RecordType, Type, is_secret, leaves
@@ -100,7 +101,7 @@ class Values:
             others = {one.document.path for one in self._analysis.program.values.values()} - ours
             told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
             if linked.parameters is not None and check.is_only_layer(linked):
-                told += check.of_document(linked, complete=True)
+                told += check.of_document(linked, self._analysis.program, complete=True)
         return in_order(self._analysis.veiled(told))
 
     @property
@@ -121,7 +122,7 @@ class Values:
             raise Faulty(self.diagnostics, self.documents_read)
         if self._linked is None or self._linked.parameters is None:
             raise self._unknown()
-        values, found = effective(self._linked)
+        values, found = self._analysis.program.effective(self._linked)
         if values is None:  # what is wrong is no error in this workspace, and leaves nothing to show all the same
             problem = "the values cannot be completed: `rcyaml check` says what is wrong with their parameters"
             told = [*found, file_codes.WRONG_SHAPE.at(Span(self.file), problem=problem)]
@@ -140,7 +141,7 @@ class Values:
         found = show.find(values, steps)
         if found is None:
             return None
-        return found[0] if reveal else show.hidden_at(values.parameters.root, steps, found[0])
+        return copy.deepcopy(found[0]) if reveal else show.hidden_at(values.parameters.root, steps, found[0])
 
     def export(self, form: str = "ice", *, reveal: bool = True) -> str:
         """All effective values as a property file for Ice (`ice`) or as TOML (`toml`). Programs get the values as they

@@ -85,9 +85,9 @@ def _is_complete(root: str, linked: LinkedComponent) -> bool:
 
 def _configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports]) -> Iterator[FilePlan]:
     if program.values:
-        from robocomp_yaml.emit.value_files import configs, documents_of  # most components have no values
+        from robocomp_yaml.emit.value_files import configs  # most components have no values
 
-        yield from configs(linked, documents_of(linked, program), table)
+        yield from configs(linked, program, table)
 
 
 def _component_root(path: str, options: Options) -> str:

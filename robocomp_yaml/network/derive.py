@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
+from robocomp_yaml.link.program import Program
 from robocomp_yaml.network import ports, processes
 from robocomp_yaml.network.base import Base, base_of
 from robocomp_yaml.network.configuration import Configuration
@@ -23,12 +24,11 @@ from robocomp_yaml.network.network import FOLDER, Network
 from robocomp_yaml.network.order import AFTER, Need, optional, ordered
 from robocomp_yaml.network.targets import Targets
 from robocomp_yaml.network.topics import Topics
-from robocomp_yaml.source.disk import Disk
 
 
-def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnostic]]:
+def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Diagnostic]]:
     """The network of a deployment, as far as it can be told, and all that is wrong with it. Flat configuration
-    files are read from `disk`."""
+    files are read from the program's disk."""
     deployment = linked.deployment
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
     drafts = drafts_of(linked)
@@ -40,7 +40,7 @@ def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnost
 
     def base(draft: Draft) -> Base:
         if draft not in bases:
-            bases[draft] = base_of(draft.instance, disk)
+            bases[draft] = base_of(draft.instance, program.disk)
         return bases[draft]
 
     contents = Contents()
@@ -62,7 +62,7 @@ def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnost
             text: str | None = gates.program(draft)
             hidden: tuple[str, ...] = ()
         else:
-            configuration = Configuration(draft, base(draft))
+            configuration = Configuration(draft, base(draft), program)
             configuration.make()
             diagnostics += configuration.diagnostics
             text, hidden = configuration.text, configuration.secrets
