@@ -148,7 +148,7 @@ class _Resolver:
         if name not in self.specs:
             known = (*BASIC_TYPES, *self.specs)
             hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known)}")
-            if not hint.meant and (ours := _FOREIGN.get(name.lower())):
+            if hint.meant not in self.specs and (ours := _FOREIGN.get(name.lower())):
                 hint = meaning(name, ours)
             self.found.append(codes.UNKNOWN_TYPE.at(spec.span, name=name, hint=hint))
             return None
