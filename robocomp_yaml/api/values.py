@@ -155,8 +155,7 @@ class Values:
                 return toml_text(self._linked, values)
             shown = replace(values, data=hidden(values.parameters.root, values.data))
             return "".join(hidden_lines(toml_text(self._linked, shown)))
-        from robocomp_yaml.parameters.writing.properties import properties
-        from robocomp_yaml.parameters.writing.property_text import property_text
+        from robocomp_yaml.parameters.writing.properties import properties, property_text
 
         sections, _ = properties(self._linked, values)
         component = self._parameters.component

@@ -21,8 +21,14 @@ from robocomp_yaml.parameters.layers.effective import document_faults
 from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
 from robocomp_yaml.parameters.layers.overlay import overlay
 from robocomp_yaml.parameters.specification.document import ValuesDocument
-from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, Section, properties, secret_keys
-from robocomp_yaml.parameters.writing.property_text import section_text
+from robocomp_yaml.parameters.writing.properties import (
+    CLASSIC,
+    FLAT_TOML,
+    Section,
+    properties,
+    secret_keys,
+    section_text,
+)
 from robocomp_yaml.parameters.writing.write import Property, Writer
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
 

@@ -1,6 +1,21 @@
 """All about parameters: what documents say of them, their types, their values, and what is made of these.
 
-Three judges give the same verdict on a value: the JSON Schema made by `json_schema` (the gate, and what editors use),
-Cerberus with the rules of `layers.rules` (which also fills defaults in), and `verdict.judge`, which knows places and
-words.
+From the bottom to the top, each part using those before it:
+
+    specification  a document as written             patterns     what texts may be
+    types          resolved: every limit joined      defaults     what there is when nobody gives a value
+    spelling       paths, references, plain values, rows and scalars of YAML as text
+    documents      of parameters and of values, as the linker joined them
+    hidden         which values are secret           words        types and parameters in words
+    verdict        the judge: what is wrong with a value, in words, at its place
+    expressions    constraints: read, typed, evaluated
+    resolution     from `specification` to `types`
+    examples       values that fit, and first documents
+    schema         JSON Schemas for editors and tools, and the gate that they are
+    layers         documents merged, judged and completed: the values in effect
+    writing        those as properties, TOML and reference
+    editing        those looked at, and changed in their document
+
+The gate says whether values are right, fast; where they are not, the judge says why. Cerberus completes what is given.
+Tests hold all three, and Cerberus's own verdict, against each other.
 """
