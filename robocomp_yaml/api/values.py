@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import re
@@ -26,7 +27,7 @@ from robocomp_yaml.parameters.editing.edit import set_value as edit
 from robocomp_yaml.parameters.editing.show import Value
 from robocomp_yaml.parameters.examples.new import lines_above
 from robocomp_yaml.parameters.hidden import hidden
-from robocomp_yaml.parameters.layers.effective import Effective, effective
+from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.types import BasicType, EnumType, RecordType, Type, is_secret, leaves
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.pipeline import Analysis, analyse
@@ -99,7 +100,7 @@ class Values:
             others = {one.document.path for one in self._analysis.program.values.values()} - ours
             told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
             if linked.parameters is not None and check.is_only_layer(linked):
-                told += check.of_document(linked, complete=True)
+                told += check.of_document(linked, self._analysis.program, complete=True)
         return in_order(self._analysis.veiled(told))
 
     @property
@@ -120,7 +121,7 @@ class Values:
             raise Faulty(self.diagnostics, self.documents_read)
         if self._linked is None or self._linked.parameters is None:
             raise self._unknown()
-        values, found = effective(self._linked)
+        values, found = self._analysis.program.effective(self._linked)
         if values is None:  # what is wrong is no error in this workspace, and leaves nothing to show all the same
             problem = "the values cannot be completed: `rcyaml check` says what is wrong with their parameters"
             told = [*found, file_codes.WRONG_SHAPE.at(Span(self.file), problem=problem)]
@@ -139,7 +140,7 @@ class Values:
         found = show.find(values, steps)
         if found is None:
             return None
-        return found[0] if reveal else show.hidden_at(values.parameters.root, steps, found[0])
+        return copy.deepcopy(found[0]) if reveal else show.hidden_at(values.parameters.root, steps, found[0])
 
     def export(self, form: str = "ice", *, reveal: bool = True) -> str:
         """All effective values as a property file for Ice (`ice`) or as TOML (`toml`). Programs get the values as they
@@ -153,8 +154,7 @@ class Values:
                 return toml_text(self._linked, values)
             shown = replace(values, data=hidden(values.parameters.root, values.data))
             return "".join(hidden_lines(toml_text(self._linked, shown)))
-        from robocomp_yaml.parameters.writing.properties import properties
-        from robocomp_yaml.parameters.writing.property_text import property_text
+        from robocomp_yaml.parameters.writing.properties import properties, property_text
 
         sections, _ = properties(self._linked, values)
         component = self._parameters.component

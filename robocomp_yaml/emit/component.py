@@ -20,6 +20,9 @@ from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.plugins import LANGUAGES
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
+SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"
+DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
+
 
 def component_plan(
     linked: LinkedComponent,
@@ -53,7 +56,7 @@ def component_plan(
             table = assign([linked], program.disk) if _is_complete(root, linked) else options.ports(linked)
             files.append(config.plan(linked, table))
     if options.wants("docs"):
-        files += docs(linked)
+        files += _docs(linked)
     owner = os.path.relpath(component.path, root)
     return RootPlan(root, owner, tuple(files), partial=bool(options.targets))
 
@@ -88,9 +91,40 @@ def _is_complete(root: str, linked: LinkedComponent) -> bool:
 
 def _configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports]) -> Iterator[FilePlan]:
     if program.values:
-        from robocomp_yaml.emit.value_files import configs, documents_of  # most components have no values
+        from robocomp_yaml.emit.value_files import configs  # most components have no values
 
-        yield from configs(linked, documents_of(linked, program), table)
+        yield from configs(linked, program, table)
+
+
+def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:
+    """The JSON Schemas of a component's values."""
+    served = [port.name for port in linked.implements] + [f"{port.name}Topic" for port in linked.subscribes]
+    ports = {"endpoints": [*served, "CommonBehavior"], "proxies": [port.name for port in linked.requires]}
+    parameters, name = linked.parameters.parameters, linked.component.name
+    for path, mode in ((SCHEMA, DOCUMENT), (EFFECTIVE_SCHEMA, EFFECTIVE)):
+        yield FilePlan(path, _a_line_each(document_schema(parameters, name, ports, mode)))
+
+
+def _a_line_each(schema: dict[str, object]) -> str:
+    """A JSON object with a line for each key: to indent the rest would take ten times as long."""
+    rows = (f'  "{key}": {msgspec.json.encode(value).decode()}' for key, value in schema.items())
+    return "{\n" + ",\n".join(rows) + "\n}\n"
+
+
+def _docs(linked: LinkedComponent) -> Iterator[FilePlan]:
+    """The reference of a component's parameters, and an example of their values."""
+    if linked.parameters.document is None:
+        return
+    from robocomp_yaml.parameters.examples.new import new_document
+    from robocomp_yaml.parameters.writing.reference import reference
+
+    parameters, where = linked.parameters.parameters, os.path.basename(linked.component.path)
+    head = (
+        "# An example: every parameter, and what it may be. The first line of your own document names the schema "
+        "beside this file."
+    )
+    yield FilePlan(DOCS, reference(parameters, linked.component.name))
+    yield FilePlan(EXAMPLE, new_document(parameters, f"../{where}", head, []))
 
 
 def _component_root(path: str, options: Options) -> str:
@@ -102,40 +136,3 @@ def _component_root(path: str, options: Options) -> str:
         if not relative.startswith(os.pardir):
             return os.path.normpath(os.path.join(options.output, relative))
     return options.output
-
-
-SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"
-DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
-
-
-def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:
-    """The JSON Schemas of a component's values."""
-    served = [port.name for port in linked.implements] + [f"{port.name}Topic" for port in linked.subscribes]
-    ports = {"endpoints": [*served, "CommonBehavior"], "proxies": [port.name for port in linked.requires]}
-    for path, mode in ((SCHEMA, DOCUMENT), (EFFECTIVE_SCHEMA, EFFECTIVE)):
-        yield FilePlan(path, _lines(document_schema(linked.parameters.parameters, linked.component.name, ports, mode)))
-
-
-def _lines(schema: dict[str, object]) -> str:
-    """A JSON object with a line for each key: to indent the rest would take ten times as long."""
-    rows = (f'  "{key}": {msgspec.json.encode(value).decode()}' for key, value in schema.items())
-    return "{\n" + ",\n".join(rows) + "\n}\n"
-
-
-def docs(linked: LinkedComponent) -> Iterator[FilePlan]:
-    """The reference of a component's parameters, and an example of their values."""
-    if linked.parameters.document is None:
-        return
-    from robocomp_yaml.emit.parameter_docs import parameter_docs
-    from robocomp_yaml.parameters.examples.new import new_document
-
-    where = os.path.basename(linked.component.path)
-    example = new_document(
-        linked.parameters.parameters,
-        f"../{where}",
-        "# An example: every parameter, and what it "
-        "may be. The first line of your own document names the schema beside this file.",
-        [],
-    )
-    yield FilePlan(DOCS, parameter_docs(linked))
-    yield FilePlan(EXAMPLE, example)

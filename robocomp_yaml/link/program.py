@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -21,9 +21,11 @@ from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source.disk import Disk
 
 if TYPE_CHECKING:
+    from robocomp_yaml.diag.diagnostic import Diagnostic
     from robocomp_yaml.link.deployments import LinkedDeployment
     from robocomp_yaml.model.component import Component, Use
     from robocomp_yaml.model.statemachine import StateMachine
+    from robocomp_yaml.parameters.layers.effective import Effective
 
 Definition = Constant | TypeDefinition | ExceptionType | Interface
 
@@ -148,6 +150,16 @@ class Program(msgspec.Struct, frozen=True):
     documents: int = 0
     disk: Disk = msgspec.field(default_factory=Disk)
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
+    _effective: dict[LayeredValues, tuple[Effective | None, Sequence[Diagnostic]]] = {}
+
+    def effective(self, values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnostic]]:
+        """What is in effect by a values document, and what is wrong with it: worked out once, when it is first asked
+        for, for all that read it."""
+        if values not in self._effective:
+            from robocomp_yaml.parameters.layers.effective import effective  # most components have no values
+
+            self._effective[values] = effective(values)
+        return self._effective[values]
 
     def documents_of_components(self) -> dict[str, LinkedComponent | None]:
         """The documents of parameters and of values, each with its component."""

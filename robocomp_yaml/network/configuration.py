@@ -14,15 +14,21 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.link.program import LinkedParameters, LinkedValues
+from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.network.base import Base
 from robocomp_yaml.network.draft import Draft, Given, listening
-from robocomp_yaml.parameters.layers.effective import document_faults, effective
+from robocomp_yaml.parameters.layers.effective import document_faults
 from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
 from robocomp_yaml.parameters.layers.overlay import overlay
 from robocomp_yaml.parameters.specification.document import ValuesDocument
-from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, Section, properties, secret_keys
-from robocomp_yaml.parameters.writing.property_text import section_text
+from robocomp_yaml.parameters.writing.properties import (
+    CLASSIC,
+    FLAT_TOML,
+    Section,
+    properties,
+    secret_keys,
+    section_text,
+)
 from robocomp_yaml.parameters.writing.write import Property, Writer
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
@@ -36,6 +42,7 @@ class Configuration(msgspec.Struct):
 
     draft: Draft
     base: Base
+    program: Program
     text: str | None = None
     secrets: tuple[str, ...] = ()
     diagnostics: list[Diagnostic] = []
@@ -76,7 +83,7 @@ class Configuration(msgspec.Struct):
         empty = ValuesDocument(self._file, mapping_at(self.draft.span, {}))
         below = LinkedValues(empty, (base,) if base is not None else (), linked)
         layer = replace(below, document=ValuesDocument(self._file, self._layer(linked, below)))
-        values, found = effective(layer)
+        values, found = self.program.effective(layer)
         self.diagnostics += found
         if values is None:
             return None
@@ -95,7 +102,7 @@ class Configuration(msgspec.Struct):
         if linked.broken:
             return None
         layer = LinkedValues(ValuesDocument(self._file, self._parameters(linked, settings, None)), parameters=linked)
-        self.diagnostics += document_faults(layer)
+        self.diagnostics += document_faults(layer, linked)
         if not self.diagnostics:
             root, place = linked.parameters.root, merged(layer)
             writer = Writer(linked.parameters, settings.span, True, dialect == FLAT_TOML)

@@ -11,6 +11,7 @@ from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
+from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.deployment import PROGRAM, Text
 from robocomp_yaml.network import ice_texts, ports, processes
 from robocomp_yaml.network.base import Base, base_of
@@ -24,15 +25,14 @@ from robocomp_yaml.network.network import FOLDER, Network, Process
 from robocomp_yaml.network.order import AFTER, Need, optional, ordered
 from robocomp_yaml.network.targets import Targets
 from robocomp_yaml.network.topics import Topics
-from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, path_fault, shortened, size
 from robocomp_yaml.source.ice_endpoint import fixed_endpoint
 from robocomp_yaml.source.ice_options import LAST_PORT, Refused
 
 
-def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnostic]]:
+def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Diagnostic]]:
     """The network of a deployment, as far as it can be told, and all that is wrong with it. Flat configuration
-    files are read from `disk`."""
+    files are read from the program's disk."""
     deployment = linked.deployment
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
     drafts = drafts_of(linked)
@@ -44,7 +44,7 @@ def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnost
 
     def base(draft: Draft) -> Base:
         if draft not in bases:
-            bases[draft] = base_of(draft.instance, disk)
+            bases[draft] = base_of(draft.instance, program.disk)
         return bases[draft]
 
     contents = Contents()
@@ -66,7 +66,7 @@ def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnost
             text: str | None = gates.program(draft)
             hidden: tuple[str, ...] = ()
         else:
-            configuration = Configuration(draft, base(draft))
+            configuration = Configuration(draft, base(draft), program)
             configuration.make()
             diagnostics += configuration.diagnostics
             text, hidden = configuration.text, configuration.secrets

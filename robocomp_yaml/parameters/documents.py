@@ -21,9 +21,9 @@ class ResolvedParameters(msgspec.Struct, frozen=True, eq=False):
     parameters: Parameters
     document: ParameterDocument | None = None
     broken: bool = False
-    _made: dict[str, Any] = {}
+    _made: dict[object, Any] = {}
 
-    def once(self, name: str, make: Callable[[], Made]) -> Made:
+    def once(self, name: object, make: Callable[[], Made]) -> Made:
         """What is made of the parameters once, and used often: validators, say."""
         if name not in self._made:
             self._made[name] = make()

@@ -18,8 +18,7 @@ from click.testing import CliRunner
 from conftest import CORPUS, needs_corpus
 from robocomp_yaml.cli import group
 from robocomp_yaml.parameters.layers.effective import Effective, effective
-from robocomp_yaml.parameters.writing.properties import properties
-from robocomp_yaml.parameters.writing.property_text import property_text
+from robocomp_yaml.parameters.writing.properties import properties, property_text
 from robocomp_yaml.parameters.writing.toml_text import toml_text
 from robocomp_yaml.pipeline import analyse
 

@@ -113,7 +113,7 @@ def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Pat
         spelled = default if node is None else node
         as_spelled = isinstance(spelled, Scalar) and spelled.data == data and not isinstance(data, str)
         text = spelled.lexeme if as_spelled else flow(data)  # type: ignore[union-attr]
-        overrode = tuple(where.overrode) if isinstance(where, Place) else ()
+        overrode = where.overrode if isinstance(where, Place) else ()
         yield Value(in_words(path), data, text, unit_of(type_), editable, node, default, overrode, type_, path)
 
 
@@ -121,7 +121,7 @@ def _below(where: Where, name: Step) -> Where:
     """One step down, with what the same place of the overridden lists was."""
     below = step(where, name)
     if isinstance(where, Place) and below is not None and not isinstance(below, Place) and where.overrode:
-        earlier = [found[1] for node in where.overrode if (found := child(node, name)) is not None]
+        earlier = tuple(found[1] for node in where.overrode if (found := child(node, name)) is not None)
         return Place(below, None, None, earlier)
     return below
 

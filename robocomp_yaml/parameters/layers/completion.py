@@ -1,7 +1,7 @@
 """Effective values made complete: defaults filled in at every level.
 
-What nobody gives comes from defaults alone, which are the same for all documents of values. What is given is completed
-by Cerberus where it lacks something. Cerberus is a hundred times slower than the compiled schema that tells; so of many
+What nobody gives comes from defaults alone, which are the same for all documents of values. Records that are given and
+lack something are completed by Cerberus. It is a hundred times slower than the compiled schema that tells, so of many
 records that lack the same it sees one.
 """
 
@@ -9,67 +9,85 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
+from functools import partial
 from typing import Any
-
-from jsonschema_rs import Draft7Validator
 
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.documents import ResolvedParameters
-from robocomp_yaml.parameters.schema.gate import of_complete
+from robocomp_yaml.parameters.schema.gate import fits, of_complete
+from robocomp_yaml.parameters.schema.json_schema import COMPLETE
 from robocomp_yaml.parameters.types import BasicType, ListType, MapType, Member, RecordType, Type
 
 Data = dict[str, Any]
+Completer = Callable[[Any], Any]
+
+
+def complete_at_once(linked: ResolvedParameters, data: Data) -> Data | None:
+    """Values that lack nothing but parameters which have defaults; None for all others, right or wrong."""
+    whole = _defaults(linked) | data
+    return _in_order(linked.parameters.root, whole) if fits(linked, COMPLETE, whole) else None
 
 
 def completed(linked: ResolvedParameters, data: Data) -> Data:
     """Values that the gate let pass (without null), with their defaults."""
-    return linked.once("completion", lambda: _Completion(linked.parameters.root)).of(data)
+    root = linked.parameters.root
+    completers = linked.once("completers", lambda: {m.name: _completer(m.type) or _as_it_is for m in root.members})
+    given = {name: completers[name](value) for name, value in data.items()}
+    return _in_order(root, _defaults(linked) | given)
 
 
-class _Completion:
-    """Completes the values of one document of parameters. What belongs to a part of a value goes by its path."""
+def _defaults(linked: ResolvedParameters) -> Data:
+    return linked.once("defaults", lambda: defaults(linked.parameters.root))
 
-    def __init__(self, root: RecordType) -> None:
-        self.root = root
-        self.defaults = defaults(root)
-        self.gates: dict[str, Draft7Validator] = {}
-        self.normalizers: dict[str, Callable[[Data], Data]] = {}
-        self.added: dict[tuple[str, ...], Data] = {}  # what records with these keys, behind their path, lacked
 
-    def of(self, data: Data) -> Data:
-        given = {m.name: self.value(m.name, m.type, data[m.name]) for m in self.root.members if m.name in data}
-        return _in_order(self.root, self.defaults | given)
-
-    def value(self, path: str, type_: Type, data: Any) -> Any:
-        if path not in self.gates:
-            self.gates[path] = of_complete(type_)
-        is_complete = self.gates[path].is_valid
-        if isinstance(type_, RecordType):
-            added = self.added.get((path, *data))
-            if added is not None and is_complete(filled := _in_order(type_, data | added)):
-                return filled
-        if is_complete(data):
-            return data
-        match type_:
-            case ListType(element=element):
-                return [self.value(f"{path}[]", element, item) for item in data]
-            case MapType(element=element):
-                return {name: self.value(f"{path}[]", element, item) for name, item in data.items()}
-        assert isinstance(type_, RecordType)
-        filled = _in_order(type_, self.normalizer(path, type_)(data))
-        self.added[path, *data] = {name: value for name, value in filled.items() if name not in data}
-        return filled
-
-    def normalizer(self, path: str, type_: RecordType) -> Callable[[Data], Data]:
-        if path not in self.normalizers:
-            from cerberus import Validator  # slow to import, and seldom wanted
-
-            self.normalizers[path] = Validator(_rules(type_)).normalized
-        return self.normalizers[path]
+def _as_it_is(value: Any) -> Any:
+    return value
 
 
 def _in_order(record: RecordType, data: Data) -> Data:
     return {member.name: data[member.name] for member in record.members if member.name in data}
+
+
+def _completer(type_: Type) -> Completer | None:
+    """What completes values of a type; None where they never lack anything."""
+    match type_:
+        case ListType(element=element) | MapType(element=element):
+            inner = _completer(element)
+            return None if inner is None else partial(_entries, inner)
+        case RecordType(members=members) if any(m.default is not None or _completer(m.type) for m in members):
+            return _Records(type_).complete
+        case _:
+            return None
+
+
+def _entries(inner: Completer, value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: inner(entry) for name, entry in value.items()}
+    return [inner(item) for item in value]
+
+
+class _Records:
+    """Completes records of a type. `added` is what those with these keys lacked."""
+
+    def __init__(self, type_: RecordType) -> None:
+        self.type = type_
+        self.is_complete = of_complete(type_).is_valid
+        self.added: dict[tuple[str, ...], Data] = {}
+        self.normalize: Completer | None = None
+
+    def complete(self, data: Data) -> Data:
+        keys = tuple(data)
+        if keys in self.added and self.is_complete(whole := _in_order(self.type, data | self.added[keys])):
+            return whole
+        if self.is_complete(data):
+            return data
+        if self.normalize is None:
+            from cerberus import Validator  # slow to import, and seldom wanted
+
+            self.normalize = Validator(_rules(self.type)).normalized
+        whole = _in_order(self.type, self.normalize(data))
+        self.added[keys] = {name: value for name, value in whole.items() if name not in data}
+        return whole
 
 
 def _rules(record: RecordType) -> Data:

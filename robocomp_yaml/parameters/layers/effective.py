@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import msgspec
@@ -11,54 +11,61 @@ from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
-from robocomp_yaml.parameters.layers.completion import completed
-from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
+from robocomp_yaml.parameters.layers.completion import complete_at_once, completed
+from robocomp_yaml.parameters.layers.merge import Place, data_of, merged, section
 from robocomp_yaml.parameters.schema.gate import fits
 from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE
 from robocomp_yaml.parameters.types import MapType, Parameters, RecordType, Type
 from robocomp_yaml.parameters.verdict.judge import judge, missing, wrong_size
 from robocomp_yaml.parameters.verdict.specification import is_usable
 from robocomp_yaml.semantics.paths import Path
-from robocomp_yaml.source.tree import Mapping
 
 
-class Effective(msgspec.Struct):
-    """`data` are the values with all defaults, references as `{"env": NAME}`; `place` is where they stand."""
+class Effective(msgspec.Struct, frozen=True):
+    """`data` are the values with all defaults, references as `{"env": NAME}`; `place` is where they stand. Whoever
+    reads them shares them."""
 
     data: dict[str, Any]
     place: Place | None
     parameters: Parameters
 
 
-def document_faults(values: LayeredValues) -> list[Diagnostic]:
+def document_faults(values: LayeredValues, linked: ResolvedParameters) -> Sequence[Diagnostic]:
     """What is wrong with the values that a document itself gives, whatever is missing."""
-    linked = values.parameters
-    entry = values.document.root.entries.get("parameters")
-    if linked is None or entry is None or not isinstance(entry[1], Mapping):
-        return []
-    if fits(linked, DOCUMENT, entry[1].data):
-        return []
-    return list(judge(linked.parameters.root, entry[1], (), complete=False, key=entry[0]))
+    return linked.once(values, lambda: tuple(_document_faults(values, linked)))
 
 
-def effective(values: LayeredValues) -> tuple[Effective | None, list[Diagnostic]]:
-    """The values of a document and all that it builds on; None where something is wrong with them."""
-    linked = values.parameters
+def _document_faults(values: LayeredValues, linked: ResolvedParameters) -> Iterator[Diagnostic]:
+    for key, node in section(values):
+        if not fits(linked, DOCUMENT, node.data):
+            yield from judge(linked.parameters.root, node, (), complete=False, key=key)
+
+
+def effective(values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnostic]]:
+    """The values of a document and all that it builds on, and what is wrong with them; None where anything is. A
+    program works them out once for each of its documents."""
+    linked, found = values.parameters, list[Diagnostic]()
     assert linked is not None
-    root = linked.parameters.root
-    place = merged(values)
-    data = data_of(place, root)
-    layers = values.layers()
+    root, place, head = linked.parameters.root, merged(values), _head(values)
+    data = _of_single_layer(values)
+    whole = complete_at_once(linked, data) if data is not None else None
     # A single layer that is effective as it stands is right as a layer, too: one look is enough.
-    is_right = len(layers) == 1 and fits(linked, EFFECTIVE, _own_data(values))
-    found = [] if is_right else [fault for layer in layers for fault in _layer_faults(layer, linked)]
-    if not is_right and not values.broken and not fits(linked, EFFECTIVE, data):
-        found += _not_misspelled(found, _incomplete(root, place, (), _head(values)))
+    if data is None or (whole is None and not fits(linked, EFFECTIVE, data)):
+        data = data_of(place, root)
+        found += [fault for layer in values.layers() for fault in document_faults(layer, linked)]
+        if not values.broken and not fits(linked, EFFECTIVE, data):
+            found += _not_misspelled(found, _incomplete(root, place, (), head))
     if found or values.broken or not is_usable(linked):
         return None, found
-    complete = completed(linked, data)
-    found = list(_broken_constraints(linked.parameters, complete, place, _head(values)))
-    return (None if found else Effective(complete, place, linked.parameters)), found
+    whole = completed(linked, data) if whole is None else whole
+    found += _broken_constraints(linked.parameters, whole, place, head)
+    return (None if found else Effective(whole, place, linked.parameters)), found
+
+
+def _of_single_layer(values: LayeredValues) -> dict[str, Any] | None:
+    given = section(values)
+    data = given[0][1].data if given and not values.extends else None
+    return data if isinstance(data, dict) else None
 
 
 def _not_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic]) -> list[Diagnostic]:
@@ -69,17 +76,6 @@ def _not_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic])
             around = str(fault.fact("path")).rpartition(".")[0]
             meant.add(f"{around}.{name}" if around else name)
     return [fault for fault in missing_ones if fault.fact("path") not in meant]
-
-
-def _own_data(values: LayeredValues) -> object:
-    entry = values.document.root.entries.get("parameters")
-    return entry[1].data if entry is not None else None
-
-
-def _layer_faults(layer: LayeredValues, linked: ResolvedParameters) -> list[Diagnostic]:
-    if layer.parameters is linked:
-        return document_faults(layer)
-    return document_faults(LayeredValues(layer.document, parameters=linked))
 
 
 def _head(values: LayeredValues) -> Span:

@@ -5,7 +5,7 @@ The result remembers for each value its node, and those that it overrode.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
 
 import msgspec
@@ -17,7 +17,7 @@ from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
-class Place(msgspec.Struct):
+class Place(msgspec.Struct, frozen=True):
     """A merged value. `node` is what the last layer says (of a merged mapping: its last one), `key` the key it stands
     behind; `entries` are those of a merged mapping, None for lists and plain values. `overrode` are the nodes of
     earlier layers that it replaces, the latest first."""
@@ -25,7 +25,7 @@ class Place(msgspec.Struct):
     node: Node
     key: Scalar | None
     entries: dict[str, Place] | None = None
-    overrode: list[Node] = []
+    overrode: tuple[Node, ...] = ()
 
 
 Given = tuple[Scalar | None, Node]
@@ -36,14 +36,13 @@ Where = Place | Node | None
 def merged(values: LayeredValues) -> Place | None:
     """What the layers say under `parameters:`, merged by the types; None where they say nothing."""
     assert values.parameters is not None
-    return merge(values.parameters.parameters.root, _sections(values))
+    return merge(values.parameters.parameters.root, [given for layer in values.layers() for given in section(layer)])
 
 
-def _sections(values: LayeredValues) -> Iterator[Given]:
-    for layer in values.layers():
-        entry = layer.document.root.entries.get("parameters")
-        if entry is not None and isinstance(entry[1], Mapping):
-            yield entry
+def section(values: LayeredValues) -> list[Given]:
+    """What a document itself has under `parameters:`: one entry, or none."""
+    entry = values.document.root.entries.get("parameters")
+    return [entry] if entry is not None and isinstance(entry[1], Mapping) else []
 
 
 def merge(type_: Type, given: Iterable[Given]) -> Place | None:
@@ -57,7 +56,7 @@ def merge(type_: Type, given: Iterable[Given]) -> Place | None:
         return None
     key, top = layers[-1]
     if not isinstance(type_, RecordType | MapType) or not isinstance(top, Mapping):
-        return Place(top, key, None, [node for _, node in reversed(layers[:-1])])
+        return Place(top, key, None, _overridden(layers[:-1]))
     first = len(layers) - 1
     while first > 0 and isinstance(layers[first - 1][1], Mapping):
         first -= 1
@@ -71,7 +70,11 @@ def merge(type_: Type, given: Iterable[Given]) -> Place | None:
         entry_type = _entry_type(type_, name)
         if entry_type is not None and (place := merge(entry_type, entry_layers)) is not None:
             entries[name] = place
-    return Place(top, key, entries, [node for _, node in reversed(layers[:first])])
+    return Place(top, key, entries, _overridden(layers[:first]))
+
+
+def _overridden(layers: list[Given]) -> tuple[Node, ...]:
+    return tuple(node for _, node in reversed(layers))
 
 
 def _entry_type(type_: RecordType | MapType, name: str) -> Type | None:

@@ -1,4 +1,4 @@
-"""A whole values document as the properties of `etc/config`, in the order in which they are written."""
+"""A whole values document as the properties of `etc/config`, in their order, and as the text of that file."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from robocomp_yaml.parameters.writing.write import Property, Writer
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.spellings import quotes_texts
 from robocomp_yaml.semantics.texts import unquoted
-from robocomp_yaml.source.properties import unwritable
+from robocomp_yaml.source.properties import entry_line, unwritable
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
@@ -91,6 +91,24 @@ def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:
     own = [f"{member.name}." for member in parameters.root.members]
     others = [made.key for section in sections for made in section.properties]
     return quotes_texts((*spelled, *own, *others))
+
+
+def property_text(sections: list[Section], name: str, source: str) -> str:
+    """The text of `etc/config` of a component, made of the values document `source` (a path from the file)."""
+    head = f"# Configuration of {name}, written by rcyaml from {source}: change it there, and compile again."
+    return f"{head}\n{section_text(sections)}"
+
+
+def section_text(sections: list[Section]) -> str:
+    return "".join(f"{line}\n" for line in _lines(sections))
+
+
+def _lines(sections: list[Section]) -> Iterator[str]:
+    for section in sections:
+        yield ""
+        yield f"# {section.title}."
+        for made in section.properties:
+            yield entry_line(made.key, made.value)
 
 
 def secret_keys(sections: list[Section]) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from conftest import write_tree
 from robocomp_yaml import pipeline
-from robocomp_yaml.emit.parameter_docs import parameter_docs
+from robocomp_yaml.parameters.writing.reference import reference
 
 PDSL = r"""
 component: c.cdsl.yaml
@@ -30,7 +30,7 @@ constraints:
 def test_what_a_reader_sees(tmp_path: Path) -> None:
     documents = {"c.cdsl.yaml": "component: C\nlanguage: python\n", "c.pdsl.yaml": PDSL}
     (component,) = pipeline.analyse([str(write_tree(tmp_path, documents))]).program.components.values()
-    lines = parameter_docs(component).splitlines()
+    lines = reference(component.parameters.parameters, "C").splitlines()
     for line in (
         r"Give \<host> and `<port>`, see <https://robocomp.org>.",
         r"| `device` | text that matches `/dev/(a\|b)[0-9]*` | `/dev/a0` |  |",

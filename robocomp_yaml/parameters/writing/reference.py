@@ -5,18 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.parameters.types import EnumType, Member, RecordType, Type, innermost, is_secret
+from robocomp_yaml.parameters.types import EnumType, Member, Parameters, RecordType, Type, innermost, is_secret
 from robocomp_yaml.parameters.words import default_in_words, in_words, prose
 
 
-def parameter_docs(linked: LinkedComponent) -> str:
-    return "\n".join(_lines(linked)) + "\n"
+def reference(parameters: Parameters, name: str) -> str:
+    """`name` is the component's."""
+    return "\n".join(_lines(parameters, name)) + "\n"
 
 
-def _lines(linked: LinkedComponent) -> Iterator[str]:
-    parameters = linked.parameters.parameters
-    yield f"# Parameters of {linked.component.name}"
+def _lines(parameters: Parameters, name: str) -> Iterator[str]:
+    yield f"# Parameters of {name}"
     yield ""
     if parameters.doc:
         yield prose(parameters.doc)
