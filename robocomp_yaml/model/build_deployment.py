@@ -212,5 +212,4 @@ def _exposed(name: Scalar, node: Node) -> Exposed:
         rate=float(rate.data) if rate else None,  # type: ignore[arg-type]
         allow=tuple(_texts(node, "allow")) if "allow" in node.entries else None,
         span=name.span,
-        rate_span=span_of(node, "rate"),
     )

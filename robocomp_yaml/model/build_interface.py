@@ -178,7 +178,6 @@ def _method(key: Scalar, node: Node) -> Method:
         throws=tuple(ref for ref in throws if ref is not None),
         idempotent=isinstance(node, Mapping) and node.data.get("idempotent") is True,  # type: ignore[attr-defined]
         doc=doc(node),
-        legacy_name=text(node, "x-legacy-name"),
         returns_doc=doc(returns),
         returns_unit=text(returns, "unit"),
         span=key.span,
