@@ -139,7 +139,6 @@ class Exposed(Located, frozen=True):
     rate: float | None = None
     allow: tuple[Text, ...] | None = None
     span: Span = Span("")
-    rate_span: Span = Span("")
 
     @property
     def has_rule(self) -> bool:

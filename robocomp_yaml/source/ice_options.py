@@ -34,6 +34,12 @@ class Word(msgspec.Struct, frozen=True):
     end: int
 
 
+def after_blanks(text: str, start: int) -> int:
+    while start < len(text) and text[start] in BLANKS:
+        start += 1
+    return start
+
+
 def words_of(text: str, start: int, end: int) -> list[Word]:
     """As a shell has them: quotes of both kinds, anywhere in a word, and backslashes before quotes."""
     found: list[Word] = []
@@ -114,7 +120,7 @@ class _Ip:
             case "t":
                 _timeout(option, argument)
             case "z":
-                _alone(option, argument)
+                alone(option, argument)
             case _:
                 return False
         return True
@@ -155,7 +161,7 @@ class _Udp(_Ip):
     def is_known(self, option: Word, argument: Word | None) -> bool:
         match option.text:
             case "-c" | "-z":
-                _alone(option, argument)
+                alone(option, argument)
             case "-v" | "-e":
                 check_version(option, argument)
             case "--interface":
@@ -196,7 +202,7 @@ class _Bluetooth(_Ip):
                 if argument is None or argument.text.strip(BLANKS) != "infinite":
                     _timeout(option, argument)
             case "-z":
-                _alone(option, argument)
+                alone(option, argument)
             case "--name":
                 _given(option, argument)
             case _:
@@ -258,7 +264,7 @@ def _given(option: Word, argument: Word | None, what: str = "a value") -> Word:
     return argument
 
 
-def _alone(option: Word, argument: Word | None) -> None:
+def alone(option: Word, argument: Word | None) -> None:
     if argument is not None:
         raise Refused(f"'{option.text}' takes no value, and has '{argument.text}'", argument.start, argument.end)
 

@@ -12,8 +12,7 @@ from hypothesis.strategies import SearchStrategy
 from robocomp_yaml.legacy import document, ledger
 from robocomp_yaml.legacy.convert import Converted, convert
 from robocomp_yaml.legacy.draft import ConfigDraft
-from robocomp_yaml.model import build_component
-from robocomp_yaml.model import build_interface
+from robocomp_yaml.model import build_component, build_interface
 from robocomp_yaml.model.component import Component, Gui, Language, Option, Use
 from robocomp_yaml.model.interface import (
     BASIC_TYPES,

@@ -5,13 +5,10 @@ from __future__ import annotations
 import ast
 import json
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
 import pytest
 
-from conftest import ROOT, write_tree
-from robocomp_yaml import pipeline
-from robocomp_yaml.diag.diagnostic import ERROR
+from conftest import ROOT
 from robocomp_yaml.languages.python import plan as python
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE
@@ -73,19 +70,6 @@ subscribes: [SpeechEvents]
 period: 50 ms
 """,
 }
-
-
-@pytest.fixture
-def link(tmp_path: Path) -> Callable[[Mapping[str, str]], LinkedComponent]:
-    """`link({path: YAML})`: the one component among the documents."""
-
-    def linked(documents: Mapping[str, str]) -> LinkedComponent:
-        analysis = pipeline.analyse([str(write_tree(tmp_path, documents))])
-        assert [d for d in analysis.diagnostics if d.severity == ERROR] == []
-        (component,) = analysis.program.components.values()
-        return component
-
-    return linked
 
 
 Link = Callable[[Mapping[str, str]], LinkedComponent]

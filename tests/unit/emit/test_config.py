@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_yaml.emit import config
-from robocomp_yaml.emit import ports
+from robocomp_yaml.emit import config, ports
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.source import properties

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from robocomp_yaml.parameters.types import Member, RecordType, is_secret
 
 from in_memory import ROOT, pdsl, program, refused, said
 from robocomp_yaml.parameters.types import Member, RecordType, is_secret
