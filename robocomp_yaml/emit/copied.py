@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from robocomp_yaml import semantics
+from robocomp_yaml import resources, semantics
 from robocomp_yaml.languages import language
 from robocomp_yaml.transactions.plan import FilePlan
 
@@ -24,8 +24,4 @@ def shared() -> tuple[FilePlan, ...]:
 
 
 def _files(source: Path, target: str, without: frozenset[str] = frozenset()) -> tuple[FilePlan, ...]:
-    return tuple(
-        FilePlan(f"{target}/{file.name}", file.read_text(encoding="utf-8"))
-        for file in sorted(source.iterdir())
-        if file.is_file() and file.name not in without
-    )
+    return tuple(FilePlan(f"{target}/{name}", text) for name, text in resources.files(source) if name not in without)
