@@ -7,6 +7,7 @@ beside the package, where people look for them.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from functools import cache
 
 _PACKAGE = os.path.dirname(os.path.realpath(__file__))
@@ -29,9 +30,21 @@ def folder(name: str) -> str:
     raise FileNotFoundError(f"rcyaml's folder '{name}' is missing from this installation: reinstall rcyaml")
 
 
+def files(source: str) -> Iterator[tuple[str, str]]:
+    """The names and the texts of the files that stand directly in a folder of rcyaml's own."""
+    for name in sorted(os.listdir(source)):
+        if os.path.isfile(path := os.path.join(source, name)):
+            yield name, whole(path)
+
+
 def text(path: str) -> str:
     """The text of one data file, such as `schemas/idsl.schema.json`."""
-    with open(_of(path), encoding="utf-8") as file:
+    return whole(_of(path))
+
+
+def whole(path: str) -> str:
+    """The text of a file of rcyaml's own."""
+    with open(path, encoding="utf-8") as file:
         return file.read()
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import os
 from functools import cache
 
-from robocomp_yaml import semantics
+from robocomp_yaml import resources, semantics
 from robocomp_yaml.languages import language
-from robocomp_yaml.source.regular import regular
 from robocomp_yaml.transactions.plan import FilePlan
 
 
@@ -25,10 +24,4 @@ def shared() -> tuple[FilePlan, ...]:
 
 
 def _files(source: str, target: str, without: frozenset[str] = frozenset()) -> tuple[FilePlan, ...]:
-    paths = (os.path.join(source, name) for name in sorted(os.listdir(source)) if name not in without)
-    return tuple(FilePlan(f"{target}/{os.path.basename(path)}", _text(path)) for path in paths if os.path.isfile(path))
-
-
-def _text(path: str) -> str:
-    with open(path, encoding="utf-8", opener=regular) as file:
-        return file.read()
+    return tuple(FilePlan(f"{target}/{name}", text) for name, text in resources.files(source) if name not in without)

@@ -9,6 +9,8 @@ from types import MappingProxyType, ModuleType
 
 import msgspec
 
+from robocomp_yaml import resources
+
 IMPLEMENTS, REQUIRES, PUBLISHES, SUBSCRIBES = "implements", "requires", "publishes", "subscribes"
 PARAMETERS, PERIOD = "parameters", "period"
 STATEMACHINE, GUI, COMPATIBILITY, STANDARD = "statemachine", "gui", "compatibility", "standard"
@@ -74,8 +76,7 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
 
     def text(self, path: str) -> str:
         """The text of a file of its templates."""
-        with open(os.path.join(self.templates, path), encoding="utf-8") as file:
-            return file.read()
+        return resources.whole(os.path.join(self.templates, path))
 
     def in_code(self, name: str) -> str:
         """A parameter's name as code spells it: what is reserved gets an underscore."""

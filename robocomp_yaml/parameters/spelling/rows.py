@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from robocomp_yaml.parameters.specification.document import Spelling
-from robocomp_yaml.parameters.types import ListType, RecordType, ScalarType, Type
-from robocomp_yaml.semantics import rows
+from robocomp_yaml.parameters.types import EnumType, ListType, RecordType, ScalarType, Type
+from robocomp_yaml.semantics import rows, texts
 
 
 def columns(record: RecordType, names: tuple[str, ...]) -> list[tuple[str, ScalarType]]:
@@ -48,3 +48,11 @@ def _parts(type_: Type, parts: Any, spelling: Spelling, levels: int) -> Any:
     if isinstance(type_, RecordType):
         return read_row(type_, spelling.columns, parts, spelling.separators[levels])
     return parts
+
+
+def plain(type_: ScalarType, text: str) -> Any:
+    """The value that a text spells. Raises ValueError where it spells none."""
+    found = text if isinstance(type_, EnumType) else texts.read(type_.name, text)
+    if found is None:
+        raise ValueError(f"'{text}' is no {type_.name}")
+    return found

@@ -37,7 +37,6 @@ from robocomp_yaml.semantics.paths import Path, escaped, in_words
 from robocomp_yaml.semantics.references import FILE, is_reference
 from robocomp_yaml.semantics.references import read as reference_of
 from robocomp_yaml.semantics.rows import joined
-from robocomp_yaml.semantics.texts import read as value_of
 from robocomp_yaml.semantics.texts import spelled, unquoted
 from robocomp_yaml.source.properties import unwritable
 from robocomp_yaml.source.tree import Scalar
@@ -138,7 +137,7 @@ class Writer(msgspec.Struct):
         if text is None or (text == "" and not self.quote):
             return
         is_text = isinstance(type_, EnumType) or type_.name == "string"
-        read: Callable[[str], Any] | None = None if is_text else lambda other: plain(type_, other)
+        read: Callable[[str], Any] | None = None if is_text else lambda other: rows.plain(type_, other)
         if self.quote and is_text and '"' not in text:
             text, read = f'"{text}"', unquoted
         is_secret = type_.secret and not is_reference(data)
@@ -366,15 +365,7 @@ class Writer(msgspec.Struct):
         if isinstance(type_, ListType):
             return [self.typed(type_.element, part) for part in read]
         assert isinstance(type_, BasicType | EnumType)
-        return plain(type_, read)
+        return rows.plain(type_, read)
 
     def fault(self, where: Where, path: Path, problem: str) -> None:
         self.faults.append(codes.NOT_FOR_ICE.at(span_of(where) or self.head, path=in_words(path), problem=problem))
-
-
-def plain(type_: ScalarType, text: str) -> Any:
-    """The value that a text spells. Raises ValueError where it spells none."""
-    found = text if isinstance(type_, EnumType) else value_of(type_.name, text)
-    if found is None:
-        raise ValueError(f"'{text}' is no {type_.name}")
-    return found
