@@ -7,6 +7,8 @@ PYTHON ?= $(or $(RCYAML_PYTHON),$(shell /usr/bin/python3 -c 'import sys; sys.exi
   && echo /usr/bin/python3 || echo python3))
 JOBS ?= 2
 FUZZ_MINUTES ?= 10
+MUTANTS ?= 60
+SEED ?= 1
 
 # What the system is to have for a goal: installed where that may be done, else named.
 demo_NEEDS := python3-venv python3-zeroc-ice
@@ -17,7 +19,7 @@ test_NEEDS := $(demo_NEEDS) \
 # More for the tests than one wants by the way on a machine of one's own: the CI has an SSH server, and systemd.
 MORE ?=
 
-.PHONY: help demo test test-long fast unit fuzz lint format macros bench ice clean system-demo system-test
+.PHONY: help demo test test-long fast unit fuzz mutants lint format macros bench ice clean system-demo system-test
 .NOTPARALLEL:
 
 help:
@@ -27,6 +29,7 @@ help:
 	@echo "make unit   the tests of parts by themselves: some 20 seconds"
 	@echo "make fast   the tests that need neither C++ builds nor an editor"
 	@echo "make fuzz   look for new failing examples, for FUZZ_MINUTES=10 minutes"
+	@echo "make mutants  MUTANTS=60 small changes of what the code means, SEED=1: which the unit tests notice"
 	@echo "make bench  the benchmarks, as ratios"
 	@echo "make lint   the code by itself: rules, types, layers"
 	@echo "make format the order of imports, and the format, of all code"
@@ -72,6 +75,9 @@ fast: $(VENV)/tests
 
 fuzz: $(VENV)/tests
 	@$(VENV)/bin/python tests/fuzz/run.py --minutes $(FUZZ_MINUTES) --jobs $(JOBS)
+
+mutants: $(VENV)/tests
+	@$(VENV)/bin/python tests/mutation/run.py --mutants $(MUTANTS) --seed $(SEED)
 
 lint: $(VENV)/tests
 	@$(VENV)/bin/python tools/lint.py

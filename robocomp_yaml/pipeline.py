@@ -5,6 +5,7 @@ Each pass takes what the one before it gave, and nothing is changed once it is g
     discover   paths → which documents                                    source.discover
     read       each document once: bytes → tree → shape → model           link.documents (source, schemas, model)
     link       imports, names, parameters, values, deployments → program  link.linker
+    complete   values documents → effective values, when first asked for  program.effective (parameters.layers)
     derive     deployments → networks                                     network.networks
     check      what no schema can say, of documents and of networks       check
     tell       what comments allow and `lint:` asks for, fixes spelled, secrets hidden

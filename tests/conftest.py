@@ -7,6 +7,7 @@ import os
 import signal
 from collections.abc import Callable, Generator, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from click.testing import CliRunner, Result
@@ -16,6 +17,9 @@ from hypothesis.database import DirectoryBasedExampleDatabase
 import own_ports
 import tiers
 from robocomp_yaml.cli import group
+
+if TYPE_CHECKING:
+    from robocomp_yaml.link.program import LinkedComponent
 
 ROOT = Path(__file__).resolve().parent.parent
 CORPUS = ROOT.parent / "shared" / "corpus"
@@ -95,6 +99,21 @@ def diagnostics(rcyaml: Callable[..., Result], tmp_path: Path) -> Callable[..., 
         return json.loads(rcyaml("check", "--format", "json", *args).stdout)["diagnostics"]
 
     return check
+
+
+@pytest.fixture
+def link(tmp_path: Path) -> Callable[[Tree], LinkedComponent]:
+    """`link({path: YAML})`: the one component among the documents."""
+    from robocomp_yaml import pipeline
+    from robocomp_yaml.diag.diagnostic import ERROR
+
+    def linked(documents: Tree) -> LinkedComponent:
+        analysis = pipeline.analyse([str(write_tree(tmp_path, documents))])
+        assert [d for d in analysis.diagnostics if d.severity == ERROR] == []
+        (component,) = analysis.program.components.values()
+        return component
+
+    return linked
 
 
 def pytest_configure() -> None:

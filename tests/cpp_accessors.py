@@ -13,7 +13,7 @@ from conftest import ROOT
 from parameters import Data
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.cpp import parameters as cpp_parameters
-from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.parameters.types import Parameters
 
 DRIVER = ROOT / "tests" / "cpp_driver" / "main.cpp"
 RUNTIME = ("secrecy", "texts", "references", "kinds", "reading", "editing", "store", "expressions", "pattern")
@@ -25,7 +25,7 @@ class Program:
     def __init__(self, folder: Path, parameters: Parameters) -> None:
         for name, text in cpp_parameters.texts(parameters, "Driver", "x.pdsl.yaml").items():
             (folder / name).write_text(text, encoding="utf-8")
-        (folder / "runtime").symlink_to(language("cpp").templates / "runtime")
+        (folder / "runtime").symlink_to(Path(language("cpp").templates) / "runtime")
         includes = [f'#include "runtime/{name}.cpp"' for name in RUNTIME] + ['#include "parameters.cpp"']
         (folder / "all.cpp").write_text("\n".join([*includes, f'#include "{DRIVER}"']) + "\n")
         command = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", f"-I{folder}", "-o", str(folder / "driver")]

@@ -9,7 +9,7 @@ from conftest import ROOT
 from cpp_accessors import Program as CppProgram
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.java import parameters as java_parameters
-from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.parameters.types import Parameters
 
 DRIVER = ROOT / "tests" / "java_driver" / "Driver.java"
 
@@ -19,7 +19,7 @@ class Program(CppProgram):
         (folder / "generated").mkdir()
         text = java_parameters.text(parameters, "Driver", "x.pdsl.yaml")
         (folder / "generated" / "Parameters.java").write_text(text, encoding="utf-8")
-        (folder / "generated" / "runtime").symlink_to(language("java").templates / "runtime")
+        (folder / "generated" / "runtime").symlink_to(Path(language("java").templates) / "runtime")
         jars = ":".join(map(str, Path("/usr/share/java").glob("ice*-3.7*.jar")))
         command = [
             "javac",

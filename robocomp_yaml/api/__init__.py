@@ -24,23 +24,29 @@ from robocomp_yaml.diag.span import Span
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.compiling import Compilation
+    from robocomp_yaml.api.deploying import Deployment
     from robocomp_yaml.api.fixing import Fixing
     from robocomp_yaml.api.migrating import Migration
     from robocomp_yaml.api.outcome import File, Outcome
     from robocomp_yaml.api.values import Change, Values
     from robocomp_yaml.api.workspace import Workspace
+    from robocomp_yaml.deploy.engine import Line
+    from robocomp_yaml.deploy.operations import Result, Status
+    from robocomp_yaml.deploy.plan import Plan
     from robocomp_yaml.network.network import Network
-    from robocomp_yaml.values.show import Value
+    from robocomp_yaml.parameters.editing.show import Value
 
 __all__ = [
-    "ERROR", "NOTE", "WARNING", "Change", "Compilation", "Diagnostic", "Faulty", "File", "Fixing", "Migration",
-    "Network", "Outcome", "Refused", "Related", "Span", "Value", "Values", "Workspace", "load", "migrate",
+    "ERROR", "NOTE", "WARNING", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty", "File", "Fixing", "Line",
+    "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span", "Status", "Value", "Values",
+    "Workspace", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {
-    "Change": "api.values", "Compilation": "api.compiling", "File": "api.outcome", "Fixing": "api.fixing",
-    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Value": "values.show",
-    "Values": "api.values", "Workspace": "api.workspace",
+    "Change": "api.values", "Compilation": "api.compiling", "Deployment": "api.deploying", "File": "api.outcome",
+    "Fixing": "api.fixing", "Line": "deploy.engine", "Migration": "api.migrating", "Network": "network.network",
+    "Outcome": "api.outcome", "Plan": "deploy.plan", "Result": "deploy.operations", "Status": "deploy.operations",
+    "Value": "parameters.editing.show", "Values": "api.values", "Workspace": "api.workspace",
 }  # fmt: skip
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache, cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -130,7 +129,7 @@ class Compilation:
             if not fences.hold(workspace.root):
                 continue
             try:
-                workspace_files.install(Path(workspace.root), workspace.plugins)
+                workspace_files.install(workspace.root, workspace.plugins)
             except OSError:
                 continue
             for kind in workspace_files.GLOBS:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import re
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -21,9 +21,19 @@ from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
-from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type, is_secret, leaves
+from robocomp_yaml.parameters.editing import show
+from robocomp_yaml.parameters.editing.edit import NotEditable
+from robocomp_yaml.parameters.editing.edit import set_value as edit
+from robocomp_yaml.parameters.editing.show import Value
+from robocomp_yaml.parameters.examples.new import lines_above
+from robocomp_yaml.parameters.hidden import hidden
+from robocomp_yaml.parameters.layers.effective import Effective
+from robocomp_yaml.parameters.types import BasicType, EnumType, RecordType, Type, is_secret, leaves
+from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import whole
@@ -32,15 +42,6 @@ from robocomp_yaml.source.tree import Node, Scalar, parse
 from robocomp_yaml.source.tree import Sequence as List
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
-from robocomp_yaml.values import paths, show
-from robocomp_yaml.values.edit import NotEditable
-from robocomp_yaml.values.edit import set_value as edit
-from robocomp_yaml.values.effective import Effective, effective
-from robocomp_yaml.values.hidden import hidden
-from robocomp_yaml.values.judge import judge
-from robocomp_yaml.values.new import lines_above
-from robocomp_yaml.values.paths import Step
-from robocomp_yaml.values.show import Value
 
 # As `rcyaml config get` prints them; one that cannot be followed is refused, and no text that happens to look so.
 _REFERENCE = re.compile(r"\{ *(?:env|file) *:.*\}", re.DOTALL)
@@ -99,7 +100,7 @@ class Values:
             others = {one.document.path for one in self._analysis.program.values.values()} - ours
             told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
             if linked.parameters is not None and check.is_only_layer(linked):
-                told += check.of_document(linked, complete=True)
+                told += check.of_document(linked, self._analysis.program, complete=True)
         return in_order(self._analysis.veiled(told))
 
     @property
@@ -120,7 +121,7 @@ class Values:
             raise Faulty(self.diagnostics, self.documents_read)
         if self._linked is None or self._linked.parameters is None:
             raise self._unknown()
-        values, found = effective(self._linked)
+        values, found = self._analysis.program.effective(self._linked)
         if values is None:  # what is wrong is no error in this workspace, and leaves nothing to show all the same
             problem = "the values cannot be completed: `rcyaml check` says what is wrong with their parameters"
             told = [*found, file_codes.WRONG_SHAPE.at(Span(self.file), problem=problem)]
@@ -139,7 +140,7 @@ class Values:
         found = show.find(values, steps)
         if found is None:
             return None
-        return found[0] if reveal else show.hidden_at(values.parameters.root, steps, found[0])
+        return copy.deepcopy(found[0]) if reveal else show.hidden_at(values.parameters.root, steps, found[0])
 
     def export(self, form: str = "ice", *, reveal: bool = True) -> str:
         """All effective values as a property file for Ice (`ice`) or as TOML (`toml`). Programs get the values as they
@@ -147,14 +148,13 @@ class Values:
         values = self._effective
         assert self._linked is not None
         if form == "toml":
-            from robocomp_yaml.emit.toml_text import toml_text
+            from robocomp_yaml.parameters.writing.toml_text import toml_text
 
             if reveal:
                 return toml_text(self._linked, values)
             shown = replace(values, data=hidden(values.parameters.root, values.data))
             return "".join(hidden_lines(toml_text(self._linked, shown)))
-        from robocomp_yaml.values.properties import properties
-        from robocomp_yaml.values.property_text import property_text
+        from robocomp_yaml.parameters.writing.properties import properties, property_text
 
         sections, _ = properties(self._linked, values)
         component = self._parameters.component
@@ -221,15 +221,14 @@ class Values:
             raise Faulty(self._analysis.veiled(found), 1)
 
 
-def write_new(file: str, include: Sequence[str] = ()) -> Path:
+def write_new(file: str, include: Sequence[str] = ()) -> str:
     """Writes a first values document: `file` is that document, or what `which.component` knows a component by. Values
     and connections of the component's `etc/config` are taken over. Raises Refused and Faulty."""
     is_values = kind_of(file) == "config" or file.endswith(".config.yaml") or os.path.basename(file) == "config.yaml"
-    target = Path(file) if is_values else None
-    if target is not None and os.path.lexists(target):
-        raise Refused(f"{target} is there already, and stays as it is")
-    component = which.component(file) if target is None else which.component_near(file)
-    target = target or Path(component).parent / which.VALUES
+    if is_values and os.path.lexists(file):
+        raise Refused(f"{os.path.normpath(file)} is there already, and stays as it is")
+    component = which.component_near(file) if is_values else which.component(file)
+    target = os.path.normpath(file if is_values else os.path.join(os.path.dirname(component), which.VALUES))
     if os.path.lexists(target):
         raise Refused(f"{target} is there already, and stays as it is")
     analysis = analyse((component,), include)
@@ -242,8 +241,8 @@ def write_new(file: str, include: Sequence[str] = ()) -> Path:
     from robocomp_yaml.emit.first_values import first_values
 
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        whole_file.create(target, first_values(linked, component, str(target), ports(analysis)))
+        os.makedirs(os.path.dirname(target) or ".", exist_ok=True)
+        whole_file.create(target, first_values(linked, component, target, ports(analysis)))
     except OSError as error:
         raise Refused(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
     return target

@@ -12,6 +12,7 @@ from robocomp_yaml.pipeline import Analysis, analyse
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.compiling import Compilation
+    from robocomp_yaml.api.deploying import Deployment
     from robocomp_yaml.api.fixing import Fixing
     from robocomp_yaml.api.values import Values
     from robocomp_yaml.network.network import Network
@@ -91,6 +92,17 @@ class Workspace:
     def network(self, path: str = "") -> Network:
         """The network of the deployment at a path, or of the only one that no other one includes. Raises Refused where
         there is none, or several; Faulty where its errors leave no network."""
+        return self.networks[self._deployment_at(path)]
+
+    def deployment(self, path: str = "", *, engine: str | None = None) -> Deployment:
+        """The same deployment as it is carried out: planned, brought up, watched and taken down. `engine` is what runs
+        it (`local`, `icegrid`); without one, what its hosts call for. Faulty where the documents have errors."""
+        from robocomp_yaml.api.deploying import Deployment
+
+        return Deployment(self.analysis, self._deployment_at(path), engine)
+
+    def _deployment_at(self, path: str) -> str:
+        """The document of the deployment that is meant, if it comes to a network."""
         program = self.analysis.program
         wanted = (
             {os.path.realpath(path)}
@@ -98,11 +110,11 @@ class Workspace:
             else {real for real, linked in program.deployments.items() if not linked.is_included}
         )
         read = self.analysis.linker.documents.read
-        found = {read[real].path: network for real, network in self.analysis.networks.items() if real in wanted}
+        found = [read[real].path for real in self.analysis.networks if real in wanted]
         if found:
             from robocomp_yaml.api.deployments import one_of
 
-            return found[one_of(list(found))]
+            return one_of(found)
         if any(document.kind == "ddsl" and (not path or real in wanted) for real, document in read.items()):
             raise Faulty(self.analysis.diagnostics, self.documents_read)
         raise Refused(f"there is no deployment at '{path}'" if path else "there is no deployment")

@@ -22,8 +22,7 @@ Check = Callable[[Program], Iterator[Diagnostic]]
 
 def modules_of(kind: str) -> list[ModuleType]:
     """Every module that checks a kind of document, in the order of their names."""
-    modules = Modules(f"{__name__}.{kind}", "check")
-    return [module for module in map(modules.load, modules.table()) if hasattr(module, "check")]
+    return [module for module in Modules(f"{__name__}.{kind}", "check").every() if hasattr(module, "check")]
 
 
 def checks_of(kind: str) -> list[Check]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import re
-import shlex
 from collections.abc import Collection, Iterable, Iterator
 
 import msgspec
@@ -19,14 +18,15 @@ from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.documents import Document
 from robocomp_yaml.link.program import LinkedParameters, Program
-from robocomp_yaml.model.parameters import RecordType
+from robocomp_yaml.parameters.hidden import declared, named_nodes, nodes, plain_below
+from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.text import decode
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
-from robocomp_yaml.values.hidden import declared, named_nodes, nodes, plain_below
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, pairs_below, parse
 
 _PROPERTIES = ("properties", "ice", "endpoints", "proxies", "topics")
 
@@ -63,7 +63,7 @@ def _of_configurations(program: Program) -> Iterator[Diagnostic]:
             names = set(declared(component.parameters.parameters.root)) if component is not None else set()
             line = _line_of_secret(program.disk.contents[path].decode("utf-8", "replace"), names)
             if line:
-                file, hint = os.path.relpath(path), f"`chmod 600 {shlex.quote(os.path.relpath(path))}`"
+                file, hint = os.path.relpath(path), f"`{typed('chmod', '600', os.path.relpath(path))}`"
                 yield network_codes.OPEN_CONFIG.at(given.span, file=file, line=line, hint=hint)
 
 
@@ -112,7 +112,7 @@ def _others_can_read(path: str) -> bool:
 
 
 def _warning(document: Document, secret: Secret) -> Diagnostic:
-    mode = f"`chmod 600 {shlex.quote(document.path)}`"
+    mode = f"`{typed('chmod', '600', document.path)}`"
     code = network_codes.OPEN_SECRET if document.kind == "ddsl" else codes.OPEN_SECRET
     hint = {
         "config": f"{mode}, or give {{env: NAME}} or {{file: PATH}}",
@@ -192,9 +192,7 @@ class _Finder:
             if instance.component is not None and instance.entry.settings is not None:
                 owners[str(instance.entry.settings.span)] = instance.component.parameters
         components = tree.get("components")
-        for _, entry in components.items() if isinstance(components, Mapping) else ():
-            if not isinstance(entry, Mapping):
-                continue
+        for entry in components.children() if components is not None else ():
             if (env := entry.get("env")) is not None:
                 yield from map(Secret, named_nodes(env))
             for key in ("args", "ready"):
@@ -205,45 +203,36 @@ class _Finder:
                 yield from map(Secret, nodes(linked_to.parameters.root, given))
             elif given is not None:
                 yield from map(Secret, named_nodes(given, self.names))
-                yield from _unsure(given) if "component" in entry.entries else ()
+                yield from _unsure(given) if isinstance(entry, Mapping) and "component" in entry.entries else ()
 
 
 def _anywhere(node: Node, names: Collection[str]) -> Iterator[Secret]:
-    if isinstance(node, Mapping):
-        for _, value in node.items():
-            yield from _anywhere(value, names)
-        yield from map(Secret, named_nodes(node, names))
-    elif isinstance(node, Sequence):
+    if isinstance(node, Sequence):
         yield from _words(node, names)
-        for item in node.items:
-            yield from _anywhere(item, names)
+    for child in node.children():
+        yield from _anywhere(child, names)
+    if isinstance(node, Mapping):
+        yield from map(Secret, named_nodes(node, names))
 
 
-def _of_defaults(node: Node) -> Iterator[Secret]:
+def _of_defaults(tree: Node) -> Iterator[Secret]:
     """In a document of parameters, whatever its shape."""
-    if isinstance(node, Mapping):
-        for key, value in node.items():
-            if isinstance(value, Mapping):
-                is_secret = secrets.is_secret(key.lexeme) or "secret" in value.entries
-                given = value.get("default") if is_secret else None
-                yield from map(Secret, plain_below(given)) if given is not None else ()
-            yield from _of_defaults(value)
-    elif isinstance(node, Sequence):
-        for item in node.items:
-            yield from _of_defaults(item)
+    for value in _called_secret(tree):
+        yield from map(Secret, plain_below(given)) if (given := value.get("default")) is not None else ()
 
 
-def _of_allowed(node: Node) -> Iterator[Secret]:
+def _of_allowed(tree: Node) -> Iterator[Secret]:
     """The values that a secret may have: one of them it is."""
-    if isinstance(node, Mapping):
-        for key, value in node.items():
-            if isinstance(value, Mapping) and (secrets.is_secret(key.lexeme) or "secret" in value.entries):
-                for word in _ALLOWED & value.entries.keys():
-                    yield from _unsure(value.entries[word][1])
-            yield from _of_allowed(value)
-    elif isinstance(node, Sequence):
-        for item in node.items:
-            yield from _of_allowed(item)
+    for value in _called_secret(tree):
+        for word in _ALLOWED & value.entries.keys():
+            yield from _unsure(value.entries[word][1])
+
+
+def _called_secret(tree: Node) -> Iterator[Mapping]:
+    """What stands below a secret's name, or says itself whether it is one."""
+    for key, value in pairs_below(tree):
+        if isinstance(value, Mapping) and (secrets.is_secret(key.lexeme) or "secret" in value.entries):
+            yield value
 
 
 def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
@@ -277,21 +266,17 @@ def _in_extensions(node: Node | None) -> Iterator[Scalar]:
                 yield from (one for one in plain_below(value) if secrets.masked(one.lexeme) != one.lexeme)
             else:
                 yield from _in_extensions(value)
-    elif isinstance(node, Sequence):
-        for item in node.items:
-            yield from _in_extensions(item)
+    for item in node.items if isinstance(node, Sequence) else ():
+        yield from _in_extensions(item)
 
 
 def _texts(node: Node) -> Iterator[Scalar]:
     """Every text that may hold a secret by its own words."""
-    if isinstance(node, Mapping):
-        for key, value in node.items():
-            yield from _texts(value) if key.lexeme != "doc" else ()
-    elif isinstance(node, Sequence):
-        for item in node.items:
-            yield from _texts(item)
-    elif isinstance(node, Scalar) and secrets.may_hold(node.lexeme):
-        yield node
+    if isinstance(node, Scalar):
+        yield from (node,) if secrets.may_hold(node.lexeme) else ()
+    told = (value for key, value in node.items() if key.lexeme != "doc") if isinstance(node, Mapping) else None
+    for child in told or node.children():
+        yield from _texts(child)
 
 
 def _password_of_url(text: str) -> str:
@@ -340,12 +325,6 @@ def _names_nearby(path: str, disk: Disk) -> Iterator[str]:
             raw, _ = disk.read(os.path.join(where, name))
             text = decode(path, raw)[0] if raw is not None else None
             tree, _ = parse(path, text) if text is not None else (None, [])
-            yield from _called_secret(tree)
-
-
-def _called_secret(node: Node | None) -> Iterator[str]:
-    if isinstance(node, Mapping):
-        for key, value in node.items():
-            if isinstance(value, Mapping) and value.data.get("secret") is True:  # type: ignore[attr-defined]
-                yield key.lexeme
-            yield from _called_secret(value)
+            for key, value in pairs_below(tree) if tree is not None else ():
+                if isinstance(value, Mapping) and value.data.get("secret") is True:  # type: ignore[attr-defined]
+                    yield key.lexeme

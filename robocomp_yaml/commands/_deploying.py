@@ -1,62 +1,48 @@
-"""What the commands of `rcyaml deploy` share, and how each is carried out and told."""
+"""How the commands of `rcyaml deploy` call the library, and tell what came of it."""
 
 from __future__ import annotations
 
 import asyncio
 import os
 import shutil
+import signal
 import sys
-from collections.abc import Collection, Coroutine, Iterable
-from contextlib import ExitStack
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Iterable
+from typing import TypeVar
 
 import click
 import msgspec
-from msgspec.structs import replace
 
+from robocomp_yaml.api.deploying import Deployment
 from robocomp_yaml.api.deployments import document
 from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
-from robocomp_yaml.commands._attaching import attached
 from robocomp_yaml.commands._progress import Progress
-from robocomp_yaml.deploy import folder, operations
-from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import DeployFailed, Engine
-from robocomp_yaml.deploy.engines import make_engine
-from robocomp_yaml.deploy.time_limit import TimeLimit
+from robocomp_yaml.deploy.attached import Attached
+from robocomp_yaml.deploy.engine import Line
+from robocomp_yaml.deploy.operations import Result
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.errors import Faulty
 from robocomp_yaml.diag.render import text
 from robocomp_yaml.diag.render.json import as_data, dumps
-from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.network import Network
-
-if TYPE_CHECKING:
-    from robocomp_yaml.pipeline import Analysis
 
 T = TypeVar("T")
 
 
 class Opened(msgspec.Struct):
-    """A deployment as a command works on it. `path` is its document's, as the user gave it; `told` are the diagnostics
-    so far, of which some have been `shown`; `analysis` is of the documents. `lock` is held while it is changed.
-    `ended_by` is the exit code where the user had enough of what was brought up."""
+    """A deployment as a command works on it; of its diagnostics some have been `shown`. `ended_by` is the exit code
+    where the user had enough of what was brought up."""
 
-    path: str
-    network: Network
-    engine: Engine
+    deployment: Deployment
     format_: str
-    analysis: Analysis
-    told: list[Diagnostic] = []
     shown: list[Diagnostic] = []
-    lock: ExitStack = msgspec.field(default_factory=ExitStack)
     ended_by: int = 0
 
     @property
-    def enabled(self) -> set[str]:
-        return {process.name for process in self.network.enabled()}
+    def network(self) -> Network:
+        return self.deployment.network
 
 
 def open_(
@@ -68,97 +54,47 @@ def open_(
     from robocomp_yaml.pipeline import analyse
 
     path = os.path.normpath(document(ddsl, include))
-    analysis = analyse([path], include)
-    network = analysis.networks.get(os.path.realpath(path))
-    if network is None and lenient:
-        from robocomp_yaml.deploy.stand_in import stand_in
-
-        if network := stand_in(path):
-            terminal.say(f"{path} cannot be read (see `rcyaml check`): this is about what runs of it", err=True)
-    if network is None or (has_errors(analysis.diagnostics) and not lenient):
-        _options.report(ctx, format_, analysis.diagnostics, analysis.program.documents)
-    assert network
-    told: list[Diagnostic] = []
-    if not lenient:
-        from robocomp_yaml.deploy.outdated import outdated
-
-        told = analysis.with_more(outdated(analysis.program.deployments[os.path.realpath(path)]))
-    return Opened(path, network, make_engine(engine, network), format_, analysis, told)
-
-
-def chosen(network: Network, names: Iterable[str]) -> set[str]:
-    """The processes that are meant: by their names, aliases or groups. Ends the command where one is unknown."""
-    found: set[str] = set()
-    for name in names:
-        members = {process.name for process in network.processes.values() if name in process.groups}
-        process = network.find(name)
-        if not members and process is None:
-            known = [*network.processes, *(group for one in network.processes.values() for group in one.groups)]
-            meant = suggest(name, known)
-            raise click.UsageError(
-                f"{network.name} has no process or group '{name}'" + (f"; did you mean '{meant}'?" if meant else "")
-            )
-        found |= members or {process.name for process in [process] if process}
-    return found
+    try:
+        deployment = Deployment(analyse([path], include), path, engine, lenient=lenient)
+    except Faulty as faulty:
+        _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
+        raise
+    if deployment.unread:
+        terminal.say(f"{path} cannot be read (see `rcyaml check`): this is about what runs of it", err=True)
+    return Opened(deployment, format_)
 
 
 def plan(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
-    from robocomp_yaml.deploy.plan import RESTART, START, STOP
-    from robocomp_yaml.deploy.plan import plan as make_plan
-
-    wanted = chosen(opened.network, names)
-
-    async def work() -> None:
-        reached = await opened.engine.open(opened.network, create=False)
-        found = make_plan(opened.network, await opened.engine.observe() if reached else {}, wanted)
-        specs = [step.spec for step in found.of(START, RESTART) if step.spec]
-        opened.told += await opened.engine.obstacles(specs, {step.name for step in found.of(STOP, RESTART)})
-        await opened.engine.close()
-        if opened.format_ == "json":
-            end(ctx, opened, {"plan": views.plan_data(found)})
-        terminal.say(*views.plan_lines(found, _options.colored(ctx), everything=ctx.obj.verbosity > 0))
-
-    _run(ctx, opened, work())
+    found = carried_out(ctx, opened, lambda: opened.deployment.plan(*names))
+    if opened.format_ == "json":
+        end(ctx, opened, {"plan": views.plan_data(found)})
+    terminal.say(*views.plan_lines(found, _options.colored(ctx), everything=ctx.obj.verbosity > 0))
     end(ctx, opened)
 
 
 def up(
-    ctx: click.Context, opened: Opened, names: tuple[str, ...], forced: Collection[str], on_failure: str,
-    timeout: float | None, *, attach: bool = False,
+    ctx: click.Context, opened: Opened, names: tuple[str, ...], on_failure: str, timeout: float | None, *,
+    restart: bool = False, attach: bool = False,
 ) -> None:  # fmt: skip
-    wanted, limit = chosen(opened.network, names), TimeLimit(timeout)
     is_asked = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and opened.format_ == "text"
-    progress = Progress(opened.format_ == "text" and ctx.obj.verbosity >= 0, _options.colored(ctx), opened.enabled)
+    progress = _progress(ctx, opened)
 
-    async def choose(result: operations.Result) -> str:
-        if not is_asked:
-            return operations.STOP_THEM if on_failure == "ask" else on_failure
+    async def choose(result: Result) -> str:
         progress.pause()
-        show(ctx, opened, result.diagnostics)
+        show(ctx, opened, opened.deployment.placed(result.diagnostics))
         return await _options.ask(
             "stop what was started, roll back to what ran before, or keep it as it is?", ("stop", "rollback", "keep")
         )
 
-    async def work() -> operations.Result:
-        await opened.engine.open(opened.network, create=True)
-        async with attached(ctx, opened, attach) as follow, progress:
-            result = await operations.up(
-                opened.engine, opened.network, wanted, forced, choose, progress.report,
-                keep_going=on_failure == "keep", limit=limit,
+    def bring_up() -> Result:
+        with progress:
+            return opened.deployment.up(
+                *names, restart=restart, timeout=timeout, report=progress.report,
+                on_failure=choose if is_asked else "stop" if on_failure == "ask" else on_failure,
+                stays=_attached(ctx, opened, progress) if attach else None,
             )  # fmt: skip
-            opened.told += result.diagnostics
-            progress.pause()
-            if attach and not result.diagnostics:
-                opened.lock.close()  # what has come up may be worked on
-                opened.told += await follow()
-        if result.diagnostics or attach:
-            await operations.end_if_idle(opened.engine)
-        else:
-            await opened.engine.close()
-        return result
 
-    interrupted = "interrupted: all was taken down" if attach else None
-    result = _run(ctx, opened, work(), change=True, on_interrupt=interrupted)
+    result = carried_out(ctx, opened, bring_up, "interrupted: all was taken down" if attach else None)
     if opened.format_ == "json":
         end(ctx, opened, views.result_data(result))
     if not attach and ctx.obj.verbosity >= 0:
@@ -166,16 +102,29 @@ def up(
     end(ctx, opened)
 
 
+def _attached(ctx: click.Context, opened: Opened, progress: Progress) -> Attached:
+    """The user, who sees what the processes print and has enough with Ctrl-C."""
+    view = views.LogView(opened.deployment.enabled, _options.colored(ctx), times=False)
+
+    def on_line(line: Line) -> None:
+        terminal.say(view.text(line))
+
+    def on_up(enough: asyncio.Event) -> None:
+        def stop(number: int) -> None:
+            opened.ended_by = 128 + number
+            enough.set()
+
+        progress.pause()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            asyncio.get_running_loop().add_signal_handler(number, stop, number)
+        if opened.format_ == "text" and ctx.obj.verbosity >= 0:
+            terminal.say(f"{opened.network.name}: Ctrl-C takes it down")
+
+    return Attached(on_up, on_line if opened.format_ == "text" else None)
+
+
 def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
-    wanted = chosen(opened.network, names)
-
-    async def work() -> list[operations.Status]:
-        reached = await opened.engine.open(opened.network, create=False)
-        found = await operations.status(opened.engine, opened.network, wanted, reached)
-        await opened.engine.close()
-        return found
-
-    found = _run(ctx, opened, work())
+    found = carried_out(ctx, opened, lambda: opened.deployment.status(*names))
     code = 1 if any(one.is_down for one in found) else 0
     if opened.format_ == "json":
         end(ctx, opened, {"processes": views.status_data(opened.network, found)}, code)
@@ -185,33 +134,26 @@ def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
 
 
 def logs(ctx: click.Context, opened: Opened, names: tuple[str, ...], last: int, *, follow: bool, times: bool) -> None:
-    wanted = chosen(opened.network, names) or opened.enabled
-    shown = views.LogView(wanted, _options.colored(ctx), times)
+    wanted = opened.deployment.chosen(names) or opened.deployment.enabled
+    view = views.LogView(wanted, _options.colored(ctx), times)
 
-    async def work() -> None:
-        await opened.engine.open(opened.network, create=False)
-        lines = await opened.engine.lines([name for name in opened.network.processes if name in wanted], last, follow)
-        async for line in lines:
-            if opened.format_ == "json":
-                terminal.data(views.line_data(line), json=True)
-            else:
-                terminal.say(shown.text(line))
-        await opened.engine.close()
+    def on_line(line: Line) -> None:
+        if opened.format_ == "json":
+            terminal.data(views.line_data(line), json=True)
+        else:
+            terminal.say(view.text(line))
 
-    _run(ctx, opened, work(), on_interrupt="")
+    carried_out(
+        ctx, opened, lambda: opened.deployment.logs(*names, last=last, follow=follow, on_line=on_line), on_interrupt=""
+    )
 
 
 def down(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
-    wanted = chosen(opened.network, names)
-    progress = Progress(opened.format_ == "text" and ctx.obj.verbosity >= 0, _options.colored(ctx), opened.enabled)
+    def take_down() -> list[str]:
+        with _progress(ctx, opened) as progress:
+            return opened.deployment.down(*names, report=progress.report)
 
-    async def work() -> list[str]:
-        if not await opened.engine.open(opened.network, create=False):
-            return []
-        async with progress:
-            return await operations.down(opened.engine, wanted, progress.report)
-
-    stopped = _run(ctx, opened, work(), change=True)
+    stopped = carried_out(ctx, opened, take_down)
     if opened.format_ == "json":
         end(ctx, opened, {"stopped": stopped})
     if not stopped:
@@ -219,49 +161,35 @@ def down(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
     end(ctx, opened)
 
 
-def _run(
-    ctx: click.Context, opened: Opened, work: Coroutine[Any, Any, T], *, change: bool = False,
-    on_interrupt: str | None = None,
-) -> T:  # fmt: skip
-    """Carries out what a command does; `change` where only one may at a time. What fails it ends the command, and so
-    does Ctrl-C, with a line that says what that means for what runs."""
+def _progress(ctx: click.Context, opened: Opened) -> Progress:
+    is_shown = opened.format_ == "text" and ctx.obj.verbosity >= 0
+    return Progress(is_shown, _options.colored(ctx), opened.deployment.enabled)
+
+
+def carried_out(ctx: click.Context, opened: Opened, work: Callable[[], T], on_interrupt: str | None = None) -> T:
+    """What a call gives. What fails it ends the command, and so does Ctrl-C, with a line that says what that means for
+    what runs."""
     try:
-        if not change:
-            return asyncio.run(work)
-        if opened.lock.enter_context(folder.locked(opened.network.folder)):
-            return asyncio.run(work)
-        reason = "another rcyaml is changing this deployment"
-    except DeployFailed as error:
-        opened.told += [*opened.engine.notes, error.diagnostic]
-        opened.engine.notes = []
+        return work()
+    except Faulty:
         end(ctx, opened)
         raise
-    except BrokenPipeError:
-        raise  # whoever reads what is printed has had enough
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
     except KeyboardInterrupt as error:
         if on_interrupt is None:
-            stop = terminal.typed("rcyaml", "deploy", "down", opened.path)
+            stop = terminal.typed("rcyaml", "deploy", "down", opened.deployment.path)
             on_interrupt = f"interrupted: what runs goes on; `{stop}` stops it"
         if on_interrupt:
             terminal.say(on_interrupt, err=True)
         ctx.exit(_signals.code_of(error))
-    finally:
-        work.close()
-        opened.lock.close()
-    where = shown_path(opened.network.folder)
-    opened.told.append(deploying.FOLDER.at(Span(opened.network.path), path=where, reason=reason))
-    end(ctx, opened)
-    raise AssertionError("a command that failed has ended")
+        raise
 
 
 def end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = None, code: int = 0) -> None:
     """Tells what is wrong and ends the command: with 1 where one of it is an error."""
-    told = [*opened.told, *opened.engine.notes]
+    told = opened.deployment.diagnostics
     if opened.format_ == "json":
-        head: dict[str, object] = {"deployment": opened.network.name, "engine": opened.engine.name, **(data or {})}
-        terminal.data(dumps({**head, "diagnostics": [as_data(_placed(opened, one)) for one in told]}), json=True)
+        head = {"deployment": opened.network.name, "engine": opened.deployment.engine, **(data or {})}
+        terminal.data(dumps({**head, "diagnostics": [as_data(one) for one in told]}), json=True)
     else:
         show(ctx, opened, told)
     ctx.exit(opened.ended_by or (1 if has_errors(told) else code))
@@ -269,15 +197,8 @@ def end(ctx: click.Context, opened: Opened, data: dict[str, object] | None = Non
 
 def show(ctx: click.Context, opened: Opened, told: Iterable[Diagnostic]) -> None:
     """Prints what was not printed before."""
-    new = [_placed(opened, one) for one in told if one not in opened.shown]
-    opened.shown += told
+    new = [one for one in told if one not in opened.shown]
+    opened.shown += new
     if new:
         blocks = text.each(new, _options.colored(ctx, sys.stderr))
         terminal.say(*[line for block in blocks for line in (terminal.Shown(), *block)][1:], err=True)
-
-
-def _placed(opened: Opened, told: Diagnostic) -> Diagnostic:
-    """Engines know the document by its whole path, which is not how the user named it, and nothing of secrets."""
-    if told.span.file == opened.network.path:
-        told = replace(told, span=replace(told.span, file=opened.path))
-    return opened.analysis.veiled([told])[0]

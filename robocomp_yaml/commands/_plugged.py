@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -88,7 +87,8 @@ def _may_name_some(path: str) -> bool:
     from robocomp_yaml.source.regular import regular
 
     here = os.path.abspath(path)
-    for folder in (here, *map(str, PurePath(here).parents)):
+    for end in (len(here), *(at for at in range(len(here) - 1, -1, -1) if here[at] == "/")):
+        folder = here[:end] or "/"
         with suppress(OSError), open(os.path.join(folder, WORKSPACE_FILE), "rb", opener=regular) as file:
             return b"plugins" in file.read()
     return False

@@ -18,7 +18,8 @@ _SHORT = 0.05  # seconds that are not worth telling
 
 
 class Progress:
-    """Use it as a context; `report` takes the events, `pause` leaves the terminal to others until the next one."""
+    """Use it as a context around a call; `report` takes its events, `pause` leaves the terminal to others until the
+    next one."""
 
     def __init__(self, shown: bool, color: bool, names: Collection[str]) -> None:
         self._shown, self._color = shown, color
@@ -28,12 +29,10 @@ class Progress:
         self._drawn = 0
         self._ticker: asyncio.Task[None] | None = None
 
-    async def __aenter__(self) -> Progress:
-        if self._is_live:
-            self._ticker = asyncio.create_task(self._tick())
+    def __enter__(self) -> Progress:
         return self
 
-    async def __aexit__(
+    def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         if self._ticker:
@@ -42,6 +41,8 @@ class Progress:
         self.pause()
 
     def report(self, event: Event) -> None:
+        if self._is_live and self._ticker is None:
+            self._ticker = asyncio.create_task(self._tick())  # it ends with the loop, if not before
         if event.kind in (STARTING, STOPPING):
             self._busy[event.name] = (event.kind, time.monotonic())
         else:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
-from pathlib import Path
 
 import click
 import msgspec
@@ -16,19 +16,19 @@ class WorkspaceView(msgspec.Struct, frozen=True):
     modeline: str
 
 
-def make(ctx: click.Context, folder: Path) -> None:
+def make(ctx: click.Context, folder: str) -> None:
     """Writes what a workspace consists of, besides documents; raises OSError where that cannot be."""
     from robocomp_yaml.link import workspace_files
 
     for path, text in _files(folder):
-        path.parent.mkdir(parents=True, exist_ok=True)
+        os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
         try:
             whole_file.create(path, text)
             tell(ctx, "wrote", path)
         except FileExistsError:
             tell(ctx, "kept", path)
     for name in ("interfaces", "components"):
-        (folder / name).mkdir(exist_ok=True)
+        os.makedirs(os.path.join(folder, name), exist_ok=True)
     for path in workspace_files.install(folder):
         tell(ctx, "wrote", path)
     problem = workspace_files.settings_problem(folder)
@@ -36,7 +36,7 @@ def make(ctx: click.Context, folder: Path) -> None:
         terminal.say(f"note: {problem}", err=True)
 
 
-def tell(ctx: click.Context, done: str, path: Path) -> None:
+def tell(ctx: click.Context, done: str, path: str) -> None:
     if ctx.obj.verbosity >= 0:
         terminal.say(f"{done:<5} {path}")
 
@@ -46,12 +46,12 @@ def unwritable(error: OSError) -> click.ClickException:
     return click.ClickException(f"cannot write{where}: {error.strerror or error}")
 
 
-def _files(folder: Path) -> Iterator[tuple[Path, str]]:
+def _files(folder: str) -> Iterator[tuple[str, str]]:
     from robocomp_yaml import resources
     from robocomp_yaml.emit.render import render
     from robocomp_yaml.link.workspace_files import modeline
     from robocomp_yaml.source.discover import WORKSPACE_FILE
 
-    path = folder / WORKSPACE_FILE
+    path = os.path.normpath(os.path.join(folder, WORKSPACE_FILE))
     yield path, render("new/workspace.yaml.j2", WorkspaceView(modeline("workspace", path, folder)))
-    yield folder / ".gitignore", resources.text("templates/new/gitignore")
+    yield os.path.normpath(os.path.join(folder, ".gitignore")), resources.text("templates/new/gitignore")

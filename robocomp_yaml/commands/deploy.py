@@ -96,7 +96,7 @@ def up(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None
     from robocomp_yaml.commands import _deploying
 
     opened = _deploying.open_(ctx, ddsl, include, format_, engine)
-    _deploying.up(ctx, opened, names, (), on_failure, timeout, attach=attach)
+    _deploying.up(ctx, opened, names, on_failure, timeout, attach=attach)
 
 
 @command.command(short_help="How the processes are.")
@@ -148,8 +148,7 @@ def restart(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str |
     from robocomp_yaml.commands import _deploying
 
     opened = _deploying.open_(ctx, ddsl, include, format_, engine)
-    forced = _deploying.chosen(opened.network, names) or opened.enabled
-    _deploying.up(ctx, opened, names, forced, on_failure, timeout)
+    _deploying.up(ctx, opened, names, on_failure, timeout, restart=True)
 
 
 @command.command(short_help="Take it down, in reverse order.")

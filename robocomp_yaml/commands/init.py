@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+import os
 
 import click
 
@@ -14,10 +14,10 @@ EXAMPLE = "Hello"
 
 
 @click.command(short_help="Make a folder a workspace that already checks.")
-@click.argument("folder", metavar="[DIR]", default=".", type=click.Path(file_okay=False, path_type=Path))
+@click.argument("folder", metavar="[DIR]", default=".", type=click.Path(file_okay=False))
 @click.option("--bare", is_flag=True, help="Without the example interface and component.")
 @click.pass_context
-def command(ctx: click.Context, folder: Path, bare: bool) -> None:
+def command(ctx: click.Context, folder: str, bare: bool) -> None:
     """Make DIR (by default, this folder) a workspace that already checks and compiles.
 
     Nothing that is there is overwritten. A folder without documents gets an example of each kind.
@@ -26,7 +26,7 @@ def command(ctx: click.Context, folder: Path, bare: bool) -> None:
     from robocomp_yaml.commands import new
     from robocomp_yaml.source.discover import documents_below
 
-    empty = not folder.is_dir() or not list(documents_below(str(folder)))
+    empty = not os.path.isdir(folder) or not list(documents_below(folder))
     try:
         _workspace.make(ctx, folder)
         if empty and not bare:
@@ -36,5 +36,6 @@ def command(ctx: click.Context, folder: Path, bare: bool) -> None:
     except OSError as error:
         raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
-        there = "" if folder.resolve() == Path.cwd() else f"{terminal.typed('cd', str(folder))}, then "
+        is_here = os.path.realpath(folder) == os.getcwd()
+        there = "" if is_here else f"{terminal.typed('cd', os.path.normpath(folder))}, then "
         terminal.say(f"next: {there}rcyaml check, rcyaml compile, or rcyaml new interface NAME")

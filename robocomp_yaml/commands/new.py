@@ -3,8 +3,8 @@ there is no workspace yet, this folder becomes one."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -93,18 +93,18 @@ def deployment(ctx: click.Context, name: str) -> None:
 
 def write(ctx: click.Context, document: new.NewDocument) -> None:
     """Writes a document where nothing stands yet."""
-    document.path.parent.mkdir(parents=True, exist_ok=True)
+    os.makedirs(os.path.dirname(document.path) or ".", exist_ok=True)
     whole_file.create(document.path, document.text)
     _workspace.tell(ctx, "wrote", document.path)
 
 
-def _create(ctx: click.Context, make: Callable[[Path], new.NewDocument], next_: str = "compile") -> None:
+def _create(ctx: click.Context, make: Callable[[str], new.NewDocument], next_: str = "compile") -> None:
     from robocomp_yaml.link import workspace_files
 
     root = _root()
     try:
         if root is None:
-            root = Path()
+            root = "."
             make(root)  # what is refused leaves no workspace behind
             _workspace.make(ctx, root)
         document = make(root)
@@ -113,11 +113,10 @@ def _create(ctx: click.Context, make: Callable[[Path], new.NewDocument], next_: 
     except OSError as error:
         raise _workspace.unwritable(error) from error
     if ctx.obj.verbosity >= 0:
-        terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), str(document.path))}")
+        terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), document.path)}")
 
 
-def _root() -> Path | None:
+def _root() -> str | None:
     from robocomp_yaml.link.workspace import root_above
 
-    found = root_above(".")
-    return None if found is None else Path(found)
+    return root_above(".")

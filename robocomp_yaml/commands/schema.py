@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-from pathlib import Path
 
 import click
 from click.shell_completion import CompletionItem
@@ -12,7 +11,7 @@ from click.shell_completion import CompletionItem
 from robocomp_yaml.commands import _plugged
 from robocomp_yaml.commands._command import Command
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import regular, whole
 
 _MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
 
@@ -37,7 +36,7 @@ def command(ctx: click.Context, kind: str | None) -> None:
     elif kind in GLOBS:
         terminal.data(schema_of(kind, _plugged.here()), json=True)
     else:
-        _tell(Path(kind))
+        _tell(os.path.normpath(kind))
 
 
 def _list() -> None:
@@ -47,48 +46,49 @@ def _list() -> None:
 
     root = root_above(".")
     for name, globs in GLOBS.items():
-        installed = Path(root or ".") / schema_path(name)
-        terminal.say(f"{name:<10} {', '.join(globs):<28} {installed if installed.is_file() else ''}".rstrip())
+        installed = os.path.normpath(os.path.join(root or ".", schema_path(name)))
+        terminal.say(f"{name:<10} {', '.join(globs):<28} {installed if os.path.isfile(installed) else ''}".rstrip())
 
 
-def _tell(document: Path) -> None:
+def _tell(document: str) -> None:
     """Which schema applies to a document, and by what its editor finds it."""
     from robocomp_yaml.link.workspace import root_above
     from robocomp_yaml.link.workspace_files import modeline, schema_path
 
     kind = _kind_of(document)
-    root = Path(root_above(str(document.parent)) or document.parent)
+    folder = os.path.dirname(document) or "."
+    root = root_above(folder) or folder
     terminal.say(f"{document} has the schema '{kind}'")
     named = _named(document)
-    installed = root / schema_path(kind)
+    installed = os.path.normpath(os.path.join(root, schema_path(kind)))
     if named is not None:
         terminal.say(f"editors find it by the first lines of the document: {named}")
-        _tell_whether_right(kind, Path(os.path.normpath(document.parent / named)), named, root)
-    elif installed.is_file():
+        _tell_whether_right(kind, os.path.normpath(os.path.join(folder, named)), named, root)
+    elif os.path.isfile(installed):
         terminal.say(f"editors find it by the workspace's settings: {installed}")
-        _tell_whether_right(kind, installed, str(installed), root)
+        _tell_whether_right(kind, installed, installed, root)
     else:
-        init = f"`{terminal.typed('rcyaml', 'init', str(root))}`"
+        init = f"`{terminal.typed('rcyaml', 'init', root)}`"
         terminal.say(f"editors do not find it: {init} installs it, and the document's first line would name it:")
         terminal.say(modeline(kind, document, root))
 
 
-def _kind_of(document: Path) -> str:
+def _kind_of(document: str) -> str:
     from robocomp_yaml.diag.suggest import suggest
     from robocomp_yaml.link.workspace_files import GLOBS
     from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
 
-    kind = "workspace" if document.name == WORKSPACE_FILE else kind_of(str(document))
+    kind = "workspace" if os.path.basename(document) == WORKSPACE_FILE else kind_of(document)
     if kind is None:
-        meant = suggest(str(document), GLOBS)
+        meant = suggest(document, GLOBS)
         hint = f"did you mean '{meant}'?" if meant else f"kinds are {', '.join(GLOBS)}"
         raise click.UsageError(f"'{document}' is neither a kind nor the name of a document; {hint}")
-    if not document.is_file():
+    if not os.path.isfile(document):
         raise click.UsageError(f"there is no file '{document}'")
     return kind
 
 
-def _named(document: Path) -> str | None:
+def _named(document: str) -> str | None:
     """The schema that a document's modeline names."""
     try:
         with open(document, encoding="utf-8", errors="replace", opener=regular) as file:
@@ -99,14 +99,14 @@ def _named(document: Path) -> str | None:
     return found[1] if found else None
 
 
-def _tell_whether_right(kind: str, path: Path, named: str, root: Path) -> None:
+def _tell_whether_right(kind: str, path: str, named: str, root: str) -> None:
     from robocomp_yaml.link.workspace_files import schema_of
 
-    init = f"`{terminal.typed('rcyaml', 'init', str(root))}`"
+    init = f"`{terminal.typed('rcyaml', 'init', root)}`"
 
     if "://" in named:
         return
-    if not path.is_file():
+    if not os.path.isfile(path):
         terminal.say(f"that file is missing: {init} writes it again")
-    elif path.read_bytes() != schema_of(kind, _plugged.here(str(root))).encode("utf-8"):
+    elif whole(path)[0] != schema_of(kind, _plugged.here(root)).encode("utf-8"):
         terminal.say(f"that file is not this version's schema: {init} writes it again")

@@ -3,22 +3,49 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
-from pathlib import Path
 
 from robocomp_yaml.deploy import folder
+from robocomp_yaml.diag.codes import emitting
+from robocomp_yaml.diag.codes import networks as codes
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.emit import exports
+from robocomp_yaml.network.network import Network
+from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.digest import digest
 from robocomp_yaml.source.regular import regular
 
 RECORD = ".rcyaml/exports.json"
 
 
-def in_the_way(output: str, files: Mapping[str, str]) -> list[str]:
-    """The paths where something else stands than an export wrote. Raises OSError."""
+def files(
+    network: Network, form: str, plugins: Plugins, *, reveal: bool
+) -> tuple[dict[str, str], list[Diagnostic]]:  # fmt: skip
+    """The files of an export, and what it says otherwise than the network; an error, and no files, where it cannot say
+    it at all. Unless `reveal`, secrets are hidden."""
+    from robocomp_yaml.network.hidden import hidden
+
+    try:
+        with exports.noted() as notes:
+            made = exports.export(network if reveal else hidden(network), form, plugins)
+    except exports.Unwritable as refused:
+        return {}, [_told(refused, form).as_severity(ERROR)]
+    return made, list(dict.fromkeys(_told(note, form) for note in notes))
+
+
+def _told(found: exports.Unwritable, form: str) -> Diagnostic:
+    return codes.NOT_IN_THIS_FORM.at(found.span, name=found.name, form=form, reason=found)
+
+
+def in_the_way(output: str, files: Mapping[str, str]) -> list[Diagnostic]:
+    """What stands where a file is to be written, and no export wrote it. Raises OSError."""
     written = _record(output)
-    found = {path: _read(Path(output, path)) for path in files}
+    found = {path: _read(os.path.join(output, path)) for path in files}
+    hint = "or it was edited since; move it away, or export to another folder"
     return [
-        path
+        emitting.NOT_OURS.at(Span(os.path.join(output, path)), path=path, hint=hint)
         for path, data in found.items()
         if data is not None and data != _bytes(files[path]) and digest(data) != written.get(path)
     ]
@@ -35,13 +62,13 @@ def write(output: str, files: Mapping[str, str]) -> None:
 def _record(output: str) -> dict[str, str]:
     """Digests by path; without a record that can be read, nothing counts as ours."""
     try:
-        raw = json.loads(_read(Path(output, RECORD)) or b"{}")
+        raw = json.loads(_read(os.path.join(output, RECORD)) or b"{}")
     except (ValueError, RecursionError):
         return {}
     return raw if isinstance(raw, dict) else {}
 
 
-def _read(path: Path) -> bytes | None:
+def _read(path: str) -> bytes | None:
     try:
         with open(path, "rb", opener=regular) as file:
             return file.read()

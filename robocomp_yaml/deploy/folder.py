@@ -10,7 +10,7 @@ import time
 from collections.abc import Iterator
 
 from robocomp_yaml.source.discover import kind_of
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions import whole_file
 
 _NAME = re.compile(r"""^["']?deployment["']?[ \t]*:[ \t]*["']?([_A-Za-z][-A-Za-z0-9_]*)""", re.MULTILINE)
@@ -72,11 +72,7 @@ def deployment_in(path: str) -> str:
     said = text_at_top(root_of(path), "deployment")
     if said:
         return said if _NAME.fullmatch(f"deployment: {said}") else ""
-    try:
-        with open(path, encoding="utf-8-sig", errors="replace", opener=regular) as file:
-            found = _NAME.search(file.read())
-    except OSError:
-        return ""
+    found = _NAME.search(text(path, "utf-8-sig") or "")
     return found[1] if found else ""
 
 

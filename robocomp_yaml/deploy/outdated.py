@@ -12,7 +12,7 @@ from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import SLICE, STATED, fingerprint, stated
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source.regular import text
 
 
 def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
@@ -54,17 +54,9 @@ def _changed(folder: str, component: LinkedComponent, texts: _Texts) -> list[Lin
     it was made for, they are all that it has."""
     modules = component.modules()
     states = component.component.language.target.states
-    said = _read(os.path.join(folder, states)) if states else None
+    said = text(os.path.join(folder, states)) if states else None
     if said is not None and STATED in said:
         now = fingerprint({slice_target.file_name(one): texts.of(one) for one in modules})
         return [] if stated(now) in said else modules
-    found = {one: _read(os.path.join(folder, SLICE, slice_target.file_name(one))) for one in modules}
-    return [one for one, text in found.items() if text is not None and text != texts.of(one)]
-
-
-def _read(path: str) -> str | None:
-    try:
-        with open(path, encoding="utf-8", errors="replace", opener=regular) as file:
-            return file.read()
-    except OSError:
-        return None
+    found = {one: text(os.path.join(folder, SLICE, slice_target.file_name(one))) for one in modules}
+    return [one for one, found_text in found.items() if found_text is not None and found_text != texts.of(one)]

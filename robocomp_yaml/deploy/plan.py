@@ -14,6 +14,7 @@ import msgspec
 from robocomp_yaml.deploy.differences import Difference, differences
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, WAITING, Running
 from robocomp_yaml.deploy.spec import Spec, spec_of
+from robocomp_yaml.digraph import inner_first, reached
 from robocomp_yaml.network.network import Network, Process
 
 START, STOP, RESTART, CHANGE, KEEP = "start", "stop", "restart", "change", "keep"
@@ -73,41 +74,25 @@ def plan(
 
 def with_dependences(network: Network, names: Iterable[str]) -> set[str]:
     """These processes and all that they are after, directly or not."""
-    found: set[str] = set()
-    rest = list(names)
-    while rest:
-        name = rest.pop()
-        if name in network.processes and name not in found:
-            found.add(name)
-            rest += network.processes[name].after
-    return {name for name in found if network.processes[name].enabled}
+
+    def after(name: str) -> Iterable[str]:
+        return network.processes[name].after if name in network.processes else ()
+
+    return {name for name in reached(names, after) if name in network.processes and network.processes[name].enabled}
 
 
 def with_dependents(after: Mapping[str, Iterable[str]], names: Iterable[str]) -> set[str]:
     """These processes and all that are after them, directly or not; `after` says of each what it is after."""
-    found = set(names)
-    while more := {name for name, before in after.items() if name not in found and found & set(before)}:
-        found |= more
-    return found
+    behind: dict[str, list[str]] = {}
+    for name, before in after.items():
+        for other in before:
+            behind.setdefault(other, []).append(name)
+    return set(reached(names, lambda name: behind.get(name, ())))
 
 
 def in_order(after: Mapping[str, Iterable[str]]) -> list[str]:
     """The names, each behind those that it is after; where they form a cycle, behind as many as can be."""
-    order: list[str] = []
-    seen: set[str] = set()
-    for first in after:
-        path = [(first, iter(after[first]))] if first not in seen else []
-        seen.add(first)
-        while path:
-            name, before = path[-1]
-            other = next((other for other in before if other in after and other not in seen), None)
-            if other is None:
-                order.append(name)
-                path.pop()
-            else:
-                seen.add(other)
-                path.append((other, iter(after[other])))
-    return order
+    return list(inner_first(after, lambda name: [other for other in after[name] if other in after]))
 
 
 def _restarting(process: Process, steps: Mapping[str, Step]) -> str:

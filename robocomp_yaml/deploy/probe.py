@@ -16,6 +16,8 @@ import msgspec
 
 from robocomp_yaml import languages, resources
 from robocomp_yaml.deploy.local.obstacles import is_here
+from robocomp_yaml.diag.codes import deploying as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Host, Network, Process
 
 WITHIN = 60.0
@@ -81,6 +83,28 @@ def _python_of(process: Process, network: Network) -> str:
                 return ""
             return os.path.join(process.cwd, value) if "/" in value and value[0] != "~" else value
     return ""
+
+
+def can_run(network: Network, host: str, found: Sequence[Found]) -> bool:
+    """Whether a host can run what the network has for it."""
+    own = {process.name for process in network.enabled() if process.host == host} | {NODE}
+    return all(one.can_run for one in found if own & set(one.used_by))
+
+
+async def ask(network: Network, hosts: Sequence[Host]) -> tuple[dict[str, list[Found]], list[Diagnostic]]:
+    """What each of these hosts has, by its name, and which do not answer."""
+    wanted = programs(network)
+    asked = await asyncio.gather(*(probe(host, wanted) for host in hosts), return_exceptions=True)
+    answers: dict[str, list[Found]] = {}
+    failed: list[Diagnostic] = []
+    for host, answer in zip(hosts, asked, strict=True):
+        if isinstance(answer, ProbeFailed):
+            failed.append(codes.NO_ANSWER.at(host.span, host=host.name, address=host.address, reason=answer))
+        elif isinstance(answer, BaseException):
+            raise answer
+        else:
+            answers[host.name] = answer
+    return answers, failed
 
 
 async def probe(host: Host, wanted: dict[Wanted, tuple[str, ...]]) -> list[Found]:

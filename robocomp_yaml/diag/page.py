@@ -27,13 +27,14 @@ from functools import cache
 import msgspec
 
 from robocomp_yaml import resources
+from robocomp_yaml.patterns import pattern
 
 COMMAND = "check ."
-_ENTRY = re.compile(r"^## ([A-Z]{2,}\d{3,4})\n\n\*(\w+)\*\n", re.MULTILINE)
-_SHARED = re.compile(r"^## Beside the examples\n(.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
-_FENCE = re.compile(r'^```(\w+)(?: ("[^"]+"|\S+)(?: ([^\n]+))?)?\n(.*?)^```$', re.MULTILINE | re.DOTALL)
-_SECTION = re.compile(r"^(Wrong|Right|Both beside)(?:, for `rcyaml ([^`]+)`)?:$", re.MULTILINE)
-_ESCAPE = re.compile(rb"\\(x[0-9a-f]{2}|\\)")
+_ENTRY = pattern(r"^## ([A-Z]{2,}\d{3,4})\n\n\*(\w+)\*\n", re.MULTILINE)
+_SHARED = pattern(r"^## Beside the examples\n(.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
+_FENCE = pattern(r'^```(\w+)(?: ("[^"]+"|\S+)(?: ([^\n]+))?)?\n(.*?)^```$', re.MULTILINE | re.DOTALL)
+_SECTION = pattern(r"^(Wrong|Right|Both beside)(?:, for `rcyaml ([^`]+)`)?:$", re.MULTILINE)
+_ESCAPE = pattern(rb"\\(x[0-9a-f]{2}|\\)")
 
 
 class Repeated(msgspec.Struct, frozen=True):
@@ -104,7 +105,7 @@ def page(name: str) -> Page:
 
 def names() -> list[str]:
     """The names of all pages."""
-    return sorted(path.stem for path in resources.folder("diagnostics").glob("*.md"))
+    return [name.removesuffix(".md") for name in resources.names("diagnostics") if name.endswith(".md")]
 
 
 def _message(id_: str, text: str) -> str:

@@ -18,6 +18,8 @@ from collections.abc import Iterable
 from functools import cache
 from typing import TextIO
 
+from robocomp_yaml.patterns import pattern
+
 # Controls, formats (Cf), separators of lines, halves of surrogate pairs, what is no character, and fillers that nobody
 # sees.
 _HARMFUL = (
@@ -29,7 +31,7 @@ _HARMFUL = (
 )
 _LETTERS = {"\a": r"\a", "\b": r"\b", "\t": r"\t", "\n": r"\n", "\v": r"\v", "\f": r"\f", "\r": r"\r", "\x1b": r"\e"}
 _DIFF_TINTS = {"+": "32", "-": "31", "@": "36"}
-_PLAIN = re.compile(r"[\w@%+=:,./-]+")  # what no shell looks into
+_PLAIN = pattern(r"[\w@%+=:,./-]+")  # what no shell looks into
 
 
 @cache

@@ -6,19 +6,24 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 
+import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml import resources
-from robocomp_yaml.emit import config, parameter_files, runtime
+from robocomp_yaml.emit import config, runtime
 from robocomp_yaml.emit.layout import ALONE, CONFIG, GENERATED, SLICE, Layout
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
-from robocomp_yaml.model.pdsl import ValuesDocument
+from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE, document_schema
+from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.plugins import LANGUAGES
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
+
+SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"
+DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
 
 
 def component_plan(
@@ -47,14 +52,14 @@ def component_plan(
                 files += uses.plan(linked, places(linked, options.workspace_of(component.path), root))
     if options.wants("config"):
         if options.only is None:
-            files += parameter_files.schemas(linked)
+            files += schemas(linked)
         made = list(_configs(linked, program, lambda: options.ports(linked)))
         files += made
         if all(file.path != CONFIG for file in made):
             table = assign([linked], program.disk) if _is_complete(root, linked) else options.ports(linked)
             files.append(config.plan(linked, table))
     if options.wants("docs"):
-        files += parameter_files.docs(linked)
+        files += _docs(linked)
     owner = os.path.relpath(component.path, root)
     return RootPlan(root, owner, tuple(files), partial=bool(options.targets))
 
@@ -106,9 +111,40 @@ def _is_complete(root: str, linked: LinkedComponent) -> bool:
 
 def _configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports]) -> Iterator[FilePlan]:
     if program.values:
-        from robocomp_yaml.emit.value_files import configs, documents_of  # most components have no values
+        from robocomp_yaml.emit.value_files import configs  # most components have no values
 
-        yield from configs(linked, documents_of(linked, program), table)
+        yield from configs(linked, program, table)
+
+
+def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:
+    """The JSON Schemas of a component's values."""
+    served = [port.name for port in linked.implements] + [f"{port.name}Topic" for port in linked.subscribes]
+    ports = {"endpoints": [*served, "CommonBehavior"], "proxies": [port.name for port in linked.requires]}
+    parameters, name = linked.parameters.parameters, linked.component.name
+    for path, mode in ((SCHEMA, DOCUMENT), (EFFECTIVE_SCHEMA, EFFECTIVE)):
+        yield FilePlan(path, _a_line_each(document_schema(parameters, name, ports, mode)))
+
+
+def _a_line_each(schema: dict[str, object]) -> str:
+    """A JSON object with a line for each key: to indent the rest would take ten times as long."""
+    rows = (f'  "{key}": {msgspec.json.encode(value).decode()}' for key, value in schema.items())
+    return "{\n" + ",\n".join(rows) + "\n}\n"
+
+
+def _docs(linked: LinkedComponent) -> Iterator[FilePlan]:
+    """The reference of a component's parameters, and an example of their values."""
+    if linked.parameters.document is None:
+        return
+    from robocomp_yaml.parameters.examples.new import new_document
+    from robocomp_yaml.parameters.writing.reference import reference
+
+    parameters, where = linked.parameters.parameters, os.path.basename(linked.component.path)
+    head = (
+        "# An example: every parameter, and what it may be. The first line of your own document names the schema "
+        "beside this file."
+    )
+    yield FilePlan(DOCS, reference(parameters, linked.component.name))
+    yield FilePlan(EXAMPLE, new_document(parameters, f"../{where}", head, []))
 
 
 def component_root(path: str, options: Options) -> str:

@@ -13,7 +13,6 @@ import subprocess
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from importlib import metadata
-from pathlib import Path
 
 import msgspec
 
@@ -141,7 +140,8 @@ def _configured(wanted: list[tuple[str, str]]) -> dict[tuple[str, str], Found] |
         else:
             lines += [f"find_library(l{number} NAMES {name})", f'message("rcyaml {number} ${{l{number}}}")']
     with tempfile.TemporaryDirectory(prefix="rcyaml-") as folder:
-        Path(folder, "CMakeLists.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+            file.write("\n".join(lines) + "\n")
         done = _run(["cmake", "-S", folder, "-B", f"{folder}/build"])
     if done is None or done.returncode != 0:
         return None

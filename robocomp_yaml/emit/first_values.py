@@ -5,19 +5,23 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
-from robocomp_yaml.model.parameters import Parameters, RecordType
-from robocomp_yaml.source.properties import read, unquoted
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.parameters.examples.new import Sections, new_document
+from robocomp_yaml.parameters.kinds import recording
+from robocomp_yaml.parameters.types import Parameters, RecordType
+from robocomp_yaml.semantics import composite, connections
+from robocomp_yaml.semantics.plain import Taking
+from robocomp_yaml.semantics.reading import Reader
+from robocomp_yaml.semantics.references import unresolved
+from robocomp_yaml.semantics.texts import unquoted
+from robocomp_yaml.source.properties import read
+from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions.manifest import BASE
-from robocomp_yaml.values.new import Sections, new_document
-from robocomp_yaml.values.read import properties_to_values
 
 
 def first_values(
@@ -26,9 +30,9 @@ def first_values(
     """`component` is the path of the CDSL (or PDSL), `target` that of the document to be; `table` gives the ports of a
     component's workspace."""
     folder = os.path.dirname(target) or "."
-    where = Path(os.path.relpath(component, folder)).as_posix()
-    schema = Path(os.path.relpath(os.path.join(os.path.dirname(component), "generated", "config.schema.json"), folder))
-    modeline = f"# yaml-language-server: $schema={schema.as_posix()}"
+    where = os.path.relpath(component, folder)
+    schema = os.path.relpath(os.path.join(os.path.dirname(component), "generated", "config.schema.json"), folder)
+    modeline = f"# yaml-language-server: $schema={schema}"
     sections: Sections = []
     values: dict[str, Any] = {}
     if linked.component is not None:
@@ -49,27 +53,24 @@ def _connections(linked: LinkedComponent, standing: Mapping[str, str], table: Po
     usual = config.connections(linked, table, standing)
     found = {key: config.stated(standing, key) or value for key, value in usual.items()}
     served = [(key.removesuffix(".Endpoints"), text) for key, text in found.items() if key.endswith(".Endpoints")]
-    proxies = [(port.name, found[f"{port.name}Proxy"]) for port in linked.requires]
-    manager = found.get("TopicManager.Proxy", "")
-    topics = [("manager", manager)] if manager != usual.get("TopicManager.Proxy", "") else []
+    proxies = [(port.name, found[connections.proxy(port.name)[0]]) for port in linked.requires]
+    manager = found.get(connections.MANAGER[0], "")
+    topics = [("manager", manager)] if manager != usual.get(connections.MANAGER[0], "") else []
     return [("endpoints", served), ("proxies", proxies), ("topics", topics)]
 
 
 def _changed(folder: str, standing: Mapping[str, str], usual: str) -> dict[str, str]:
     """What of an `etc/config` is not as rcyaml wrote it: a user's."""
-    try:
-        with open(os.path.join(folder, BASE, CONFIG), encoding="utf-8", errors="replace", opener=regular) as file:
-            usual = file.read()
-    except OSError:
-        pass
-    written = read(usual).values
+    before = text(os.path.join(folder, BASE, CONFIG))
+    written = read(usual if before is None else before).values
     return {key: value for key, value in standing.items() if value and written.get(key) != value}
 
 
 def _values(parameters: Parameters, standing: Mapping[str, str]) -> dict[str, Any]:
     """The parameters that an `etc/config` gives other values than their defaults."""
-    found, faults = properties_to_values(parameters, standing, quoted=_is_toml(standing))
-    return _but_defaults(parameters.root, found, faults)
+    kind = recording(parameters.root)
+    texts = Reader(standing, {each.path: each for each in parameters.spellings}, unresolved).read(kind)
+    return _but_defaults(parameters.root, kind, texts)
 
 
 def _is_toml(standing: Mapping[str, str]) -> bool:
@@ -77,17 +78,21 @@ def _is_toml(standing: Mapping[str, str]) -> bool:
     return any(key.startswith(("Endpoints.", "Proxies.")) and value[:1] == '"' for key, value in standing.items())
 
 
-def _but_defaults(record: RecordType, found: Mapping[str, Any], faults: Mapping[str, Any]) -> dict[str, Any]:
+def _but_defaults(record: RecordType, kind: composite.Recording, texts: Mapping[str, Any]) -> dict[str, Any]:
+    """What of the values that the texts spell fits its type, and is no default."""
     kept: dict[str, Any] = {}
     for member in record.members:
-        value = found.get(member.name)
-        if member.is_group and isinstance(member.type, RecordType) and isinstance(value, dict):
-            inside = faults.get(member.name)
-            below = inside[0] if isinstance(inside, list) and inside and isinstance(inside[0], dict) else {}
-            kept[member.name] = _but_defaults(member.type, value, below)
-        elif value is not None and member.name not in faults:
-            if member.default is None or value != member.default.data:
-                kept[member.name] = value
+        if member.name not in texts:
+            continue
+        inner, text = kind.members[member.name].kind, texts[member.name]
+        if isinstance(inner, composite.Recording) and isinstance(member.type, RecordType) and inner.is_group:
+            kept[member.name] = _but_defaults(member.type, inner, text)
+            continue
+        taking = Taking(is_text=True)
+        taken = inner.take(text, (), taking)
+        value = None if taking.problems else composite.data(inner, taken)
+        if value is not None and (member.default is None or value != member.default.data):
+            kept[member.name] = value
     return kept
 
 

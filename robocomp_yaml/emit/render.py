@@ -10,7 +10,6 @@ import os
 import stat
 from contextlib import suppress
 from functools import cache
-from pathlib import Path
 
 import msgspec
 from jinja2 import BytecodeCache, Environment, FileSystemBytecodeCache, StrictUndefined
@@ -59,11 +58,13 @@ def _environment() -> Environment:
 def _bytecode_cache() -> BytecodeCache | None:
     """None where there is no folder that only this user can write: what is cached is code, and it will be run."""
     base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    folder = Path(base) / "rcyaml" / "templates"
+    folder = os.path.join(base, "rcyaml", "templates")
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        found = folder.stat()
+        os.makedirs(os.path.dirname(folder), exist_ok=True)
+        with suppress(FileExistsError):
+            os.mkdir(folder, mode=0o700)
+        found = os.stat(folder)
     except OSError:
         return None
     private = stat.S_IMODE(found.st_mode) & 0o077 == 0 and found.st_uid == os.getuid()
-    return _Cache(str(folder)) if private and os.access(folder, os.W_OK) else None
+    return _Cache(folder) if private and os.access(folder, os.W_OK) else None

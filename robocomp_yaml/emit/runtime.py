@@ -5,6 +5,7 @@ It is known by its version, which is made of all that is in it; what is generate
 
 from __future__ import annotations
 
+import os
 import re
 from functools import cache
 
@@ -40,10 +41,10 @@ def version(name: str) -> str:
 def _texts(name: str) -> tuple[tuple[str, str], ...]:
     target = language(name)
     texts = [
-        (f"{folder}/{file.name}", target.text(f"{folder}/{file.name}"))
+        (f"{folder}/{file}", target.text(f"{folder}/{file}"))
         for folder in target.runtime
-        for file in sorted((target.templates / folder).iterdir())
-        if file.is_file()
+        for file in sorted(os.listdir(os.path.join(target.templates, folder)))
+        if file != "__pycache__"
     ]
     return (*texts, (f"slice/{COMMON}", resources.text(f"templates/slice/{COMMON}")))
 

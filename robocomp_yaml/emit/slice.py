@@ -9,8 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
+from robocomp_yaml.digraph import inner_first
 from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
-from robocomp_yaml.emit.slice_literal import literal
+from robocomp_yaml.link.numbers import arrives, compiles, is_integer_literal
 from robocomp_yaml.link.program import Definition, LinkedModule
 from robocomp_yaml.link.references import macro, types_of
 from robocomp_yaml.model.interface import (
@@ -51,19 +52,12 @@ def in_order(linked: LinkedModule) -> list[Definition]:
     and nothing uses them."""
     module = linked.module
     own: dict[str, Definition] = {d.name: d for d in (*module.constants, *module.types, *module.exceptions)}
-    done: dict[str, Definition] = {}
-    entered: set[str] = set()
-    todo = [(definition, False) for definition in reversed(own.values())]
-    while todo:  # without recursion: types may be nested a thousand deep
-        definition, ready = todo.pop()
-        if ready:
-            done[definition.name] = definition
-        elif definition.name not in entered:
-            entered.add(definition.name)
-            todo.append((definition, True))
-            found = [linked.find(ref) for ref in types_of(definition) if not ref.is_basic]
-            todo += [(other[1], False) for other in reversed(found) if other and other[0] is linked]
-    return [*done.values(), *module.all_interfaces]
+
+    def used(name: str) -> list[str]:
+        found = (linked.find(ref) for ref in types_of(own[name]) if not ref.is_basic)
+        return [other[1].name for other in found if other and other[0] is linked and other[1].name in own]
+
+    return [*(own[name] for name in inner_first(own, used)), *module.all_interfaces]
 
 
 class _File:
@@ -221,3 +215,36 @@ def _enum(enum: Enum) -> Iterator[str]:
 def _has_underscores(line: str) -> bool:
     """Whether a line has names with underscores, which Slice takes only when a file says so."""
     return not line.lstrip().startswith(("/*", "*")) and "_" in _STRING.sub("", line)
+
+
+_INTEGER = r"[-+]?(?:0|[1-9][0-9]*)\Z"
+_REAL = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?\Z"
+_ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
+
+
+def literal(value: Literal, type_name: str) -> str:
+    """The literal of a basic type."""
+    match type_name:
+        case "string":
+            return quoted(str(value.value))
+        case "bool":
+            return "true" if value.value else "false"
+        case "float" | "double":
+            return _real(value, type_name)
+        case _:
+            return value.lexeme if re.match(_INTEGER, value.lexeme) else str(value.value)
+
+
+def quoted(text: str) -> str:
+    """A string literal; `??` is split, since the preprocessor knows trigraphs."""
+    escaped = "".join(_ESCAPES.get(c) or (f"\\{ord(c):03o}" if ord(c) < 0x20 or ord(c) == 0x7F else c) for c in text)
+    return '"' + escaped.replace("??", "?\\?") + '"'
+
+
+def _real(value: Literal, type_name: str) -> str:
+    number = float(value.value)
+    if re.match(_INTEGER, value.lexeme):
+        return value.lexeme if is_integer_literal(number) else f"{value.lexeme}.0"
+    if is_integer_literal(number) and not (compiles(number, type_name) and arrives(number, type_name)):
+        return str(int(number))
+    return value.lexeme if re.match(_REAL, value.lexeme) else repr(number)

@@ -9,11 +9,17 @@ from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
+from robocomp_yaml.parameters.writing.properties import (
+    CLASSIC,
+    Section,
+    dialect,
+    legacy_file,
+    properties,
+    property_text,
+    secret_keys,
+)
+from robocomp_yaml.parameters.writing.write import Property
 from robocomp_yaml.transactions.plan import FilePlan
-from robocomp_yaml.values.effective import effective
-from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties, secret_keys
-from robocomp_yaml.values.property_text import property_text
-from robocomp_yaml.values.write import Property
 
 
 def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues]:
@@ -33,11 +39,11 @@ def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues
     return [values for values in found if os.path.basename(values.document.path) not in joined]
 
 
-def configs(linked: LinkedComponent, documents: list[LinkedValues], table: Callable[[], Ports]) -> Iterator[FilePlan]:
+def configs(linked: LinkedComponent, program: Program, table: Callable[[], Ports]) -> Iterator[FilePlan]:
     """The property files of a component; the documents have been found right. `table` has the ports of the workspace,
     asked for where a document leaves some open."""
-    for values in documents:
-        found, _ = effective(values)
+    for values in documents_of(linked, program):
+        found, _ = program.effective(values)
         if found is None:
             continue
         sections, _ = properties(values, found, beside=True)

@@ -3,10 +3,27 @@ them, and the window's form."""
 
 from __future__ import annotations
 
-from robocomp_yaml.emit import form
+import msgspec
+
 from robocomp_yaml.emit.copied import copied
+from robocomp_yaml.emit.render import render
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
+
+PATH = "src/mainUI.ui"
+
+
+class View(msgspec.Struct, frozen=True):
+    """`base` is a class of Qt; `is_main` says that its widgets stand in a central one."""
+
+    base: str
+    title: str
+    is_main: bool
+
+
+def text(base: str, title: str) -> str:
+    return render("qt/mainUI.ui.j2", View(base, title, base == "QMainWindow"))
+
 
 _NONE: frozenset[str] = frozenset()
 
@@ -29,4 +46,4 @@ def files(
 def form_of(linked: LinkedComponent) -> list[FilePlan]:
     """The form of the component's window, if it has one."""
     gui = linked.component.gui
-    return [FilePlan(form.PATH, form.text(gui.base, linked.component.name), ONCE)] if gui else []
+    return [FilePlan(PATH, text(gui.base, linked.component.name), ONCE)] if gui else []

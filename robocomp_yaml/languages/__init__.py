@@ -7,10 +7,10 @@ what the schema proposes. Nothing else knows the languages by name.
 from __future__ import annotations
 
 import importlib
-import pkgutil
 from collections.abc import Collection, Iterable
 from functools import cache
 
+from robocomp_yaml import registry
 from robocomp_yaml.languages.record import TargetLanguage
 
 DEFAULT = "python"
@@ -19,8 +19,8 @@ DEFAULT = "python"
 @cache
 def table() -> dict[str, TargetLanguage]:
     """Every built-in language by its name, the usual one first."""
-    packages = [module.name for module in pkgutil.iter_modules(__path__) if module.ispkg]
-    found = [importlib.import_module(f"{__name__}.{name}").LANGUAGE for name in packages]
+    folders = registry.named(__path__, packages=True)
+    found = [importlib.import_module(f"{__name__}.{name}").LANGUAGE for name in folders]
     return {one.name: one for one in sorted(found, key=lambda one: (one.name != DEFAULT, one.name))}
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import importlib
+import os
 from collections.abc import Mapping
-from pathlib import Path
 from types import MappingProxyType, ModuleType
 
 import msgspec
+
+from robocomp_yaml import resources
 
 IMPLEMENTS, REQUIRES, PUBLISHES, SUBSCRIBES = "implements", "requires", "publishes", "subscribes"
 PARAMETERS, PERIOD = "parameters", "period"
@@ -73,15 +75,15 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
         return importlib.import_module(f"{self.package}.{name}")
 
     @property
-    def templates(self) -> Path:
+    def templates(self) -> str:
         """The folder of its templates, and of files that are copied as they stand."""
         file = importlib.import_module(self.package).__file__
         assert file is not None
-        return Path(file).parent / "templates"
+        return os.path.join(os.path.dirname(file), "templates")
 
     def text(self, path: str) -> str:
         """The text of a file of its templates."""
-        return (self.templates / path).read_text(encoding="utf-8")
+        return resources.whole(os.path.join(self.templates, path))
 
     def in_code(self, name: str) -> str:
         """A parameter's name as code spells it: what is reserved gets an underscore."""

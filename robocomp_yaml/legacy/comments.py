@@ -14,7 +14,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
-from robocomp_yaml.legacy.yamltext import escaped
+from robocomp_yaml.source.yaml_text import escaped
 
 _DOC = re.compile(r"///(?!/)|/\*\*(?![*/])")
 _BEHIND = re.compile(r"///<|/\*\*<")

@@ -6,11 +6,11 @@ Short mappings and lists stand on one line, in flow style; what is longer, or ho
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import msgspec
 
-from robocomp_yaml.legacy.yamltext import escaped, is_printable, scalar
+from robocomp_yaml.source.yaml_text import escaped, is_printable, text_of
 
 WIDTH = 120
 GAP = None  # an empty line between comments; several are one
@@ -40,6 +40,9 @@ class Raw(msgspec.Struct, frozen=True):
     lexeme: str
 
 
+TRUE = Raw("true")
+
+
 class Name(msgspec.Struct):
     """The name of something, which may turn out to be spelled in another way."""
 
@@ -64,10 +67,19 @@ class Map(msgspec.Struct):
         self.entries.append(entry)
         return entry
 
+    def put_some(self, key: str, value: Value, notes: Notes | None = None) -> None:
+        """As `put`, but for what says nothing: None, an empty text, what has no entries."""
+        if value.entries if isinstance(value, Map) else value.items if isinstance(value, List) else value:
+            self.put(key, value, notes)
+
 
 class List(msgspec.Struct):
     items: list[Entry] = []
     block: bool = False
+
+    @classmethod
+    def of(cls, values: Iterable[Value]) -> List:
+        return cls([Entry("", value) for value in values])
 
     def put(self, value: Value, notes: Notes | None = None) -> Entry:
         entry = Entry("", value, notes or Notes())
@@ -94,7 +106,7 @@ def text(document: Map, around: Notes) -> str:
 def _map(node: Map, indent: str) -> Iterator[Line]:
     for entry in node.entries:
         yield from _head(entry, entry is node.entries[0], indent)
-        yield from _entry(entry, indent, f"{indent}{scalar(entry.key)}:")
+        yield from _entry(entry, indent, f"{indent}{text_of(entry.key)}:")
 
 
 def _list(node: List, indent: str) -> Iterator[Line]:
@@ -143,7 +155,7 @@ def _line(value: Value, start: str) -> str | None:
     if isinstance(value, Raw):
         return f"{start} {value.lexeme}"
     told = value.text if isinstance(value, Doc | Name) else value
-    line = f"{start} {scalar(told)}"
+    line = f"{start} {text_of(told)}"
     as_block = isinstance(value, Doc) and ("\n" in told or (len(line) > WIDTH and " " in told))
     return None if as_block and is_printable(told) and not told[:1].isspace() else line
 
@@ -155,9 +167,9 @@ def _flow(value: Value) -> str | None:
     if isinstance(value, Raw):
         return value.lexeme
     if isinstance(value, str | Name):
-        return scalar(value if isinstance(value, str) else value.text, flow=True)
+        return text_of(value if isinstance(value, str) else value.text, in_flow=True)
     if isinstance(value, Doc):
-        return None if "\n" in value.text else scalar(value.text, flow=True)
+        return None if "\n" in value.text else text_of(value.text, in_flow=True)
     entries = value.entries if isinstance(value, Map) else value.items
     if entries and (value.block or any(entry.notes for entry in entries)):
         return None
@@ -166,7 +178,7 @@ def _flow(value: Value) -> str | None:
         inner = _flow(entry.value)
         if inner is None:
             return None
-        parts.append(f"{scalar(entry.key, flow=True)}: {inner}" if isinstance(value, Map) else inner)
+        parts.append(f"{text_of(entry.key, in_flow=True)}: {inner}" if isinstance(value, Map) else inner)
     return "{" + ", ".join(parts) + "}" if isinstance(value, Map) else "[" + ", ".join(parts) + "]"
 
 

@@ -4,6 +4,7 @@ make a document of it."""
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 import msgspec
 from lark import Token, Tree
@@ -11,8 +12,9 @@ from lark import Token, Tree
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.legacy.comments import Placed
-from robocomp_yaml.legacy.document import Entry, List, Map, Name, Notes
+from robocomp_yaml.legacy.document import Entry, List, Map, Name, Notes, Value
 from robocomp_yaml.legacy.grammar import Parsed, token
 from robocomp_yaml.legacy.networks.node import NetworkDraft
 from robocomp_yaml.legacy.reading import Source
@@ -62,36 +64,33 @@ class NamedMachine(msgspec.Struct, frozen=True):
         return re.sub(r"\.smdsl$", ".scxml", self.path, flags=re.IGNORECASE)
 
 
-class ModuleDraft(msgspec.Struct, frozen=True):
-    """Of an interface file: its document, but for what its imports will be called."""
+class _Document(msgspec.Struct, frozen=True):
+    """A document, as far as its own file says it, and the comments around it."""
 
     document: Map
     around: Notes
+
+
+class ModuleDraft(_Document, frozen=True):
+    """Of an interface file: its document, but for what its imports will be called."""
+
     imports: tuple[ImportDraft, ...]
     names: ModuleNames
 
 
-class ComponentDraft(msgspec.Struct, frozen=True):
+class ComponentDraft(_Document, frozen=True):
     """Of a component's file: its document, but for what its imports and its state machine will be called."""
 
-    document: Map
-    around: Notes
     imports: tuple[ImportDraft, ...]
     machine: NamedMachine | None = None
 
 
-class ParametersDraft(msgspec.Struct, frozen=True):
+class ParametersDraft(_Document, frozen=True):
     """Of a file that declares parameters: its document, but for the component that it belongs to."""
 
-    document: Map
-    around: Notes
 
-
-class ValuesDraft(msgspec.Struct, frozen=True):
+class ValuesDraft(_Document, frozen=True):
     """Of the values for such a file: their document, but for the path of what declares them."""
-
-    document: Map
-    around: Notes
 
 
 class ConfigDraft(msgspec.Struct, frozen=True):
@@ -126,6 +125,12 @@ class Reader(msgspec.Struct, eq=False):
     placed: Placed
     diagnostics: list[Diagnostic] = []
 
+    @property
+    def tree(self) -> Tree[Token]:
+        """What was parsed: nobody converts what could not be."""
+        assert self.parsed.tree is not None
+        return self.parsed.tree
+
     def span(self, node: Tree[Token] | Token) -> Span:
         if isinstance(node, Token):
             return self.source.span(node.start_pos or 0, node.end_pos or 0)
@@ -145,6 +150,32 @@ class Reader(msgspec.Struct, eq=False):
 
     def refused(self, refusal: str, node: Tree[Token] | Token) -> None:
         self.diagnostics.append(codes.REFUSED.at(self.span(node), reason=self.rules.refusals[refusal]))
+
+    def word(self, what: str, text: str, at: Tree[Token] | Token) -> str:
+        """A word in its one spelling; an error for a word that is none of those known."""
+        known = self.rules.values[what]
+        if text.lower() not in known:
+            hint = did_you_mean(text, known, otherwise="write " + " or ".join(dict.fromkeys(known.values())))
+            self.diagnostics.append(codes.UNKNOWN_VALUE.at(self.span(at), what=what, value=text, hint=hint))
+        return known.get(text.lower(), text)
+
+    def gui(self, words: list[str], at: list[Tree[Token] | Token]) -> Map:
+        """Toolkit and base class of a window, and where each stands."""
+        toolkit = self.word("toolkit", words[0], at[0])
+        base = self.word("base", words[1], at[1]) if words[1:] else self.rules.defaults["base"]
+        return Map([Entry("toolkit", toolkit), Entry("base", base)])
+
+    def port(self, interface: str, used: Collection[str], declared: Collection[str], ros: Tree[Token] | None) -> Value:
+        """An entry of a list of ports: a second one of the same interface has a number behind its name. `ros` is what
+        says that it is one of ROS."""
+        name, number = interface, 0
+        while name in used or (number and name in declared):
+            number += 1
+            name = f"{interface}{number}"
+        if ros is not None:
+            self.diagnostics.append(codes.MIDDLEWARE.at(self.span(ros), name=interface))
+            return Map([Entry(name, Map([Entry("interface", interface), Entry("x-middleware", "ros")]))])
+        return interface if name == interface else Map([Entry(name, interface)])
 
     def doc(self, tree: Tree[Token], *names: str) -> str:
         """The doc comments of a construct as Markdown; markup that only names it goes."""

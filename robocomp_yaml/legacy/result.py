@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Iterator
-from pathlib import Path
 
 import msgspec
 
@@ -86,7 +85,7 @@ class Migration(msgspec.Struct):
         for home, outputs in sorted(self.homes.items()):
             if any(output.state not in (FAILED, TAKEN) for output in outputs):
                 with contextlib.suppress(OSError):  # a workspace that cannot be written to has migrated all the same
-                    workspace_files.install(Path(home))
+                    workspace_files.install(home)
 
     def tell_failures(self) -> None:
         """What could not be written: one diagnostic for the files of one folder that share a reason."""

@@ -80,7 +80,8 @@ Formats = tuple[Rules, ...]
 
 
 def built_in() -> list[str]:
-    return sorted(path.parent.name for path in resources.folder("migrate").glob("*/rules.yaml"))
+    folder = resources.folder("migrate")
+    return [name for name in sorted(os.listdir(folder)) if os.path.isfile(os.path.join(folder, name, "rules.yaml"))]
 
 
 @cache

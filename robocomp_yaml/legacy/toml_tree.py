@@ -12,12 +12,10 @@ from robocomp_yaml.legacy.draft import Reader
 
 def toml_tree(reader: Reader) -> Tree[Token] | None:
     """The tree of a file; None, with a diagnostic, where it is no TOML."""
-    tree = reader.parsed.tree
-    assert tree is not None
     try:
         tomllib.loads(reader.source.text)  # what the grammar does not judge: keys that stand twice
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
         at = reader.source.span(0, 1)
         reader.diagnostics.append(codes.SYNTAX.at(at, problem=f"this is no TOML: {error}", hint=""))
         return None
-    return tree
+    return reader.tree

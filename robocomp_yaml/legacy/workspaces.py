@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Iterable
-from pathlib import Path
 
 import msgspec
 
@@ -58,11 +57,8 @@ def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
         folder = os.path.relpath(os.path.dirname(path) or ".", root)
         folders.setdefault(kind, set()).add(folder)
     if folders["idsl"]:
-        listed = List()
-        for folder in sorted(folders["idsl"]):
-            if folder.isprintable():  # what is not UTF-8 cannot be said
-                listed.put(folder)
-        document.put("interfaces", listed)
+        listed = [folder for folder in sorted(folders["idsl"]) if folder.isprintable()]  # what is not UTF-8 is no text
+        document.put("interfaces", List.of(listed))
     for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT, machines.UNREADABLE):
         lint.put(row.id, "warning")
     if components and max(components.values()) > 1:
@@ -73,7 +69,7 @@ def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
 
 
 def modeline(document: str, root: str, kind: str) -> str:
-    return workspace_files.modeline(kind, Path(document), Path(root)) + "\n"
+    return workspace_files.modeline(kind, document, root) + "\n"
 
 
 def values_modeline(document: str, folder: str) -> str:

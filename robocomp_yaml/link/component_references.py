@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import os
-import re
 
 import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.fix import NO_HINT, Hint
 from robocomp_yaml.diag.suggest import meaning, suggest
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.yaml_text import quoted
 
-_PLAIN = re.compile(r"[\w./][\w./() -]*[\w./()]")
+_PLAIN = pattern(r"[\w./][\w./() -]*[\w./()]")
 _WORDS = {
     "idsl": "interfaces", "cdsl": "a component", "pdsl": "parameters", "ddsl": "a deployment", "config": "values",
 }  # fmt: skip
@@ -112,4 +112,4 @@ def write(paths: list[str], folder: str, key: str, word: str = "", *, safe: bool
 
 def _plain(path: str) -> str:
     """A path as YAML takes it."""
-    return path if _PLAIN.fullmatch(path) else json.dumps(path, ensure_ascii=False)
+    return path if _PLAIN.fullmatch(path) else quoted(path)

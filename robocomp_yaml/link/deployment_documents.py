@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 import msgspec
 
@@ -11,16 +11,17 @@ from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.digraph import inner_first
 from robocomp_yaml.link import deployment_groups
 from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.link.deployment_names import Names
-from robocomp_yaml.link.deployment_sizes import too_large
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.expand_deployments import Expansion
 from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import Tables
 from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Text
+from robocomp_yaml.source.disk import Disk
 
 
 class DeploymentDocuments(msgspec.Struct):
@@ -39,7 +40,7 @@ class DeploymentDocuments(msgspec.Struct):
         for entry in model.entries:
             if entry.kind != PROCESS:
                 yield from self._follow_entry(model, entry)
-        for include in _includes(model):
+        for include in model.all_includes:
             yield from self._follow_include(model, include)
         for group in model.groups:
             if group.facade is not None:
@@ -66,7 +67,7 @@ class DeploymentDocuments(msgspec.Struct):
     def _component(self, model: Deployment, target: Text) -> str | None:
         found = paths.components_at(model, target.text, self.documents.disk)
         if len(found) > 1:
-            names = " or ".join(os.path.basename(path) for path in found)
+            names = " or ".join(os.path.join(target.text, os.path.basename(path)) for path in found)
             self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
         elif not found:
             path = paths.joined(paths.folder_of(model), target.text)
@@ -126,13 +127,9 @@ class DeploymentDocuments(msgspec.Struct):
             self.diagnostics += expansion.diagnostics + names.diagnostics
             self.diagnostics += deployment_groups.resolve(linked, expansion.placed)
         for model in usable.values():
-            for path in filter(None, (paths.include_at(model, include.text, disk) for include in _includes(model))):
-                if os.path.realpath(path) in usable:
-                    tie(self.tables.deployments[os.path.realpath(path)], is_included=True)
-
-
-def _includes(model: Deployment) -> Iterable[Text]:
-    return (*model.includes, *(group.include for group in model.groups if group.include))
+            for real in _included(model, disk):
+                if real in usable:
+                    tie(self.tables.deployments[real], is_included=True)
 
 
 def _counted(entry: Entry, text: Text) -> Iterable[Text]:
@@ -140,3 +137,34 @@ def _counted(entry: Entry, text: Text) -> Iterable[Text]:
     if INDEX not in text.text or entry.instances is None:
         return (text,)
     return (Text(text.text.replace(INDEX, str(n)), span=text.span) for n in range(entry.instances))
+
+
+MOST = 10_000  # instances of one deployment, all together
+DEEPEST = 50  # includes inside of each other
+
+
+def too_large(deployments: Mapping[str, Deployment], disk: Disk) -> dict[str, Diagnostic | None]:
+    """The deployments, by real path, that cannot be expanded, with what is wrong with each: nothing more where it only
+    includes such a one."""
+    sizes: dict[str, tuple[int, int]] = {}
+    found: dict[str, Diagnostic | None] = {}
+    included = {real: list(_included(model, disk)) for real, model in deployments.items()}
+    for real in inner_first(deployments, lambda real: [other for other in included[real] if other in included]):
+        model, inner = deployments[real], [other for other in included[real] if other in sizes]
+        size = sum(entry.instances or 1 for entry in model.entries) + sum(sizes[other][0] for other in inner)
+        depth = 1 + max((sizes[other][1] for other in inner), default=0)
+        sizes[real] = size, depth
+        if any(other in found for other in inner):
+            found[real] = None
+        elif size > MOST:
+            found[real] = codes.TOO_LARGE.at(model.span, problem=f"comes to {size} processes, and {MOST} are the most")
+        elif depth > DEEPEST:
+            problem = f"has includes inside of each other {depth} deep, and {DEEPEST} are the most"
+            found[real] = codes.TOO_LARGE.at(model.span, problem=problem)
+    return found
+
+
+def _included(model: Deployment, disk: Disk) -> Iterator[str]:
+    """The real paths of what a document includes, as often as it does."""
+    for path in filter(None, (paths.include_at(model, include.text, disk) for include in model.all_includes)):
+        yield os.path.realpath(path)

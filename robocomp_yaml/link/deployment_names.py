@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 
 import msgspec
@@ -12,6 +11,7 @@ from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.digraph import reached
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.expand_deployments import Placed
 from robocomp_yaml.link.knot import grow, tie
@@ -57,23 +57,20 @@ class Names(msgspec.Struct):
 
     def _fill(self, here: Placed, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
         """All instances in a group, those of its inner groups too."""
-        todo = deque(inside[group])
-        seen: set[Target] = {group}
-        inner: list[LinkedGroup] = []
-        members: list[LinkedInstance] = []
-        while todo:
-            target = todo.popleft()
-            if target is group:
-                if here.is_own and not any(other.broken for other in self.root.groups.values() if other in seen):
-                    self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))
-                tie(group, broken=True)
-            elif target not in seen and isinstance(target, LinkedGroup):
-                inner.append(target)
-                todo += inside.get(target, ())
-            elif target not in seen and isinstance(target, LinkedInstance):
-                members.append(target)
-                grow(target, "groups", group)
-            seen.add(target)
+
+        def into(target: Target) -> Iterable[Target]:
+            return inside.get(target, ()) if isinstance(target, LinkedGroup) and target is not group else ()
+
+        found = list(reached(inside[group], into))
+        if group in found:
+            before = [group, *found[: found.index(group)]]
+            if here.is_own and not any(isinstance(other, LinkedGroup) and other.broken for other in before):
+                self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))
+            tie(group, broken=True)
+        members = [target for target in found if isinstance(target, LinkedInstance)]
+        for target in members:
+            grow(target, "groups", group)
+        inner = [target for target in found if isinstance(target, LinkedGroup) and target is not group]
         tie(group, members=tuple(members), inner=tuple(inner))
 
     def _processes(self, here: Placed, instance: LinkedInstance) -> None:

@@ -30,7 +30,7 @@ class Placed(msgspec.Struct):
     """A document in its scope, and what it put there. `chain` are the real paths of the documents around it, the
     outermost first, and `span` is where it is included. `hosts` are its own or, where it has none, those around it;
     `only` is the host of what names none. `is_whole` when nothing has errors that could hide a name of this scope,
-    `is_homeless` when it has been told that there is none of several hosts for what it holds.
+    `is_homeless` when it has been told that there is none of several hosts for what it holds, or no such host.
     """
 
     document: Deployment
@@ -187,7 +187,7 @@ class Expansion(msgspec.Struct):
             return
         self._groups[linked.name] = linked
         here.groups.append(linked)
-        host = here.only
+        host, is_unknown = here.only, False
         if group.host is not None:
             host, is_unknown = self._host(here, group.host, group.name, group.span)
             tie(linked, broken=is_unknown)
@@ -197,12 +197,14 @@ class Expansion(msgspec.Struct):
             tie(linked, facade=facade, broken=linked.broken or facade is None)
         if group.include is not None:
             whole, before = here.is_whole, len(self._in_order)
-            is_placed = self._place_include(here, group.include, f"{linked.name}.", host, set())
+            is_placed = self._place_include(here, group.include, f"{linked.name}.", host, set(), is_homeless=is_unknown)
             tie(linked, broken=linked.broken or not is_placed)
             here.is_whole = whole
             self.included[linked] = self._in_order[before:]
 
-    def _place_include(self, here: Placed, include: Text, scope: str, host: Host | None, seen: set[str]) -> str:
+    def _place_include(
+        self, here: Placed, include: Text, scope: str, host: Host | None, seen: set[str], *, is_homeless: bool = False
+    ) -> str:
         """Puts an included deployment into a scope; its real path, or '' where it cannot be used."""
         path = paths.include_at(here.document, include.text, self.disk)
         real = os.path.realpath(path) if path else ""
@@ -224,7 +226,7 @@ class Expansion(msgspec.Struct):
         if real in seen:
             self._say(here, codes.INCLUDED_TWICE, include.span, path=include.text)
             return real
-        inner = Placed(target, scope, chain, include.span, here.hosts, host)
+        inner = Placed(target, scope, chain, include.span, here.hosts, host, is_homeless=is_homeless)
         self._place(inner)
         here.is_whole &= inner.is_whole
         return real if inner.is_whole else ""
@@ -247,8 +249,8 @@ class Expansion(msgspec.Struct):
                 codes.HOST_DIFFERS.at(
                     host.address.span,
                     name=host.name,
-                    address=host.address.text,
-                    other=known.address.text,
+                    address=_reached(host),
+                    other=_reached(known),
                     document=os.path.basename(host.address.span.file),
                     hint="one of the two needs another name",
                     related=[Related("the other one", known.address.span), Related("included here", here.span)],
@@ -293,6 +295,10 @@ class Expansion(msgspec.Struct):
     def _say(self, here: Placed, code: Code, span: Span, *, hint: str | Hint = "", **facts: str) -> None:
         if here.is_own:
             self.diagnostics.append(code.at(span, hint=hint, related=(), more="", fixes=(), **facts))
+
+
+def _reached(host: Host) -> str:
+    return f"{host.user}@{host.address.text}" if host.user else host.address.text
 
 
 def _is_for(values: LinkedValues, component: LinkedComponent) -> bool:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
-from graphlib import CycleError, TopologicalSorter
 from itertools import pairwise
 from types import ModuleType
 from typing import TYPE_CHECKING, cast
 
 import msgspec
 
+from robocomp_yaml import digraph
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint, removal
@@ -223,23 +223,11 @@ class Linker(msgspec.Struct):
 
     def _circles(self, graph: dict[str, list[str]]) -> set[tuple[str, str]]:
         """The imports that lie on a circle, each circle reported once, at the first of its documents."""
-        try:
-            TopologicalSorter(graph).prepare()
-            return set()
-        except CycleError:
-            import networkx  # slow to import, and wanted only to explain
-
         circles: set[tuple[str, str]] = set()
-        whole: networkx.DiGraph[str] = networkx.DiGraph(graph)
-        for members in networkx.strongly_connected_components(whole):
-            if len(members) < 2:
-                continue
+        for members in digraph.knots(graph):
             circles |= {(real, other) for real in members for other in graph[real] if other in members}
             first = min(members, key=lambda real: self.tables.modules[real].module.path)
-            circle = next(networkx.simple_cycles(whole.subgraph(members)))
-            start = circle.index(first) if first in circle else 0
-            around = [self.tables.modules[real].module for real in (*circle[start:], *circle[:start])]
-            around.append(around[0])
+            around = [self.tables.modules[real].module for real in (*digraph.circle(graph, members, first), first)]
             places = [
                 Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
                 for one, next_ in pairwise(around)

@@ -61,8 +61,8 @@ def _with(component: Component, option: Option, meaning: Meaning) -> Component:
 @cache
 def _meanings() -> dict[str, Meaning]:
     """The meaning of each option, by its name in lower case."""
-    folder = resources.folder("migrate") / "options"
-    return {path.stem: _meaning(path.read_text(encoding="utf-8"), path.name) for path in sorted(folder.glob("*.yaml"))}
+    names = (name for name in resources.names("migrate/options") if name.endswith(".yaml"))
+    return {name.removesuffix(".yaml"): _meaning(resources.text(f"migrate/options/{name}"), name) for name in names}
 
 
 def _meaning(content: str, name: str) -> Meaning:

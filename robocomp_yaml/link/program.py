@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Set
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from typing import TYPE_CHECKING
 
 import msgspec
 
+from robocomp_yaml.digraph import inner_first
 from robocomp_yaml.model.interface import (
     Constant,
     ExceptionType,
@@ -15,15 +16,16 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
+from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
 from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source.disk import Disk
 
 if TYPE_CHECKING:
+    from robocomp_yaml.diag.diagnostic import Diagnostic
     from robocomp_yaml.link.deployments import LinkedDeployment
     from robocomp_yaml.model.component import Component, Use
-    from robocomp_yaml.model.parameters import Parameters
-    from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
     from robocomp_yaml.model.statemachine import StateMachine
+    from robocomp_yaml.parameters.layers.effective import Effective
 
 Definition = Constant | TypeDefinition | ExceptionType | Interface
 
@@ -58,32 +60,14 @@ class LinkedModule(msgspec.Struct, frozen=True, eq=False):
     def _look_up(self, ref: TypeRef) -> tuple[LinkedModule, Definition] | None:
         qualifier = ref.module
         for scope in (self, *self.imports):
-            known_as = (
-                ("", scope.module.name, scope.module.stem)
-                if scope is self
-                else (
-                    scope.module.name,
-                    scope.module.stem,
-                )
-            )
+            known_as = (*([""] if scope is self else []), scope.module.name, scope.module.stem)
             if qualifier in known_as and ref.name in scope._own:
                 return scope, scope._own[ref.name]
         return None
 
     def closure(self) -> list[LinkedModule]:
         """This module and all that it imports, directly or not: imported ones first, each once."""
-        done: dict[LinkedModule, None] = {}
-        todo: list[tuple[LinkedModule, bool]] = [(self, False)]
-        entered: set[LinkedModule] = set()
-        while todo:  # without recursion: a chain of imports may be long
-            scope, left = todo.pop()
-            if left:
-                done[scope] = None
-            elif scope not in entered:
-                entered.add(scope)
-                todo.append((scope, True))
-                todo += [(imported, False) for imported in reversed(scope.imports)]
-        return list(done)
+        return list(inner_first([self], lambda scope: scope.imports))
 
 
 class Port(msgspec.Struct, frozen=True):
@@ -98,39 +82,22 @@ class Port(msgspec.Struct, frozen=True):
         return self.use.name
 
 
-class LinkedParameters(msgspec.Struct, frozen=True, eq=False):
-    """A component's parameters with their document, if there is one; `broken` when some have no usable type (then
-    values are not judged). `component` is None for a document that no component was found for. `compiled` is for what
-    is made of them once and used often (validators)."""
+class LinkedParameters(ResolvedParameters, frozen=True, eq=False):
+    """A component's parameters. `component` is None for a document that no component was found for."""
 
-    parameters: Parameters
-    document: ParameterDocument | None = None
     component: LinkedComponent | None = None
-    broken: bool = False
-    compiled: dict[object, Any] = {}
 
 
 def _only_the_period() -> LinkedParameters:
-    from robocomp_yaml.link.parameters import of_no_document
+    from robocomp_yaml.parameters.resolution.resolve import of_no_document
 
     return LinkedParameters(of_no_document(None))
 
 
-class LinkedValues(msgspec.Struct, frozen=True, eq=False):
-    """A values document with the documents that it extends, the most general first. `parameters` is None where the
-    component is not known; `is_extended` when another document builds on this one, so that it need not be complete;
-    `broken` when a layer is missing."""
+class LinkedValues(LayeredValues, frozen=True, eq=False):
+    """A values document with its layers, and the parameters of the component that it belongs to."""
 
-    document: ValuesDocument
-    extends: tuple[LinkedValues, ...] = ()
     parameters: LinkedParameters | None = None
-    is_extended: bool = False
-    broken: bool = False
-
-    def layers(self) -> list[LinkedValues]:
-        """This document and all that it builds on: the most general first, each once, this one last."""
-        below = [layer for base in self.extends for layer in base.layers()]
-        return list(dict.fromkeys([*below, self]))
 
 
 class LinkedComponent(msgspec.Struct, frozen=True, eq=False):
@@ -183,6 +150,16 @@ class Program(msgspec.Struct, frozen=True):
     documents: int = 0
     disk: Disk = msgspec.field(default_factory=Disk)
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
+    _effective: dict[LayeredValues, tuple[Effective | None, Sequence[Diagnostic]]] = {}
+
+    def effective(self, values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnostic]]:
+        """What is in effect by a values document, and what is wrong with it: worked out once, when it is first asked
+        for, for all that read it."""
+        if values not in self._effective:
+            from robocomp_yaml.parameters.layers.effective import effective  # most components have no values
+
+            self._effective[values] = effective(values)
+        return self._effective[values]
 
     def documents_of_components(self) -> dict[str, LinkedComponent | None]:
         """The documents of parameters and of values, each with its component."""

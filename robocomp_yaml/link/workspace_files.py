@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-from pathlib import Path
 
 from robocomp_yaml.link.workspace import above
 from robocomp_yaml.plugins import Plugins
@@ -37,36 +36,38 @@ def schema_of(kind: str, plugins: Plugins) -> str:
     return schema_text(kind, plugins.languages if kind in MARKED else ())
 
 
-def modeline(kind: str, document: Path, workspace: Path) -> str:
+def modeline(kind: str, document: str, workspace: str) -> str:
     """The first line of a document, without its line end: it tells editors which schema to use."""
-    path = os.path.relpath(workspace / schema_path(kind), document.parent)
-    return f"# yaml-language-server: $schema={Path(path).as_posix()}"
+    path = os.path.relpath(os.path.join(workspace, schema_path(kind)), os.path.dirname(document) or ".")
+    return f"# yaml-language-server: $schema={path}"
 
 
-def install(folder: Path, plugins: Plugins | None = None) -> list[Path]:
+def install(folder: str, plugins: Plugins | None = None) -> list[str]:
     """Brings the editor's files of a workspace up to date; gives those that changed. `plugins` are the workspace's,
     where they are known already; while one of them cannot be had, what depends on them stays as it is.
 
     What the user has in VS Code's settings stays as it is, comments included; `settings_problem` says why nothing
     could be added. Raises OSError where the folder cannot be written, or a link leads out of it.
     """
-    for kind in GLOBS:
-        if not stays_inside(str(folder), schema_path(kind)):
-            raise OSError(errno.ELOOP, "a link leads out of the workspace", str(folder / schema_path(kind)))
-    plugins = above(str(folder))[0].plugins if plugins is None else plugins
+    schemas = {kind: os.path.normpath(os.path.join(folder, schema_path(kind))) for kind in GLOBS}
+    for kind, path in schemas.items():
+        if not stays_inside(folder, schema_path(kind)):
+            raise OSError(errno.ELOOP, "a link leads out of the workspace", path)
+    plugins = above(folder)[0].plugins if plugins is None else plugins
     changed = [
-        folder / schema_path(kind)
-        for kind in GLOBS
-        if (plugins.whole or kind not in MARKED) and _write(folder / schema_path(kind), schema_of(kind, plugins))
+        path
+        for kind, path in schemas.items()
+        if (plugins.whole or kind not in MARKED) and _write(path, schema_of(kind, plugins))
     ]
     try:
         wired = _wired(folder)
     except Unreadable:
         return changed
-    return [*changed, folder / SETTINGS] if _write(folder / SETTINGS, wired) else changed
+    settings = os.path.normpath(os.path.join(folder, SETTINGS))
+    return [*changed, settings] if _write(settings, wired) else changed
 
 
-def settings_problem(folder: Path) -> str:
+def settings_problem(folder: str) -> str:
     """Why `install` leaves VS Code's settings as they are, or ''."""
     try:
         _wired(folder)
@@ -75,12 +76,12 @@ def settings_problem(folder: Path) -> str:
     return ""
 
 
-def _wired(folder: Path) -> str:
+def _wired(folder: str) -> str:
     """The text of VS Code's settings with our schemas in `yaml.schemas`."""
-    settings = folder / SETTINGS
-    if settings.is_symlink():
+    settings = os.path.join(folder, SETTINGS)
+    if os.path.islink(settings):
         raise Unreadable("it is a link")
-    if not stays_inside(str(folder), SETTINGS):
+    if not stays_inside(folder, SETTINGS):
         raise Unreadable("a link leads out of the workspace")
     try:
         with open(settings, encoding="utf-8", opener=regular) as file:
@@ -93,7 +94,7 @@ def _wired(folder: Path) -> str:
     return with_members(text if text.strip() else "{}\n", "yaml.schemas", ours)
 
 
-def _write(path: Path, text: str) -> bool:
+def _write(path: str, text: str) -> bool:
     """Writes a file whole or not at all, and only if that changes it."""
     data = text.encode("utf-8")
     try:
@@ -101,6 +102,6 @@ def _write(path: Path, text: str) -> bool:
             if file.read() == data:
                 return False
     except FileNotFoundError:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
     whole_file.replace(path, data)
     return True

@@ -113,7 +113,6 @@ def _uses(root: Mapping, key: str) -> Iterator[Use]:
 def _named_use(name: Scalar, node: Node) -> Use:
     if isinstance(node, Scalar):
         return Use(name.lexeme, node.lexeme, span=node.span)
-    assert isinstance(node, Mapping)
     return Use(
         name.lexeme,
         text(node, "interface", name.lexeme),

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.build_component import seconds
-from robocomp_yaml.model.build_interface import doc, entries, items, span_of, text
+from robocomp_yaml.model.build_interface import doc, entries, items, span_of, sure, text
 from robocomp_yaml.model.deployment import (
     COMPONENT,
     ON_FAILURE,
@@ -53,7 +53,7 @@ def _as_text(node: Node | None) -> Text | None:
 
 
 def _text(parent: Node, key: str) -> Text | None:
-    return _as_text(parent.get(key)) if isinstance(parent, Mapping) else None
+    return _as_text(parent.get(key))
 
 
 def _texts(parent: Node, key: str) -> Iterator[Text]:
@@ -64,18 +64,17 @@ def _texts(parent: Node, key: str) -> Iterator[Text]:
 
 def _integer(parent: Node | None, key: str) -> int | None:
     """A whole number; YAML may spell it as a float, which the schema allows."""
-    node = parent.get(key) if isinstance(parent, Mapping) else None
+    node = parent.get(key) if parent else None
     return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, int | float) else None
 
 
 def _host(key: Scalar, node: Node) -> Host:
-    address = _as_text(node) or _text(node, "address")
-    assert address is not None
+    address = sure(_as_text(node) or _text(node, "address"))
     return Host(key.lexeme, address, text(node, "user"), doc(node), span=key.span)
 
 
 def _storm(key: Scalar, node: Node) -> Storm:
-    inner = node.get("icestorm") if isinstance(node, Mapping) else None
+    inner = node.get("icestorm")
     if not isinstance(inner, Mapping):
         return Storm(key.lexeme, doc=doc(node), span=key.span, port_span=key.span)
     return Storm(
@@ -91,14 +90,12 @@ def _storm(key: Scalar, node: Node) -> Storm:
 def _entry(key: Scalar, node: Node) -> Entry:
     assert isinstance(node, Mapping)
     kind = next(kind for kind in (COMPONENT, PROGRAM, PROCESS) if kind in node.entries)
-    target = _text(node, kind)
-    assert target is not None
     settings = node.get("set")
     port = node.get("port")
     return Entry(
         name=key.lexeme,
         kind=kind,
-        target=target,
+        target=sure(_text(node, kind)),
         executable=_text(node, "executable"),
         args=tuple(_texts(node, "args")),
         cwd=_text(node, "cwd"),
@@ -145,7 +142,6 @@ def _restart(node: Node | None) -> Restart | None:
         return None
     if isinstance(node, Scalar):
         return Restart(node.lexeme, span=node.span)
-    assert isinstance(node, Mapping)
     delay, within = seconds(node.get("delay")), seconds(node.get("within"))
     return Restart(text(node, "policy", ON_FAILURE), delay, _integer(node, "tries"), within, span=node.span)
 
@@ -153,9 +149,8 @@ def _restart(node: Node | None) -> Restart | None:
 def _ready(node: Node | None) -> Ready | None:
     if node is None:
         return None
-    if isinstance(node, Scalar):
+    if not isinstance(node, Mapping):
         return Ready(seconds(node), span=node.span)
-    assert isinstance(node, Mapping)
     return Ready(
         seconds(node.get("within")),
         _integer(node, "port"),
@@ -207,8 +202,7 @@ def _group(key: Scalar, node: Node) -> Group:
 
 
 def _exposed(name: Scalar, node: Node) -> Exposed:
-    member = _as_text(node) or _text(node, "member")
-    assert member is not None
+    member = sure(_as_text(node) or _text(node, "member"))
     if not isinstance(node, Mapping):
         return Exposed(name.lexeme, member, span=name.span)
     rate = node.get("rate")
@@ -218,5 +212,4 @@ def _exposed(name: Scalar, node: Node) -> Exposed:
         rate=float(rate.data) if rate else None,  # type: ignore[arg-type]
         allow=tuple(_texts(node, "allow")) if "allow" in node.entries else None,
         span=name.span,
-        rate_span=span_of(node, "rate"),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import TypeVar
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import (
@@ -25,6 +26,8 @@ from robocomp_yaml.model.interface import (
     Sequence as SequenceType,
 )
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+
+_Value = TypeVar("_Value")
 
 
 def build(root: Mapping, path: str) -> Module:
@@ -51,19 +54,19 @@ def build(root: Mapping, path: str) -> Module:
 
 def entries(parent: Node | None, key: str) -> Iterator[tuple[Scalar, Node]]:
     """Keys and values of the mapping under a key, without `x-…`; none where it is missing or null."""
-    child = parent.get(key) if isinstance(parent, Mapping) else None
+    child = parent.get(key) if parent else None
     if isinstance(child, Mapping):
         yield from (entry for name, entry in child.entries.items() if not name.startswith("x-"))
 
 
 def items(parent: Node | None, key: str) -> list[Node]:
-    child = parent.get(key) if isinstance(parent, Mapping) else None
+    child = parent.get(key) if parent else None
     return child.items if isinstance(child, Sequence) else []
 
 
 def text(parent: Node | None, key: str, default: str = "") -> str:
     """A scalar's text as spelled."""
-    child = parent.get(key) if isinstance(parent, Mapping) else None
+    child = parent.get(key) if parent else None
     return child.lexeme if isinstance(child, Scalar) else default
 
 
@@ -71,7 +74,7 @@ def doc(node: Node | None) -> str:
     return text(node, "doc").strip()
 
 
-def span_of(parent: Mapping, key: str) -> Span:
+def span_of(parent: Node, key: str) -> Span:
     """Where the value of a key stands, else where the mapping does."""
     child = parent.get(key)
     return (child or parent).span
@@ -81,6 +84,12 @@ def imports(root: Mapping) -> Iterator[Import]:
     for node in items(root, "imports"):
         if isinstance(node, Scalar):
             yield Import(node.lexeme, span=node.span)
+
+
+def sure(value: _Value | None) -> _Value:
+    """What the schema asks for."""
+    assert value is not None
+    return value
 
 
 def type_ref(node: Node | None) -> TypeRef | None:
@@ -97,16 +106,13 @@ def literal(node: Node | None) -> Literal | None:
 
 
 def _constant(key: Scalar, node: Node) -> Constant:
-    type_, value = type_ref(node), literal(node.get("value") if isinstance(node, Mapping) else None)
-    assert type_ is not None and value is not None
-    return Constant(key.lexeme, type_, value, doc(node), text(node, "unit"), span=key.span)
+    value = sure(literal(node.get("value")))
+    return Constant(key.lexeme, sure(type_ref(node)), value, doc(node), text(node, "unit"), span=key.span)
 
 
 def _member(key: Scalar, node: Node) -> Member:
-    type_ = type_ref(node)
-    assert type_ is not None
-    default = literal(node.get("default")) if isinstance(node, Mapping) else None
-    return Member(key.lexeme, type_, doc(node), text(node, "unit"), default, span=key.span)
+    default = literal(node.get("default"))
+    return Member(key.lexeme, sure(type_ref(node)), doc(node), text(node, "unit"), default, span=key.span)
 
 
 def _members(node: Node | None, key: str) -> tuple[Member, ...]:
@@ -136,16 +142,12 @@ def _key_span(parent: Mapping, key: str) -> Span:
 
 
 def _sequence(key: Scalar, node: Mapping) -> SequenceType:
-    element = type_ref(node.get("sequence"))
-    assert element is not None
-    return SequenceType(key.lexeme, element, doc(node), span=key.span)
+    return SequenceType(key.lexeme, sure(type_ref(node.get("sequence"))), doc(node), span=key.span)
 
 
 def _map(key: Scalar, node: Mapping) -> Map:
-    inner = node.get("map")
-    assert isinstance(inner, Mapping)
-    key_type, value_type = type_ref(inner.get("key")), type_ref(inner.get("value"))
-    assert key_type is not None and value_type is not None
+    inner = sure(node.get("map"))
+    key_type, value_type = sure(type_ref(inner.get("key"))), sure(type_ref(inner.get("value")))
     return Map(key.lexeme, key_type, value_type, doc(node), span=key.span)
 
 
@@ -167,7 +169,7 @@ def _interface(key: Scalar, node: Node, is_topic: bool) -> Interface:
 
 def _method(key: Scalar, node: Node) -> Method:
     throws = (type_ref(item) for item in items(node, "throws"))
-    returns = node.get("returns") if isinstance(node, Mapping) else None
+    returns = node.get("returns")
     return Method(
         key.lexeme,
         inputs=_members(node, "in"),
@@ -176,7 +178,6 @@ def _method(key: Scalar, node: Node) -> Method:
         throws=tuple(ref for ref in throws if ref is not None),
         idempotent=isinstance(node, Mapping) and node.data.get("idempotent") is True,  # type: ignore[attr-defined]
         doc=doc(node),
-        legacy_name=text(node, "x-legacy-name"),
         returns_doc=doc(returns),
         returns_unit=text(returns, "unit"),
         span=key.span,

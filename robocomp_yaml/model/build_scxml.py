@@ -32,6 +32,7 @@ from robocomp_yaml.model.statemachine import (
     Text,
     Transition,
     Value,
+    numbered,
     words,
 )
 from robocomp_yaml.source.xml import Element
@@ -62,7 +63,7 @@ class _Builder:
         return StateMachine(
             name=root.get("name") or "",
             path=self.path,
-            root=self.state(root),
+            root=numbered(self.state(root)),
             datamodel=root.get("datamodel") or "",
             late=root.get("binding") == "late",
             scripts=tuple(self.action(child) for child in ours(root) if child.name == "script"),

@@ -30,6 +30,7 @@ from robocomp_yaml.model.statemachine import (
     Text,
     Transition,
     Value,
+    numbered,
     walk,
     words,
 )
@@ -54,7 +55,7 @@ def build(node: Mapping, name: str, path: str) -> StateMachine:
     """The machine under `statemachine:` of the component `name`."""
     names = _Names()
     _collect(node, names)
-    root = _state("", node, STATE, node.span, names)
+    root = numbered(_state("", node, STATE, node.span, names))
     known = {state.id for state in walk(root.states)}
     return StateMachine(
         name,
@@ -131,7 +132,6 @@ def _transition(source: str, node: Node) -> Transition:
     if isinstance(node, Scalar):
         target = Text(node.lexeme, node.span)
         return Transition((_signal(source, target),), targets=(target,), span=node.span)
-    assert isinstance(node, Mapping)
     to = node.get("to")
     targets = tuple(Text(item.lexeme, item.span) for item in _listed(to) if isinstance(item, Scalar)) if to else ()
     condition = _named(node, "if")
@@ -154,12 +154,12 @@ def _signal(source: str, target: Text) -> Text:
 
 
 def _named(node: Node | None, key: str) -> Text | None:
-    child = node.get(key) if isinstance(node, Mapping) else None
+    child = node.get(key) if node else None
     return Text(child.lexeme, child.span) if isinstance(child, Scalar) else None
 
 
 def _is_true(node: Node | None, key: str) -> bool:
-    child = node.get(key) if isinstance(node, Mapping) else None
+    child = node.get(key) if node else None
     return child is not None and child.data is True
 
 
@@ -168,7 +168,7 @@ def _listed(node: Node) -> list[Node]:
 
 
 def _blocks(node: Node | None, key: str) -> tuple[Block, ...]:
-    found = _actions(node.get(key)) if isinstance(node, Mapping) else ()
+    found = _actions(node.get(key)) if node else ()
     return (found,) if found else ()
 
 
@@ -180,7 +180,6 @@ def _action(node: Node) -> Action:
     """A method of the worker, or {raise: …}, {send: …, after: …}, {cancel: …}."""
     if isinstance(node, Scalar):
         return Script(Text(node.lexeme, node.span), span=node.span)
-    assert isinstance(node, Mapping)
     if raised := _named(node, "raise"):
         return Raise(raised, span=node.span)
     if node.get("cancel"):

@@ -139,7 +139,6 @@ class Exposed(Located, frozen=True):
     rate: float | None = None
     allow: tuple[Text, ...] | None = None
     span: Span = Span("")
-    rate_span: Span = Span("")
 
     @property
     def has_rule(self) -> bool:
@@ -179,3 +178,8 @@ class Deployment(Located, frozen=True):
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
     span: Span = Span("")
+
+    @property
+    def all_includes(self) -> tuple[Text, ...]:
+        """Those of groups, too."""
+        return (*self.includes, *(group.include for group in self.groups if group.include))

@@ -111,8 +111,7 @@ class Constant(Located, frozen=True):
 
 
 class Method(Located, frozen=True):
-    """`returns` is None for a method that returns nothing. `legacy_name` is its name in legacy Slice, where it differs
-    (an overload, which IDSL cannot say)."""
+    """`returns` is None for a method that returns nothing."""
 
     name: str
     inputs: tuple[Member, ...] = ()
@@ -121,7 +120,6 @@ class Method(Located, frozen=True):
     throws: tuple[TypeRef, ...] = ()
     idempotent: bool = False
     doc: str = ""
-    legacy_name: str = ""
     returns_doc: str = ""
     returns_unit: str = ""
     span: Span = Span("")

@@ -27,23 +27,17 @@ _MANY = 500
 
 
 class MachineIndex(msgspec.Struct):
-    """States are told apart by their numbers: an id may be missing, or, in a faulty machine, stand twice."""
+    """States are told apart by their numbers: an id may be missing, or, in a faulty machine, stand twice. `parents` are
+    by the number of each state in them."""
 
     machine: StateMachine
     by_id: dict[str, State] = {}
-    _numbers: dict[int, int] = {}  # by identity, which the machine's own states keep as long as it is there
-    _parents: dict[int, State] = {}
+    parents: dict[int, State] = {}
 
     def __post_init__(self) -> None:
-        todo = [self.machine.root]
-        while todo:
-            state = todo.pop()
-            self._numbers[id(state)] = len(self._numbers)
-            for child in state.states:
-                self._parents[id(child)] = state
-            todo += reversed(state.states)
-        for state in self.machine.states:
-            if state.id:
+        for state in self.states:
+            self.parents.update((child.number, state) for child in state.states)
+            if state.id and state.number:
                 self.by_id.setdefault(state.id, state)
 
     @property
@@ -52,13 +46,9 @@ class MachineIndex(msgspec.Struct):
         yield self.machine.root
         yield from self.machine.states
 
-    def number(self, state: State) -> int:
-        """Which one it is, in the document's order; the root is 0."""
-        return self._numbers[id(state)]
-
     def parent(self, state: State) -> State | None:
         """What holds it; None for the root."""
-        return self._parents.get(id(state))
+        return self.parents.get(state.number)
 
     def similar(self, name: str, inside: State | None = None) -> Hint:
         """A hint at a state (in this one) whose name is like this one; looking for it in thousands takes too long."""
@@ -129,11 +119,6 @@ def is_unconditional(transition: Transition, datamodel: str) -> bool:
         return conditions.always(conditions.condition(text))
     except conditions.NotInLanguage:
         return False
-
-
-def plain(descriptor: str) -> str:
-    """What an event's name begins with to match this; '' matches all."""
-    return descriptor.removesuffix(".*").rstrip(".").removesuffix("*")
 
 
 def prefixes(event: str) -> list[str]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import count
 
 import msgspec
 from msgspec.structs import replace
@@ -161,7 +162,8 @@ class Invoke(Located, frozen=True):
 
 class State(Located, frozen=True):
     """A state, of a `kind`; `id` is '' where it has none. `initial` is what is entered with it, `final` what the CDSL
-    names as the one that ends it. A history's `initial` is what it stands for before anything is remembered."""
+    names as the one that ends it. A history's `initial` is what it stands for before anything is remembered. `number`
+    tells it from all others of its machine: its place in the document's order, with the root as 0."""
 
     id: str
     kind: str = STATE
@@ -176,6 +178,7 @@ class State(Located, frozen=True):
     invokes: tuple[Invoke, ...] = ()
     done: Payload = Payload()
     doc: str = ""
+    number: int = 0
     span: Span = Span("")
 
 
@@ -200,6 +203,17 @@ class StateMachine(Located, frozen=True):
     def states(self) -> Iterator[State]:
         """All states in the document's order, without the root."""
         yield from walk(self.root.states)
+
+
+def numbered(root: State) -> State:
+    """A whole tree of states with their numbers."""
+    numbers = count()
+
+    def with_number(state: State) -> State:
+        own = next(numbers)
+        return replace(state, number=own, states=tuple(with_number(child) for child in state.states))
+
+    return with_number(root)
 
 
 def walk(states: tuple[State, ...]) -> Iterator[State]:

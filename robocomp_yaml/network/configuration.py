@@ -14,17 +14,24 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.link.program import LinkedParameters, LinkedValues
-from robocomp_yaml.model.pdsl import ValuesDocument
+from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.network.base import Base
 from robocomp_yaml.network.draft import Draft, Given, listening
+from robocomp_yaml.parameters.layers.effective import document_faults
+from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
+from robocomp_yaml.parameters.layers.overlay import overlay
+from robocomp_yaml.parameters.specification.document import ValuesDocument
+from robocomp_yaml.parameters.writing.properties import (
+    CLASSIC,
+    FLAT_TOML,
+    Section,
+    properties,
+    secret_keys,
+    section_text,
+)
+from robocomp_yaml.parameters.writing.write import Property, Writer
+from robocomp_yaml.semantics import connections
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
-from robocomp_yaml.values.effective import document_faults, effective
-from robocomp_yaml.values.layers import Place, data_of, merged
-from robocomp_yaml.values.overlay import overlay
-from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, Section, properties, secret_keys
-from robocomp_yaml.values.property_text import section_text
-from robocomp_yaml.values.write import Property, Writer
 
 _PARAMETERS = "What the deployment sets"
 _TITLE = "Where this component and the others are"
@@ -35,6 +42,7 @@ class Configuration(msgspec.Struct):
 
     draft: Draft
     base: Base
+    program: Program
     text: str | None = None
     secrets: tuple[str, ...] = ()
     diagnostics: list[Diagnostic] = []
@@ -75,7 +83,7 @@ class Configuration(msgspec.Struct):
         empty = ValuesDocument(self._file, mapping_at(self.draft.span, {}))
         below = LinkedValues(empty, (base,) if base is not None else (), linked)
         layer = replace(below, document=ValuesDocument(self._file, self._layer(linked, below)))
-        values, found = effective(layer)
+        values, found = self.program.effective(layer)
         self.diagnostics += found
         if values is None:
             return None
@@ -94,7 +102,7 @@ class Configuration(msgspec.Struct):
         if linked.broken:
             return None
         layer = LinkedValues(ValuesDocument(self._file, self._parameters(linked, settings, None)), parameters=linked)
-        self.diagnostics += document_faults(layer)
+        self.diagnostics += document_faults(layer, linked)
         if not self.diagnostics:
             root, place = linked.parameters.root, merged(layer)
             writer = Writer(linked.parameters, settings.span, True, dialect == FLAT_TOML)
@@ -175,16 +183,15 @@ class Configuration(msgspec.Struct):
         """All that is derived as properties, in Ice's own spelling, which comes first for every generated component;
         and behind it in the file's, if that is another."""
         draft, made = self.draft, list[tuple[str, str, Given]]()
-        made += [(f"{name}.Endpoints", f"Endpoints.{name}", given) for name, given in self._endpoints()]
-        for name, given in draft.proxies.items():
-            made.append((f"{name}Proxy", f"Proxies.{name}", given))
+        made += [(*connections.endpoints(name), given) for name, given in self._endpoints()]
+        made += [(*connections.proxy(name), given) for name, given in draft.proxies.items()]
         if draft.manager is not None:
-            made.append(("TopicManager.Proxy", "Proxies.TopicManager", draft.manager))
+            made.append((*connections.MANAGER, draft.manager))
         made += [(name, name, given) for name, given in draft.topics.items()]
         lines = {classic: Property(classic, given.text, given.span) for classic, _, given in made}
         if dialect != CLASSIC:
             lines |= {other: Property(other, _quoted(given.text), given.span) for _, other, given in made}
-        prefixes = [f"Proxies.{name}{end}Prefix" for name in draft.topics for end in ("", "Pub")]
+        prefixes = [connections.prefix(f"{name}{end}") for name in draft.topics for end in ("", "Pub")]
         # an empty value takes back what the file says
         lines |= {key: Property(key, '""') for key in prefixes if key in self.base.properties}
         return list(lines.values())

@@ -50,10 +50,6 @@ class Contents(msgspec.Struct):
         return self._known[key]
 
 
-def same_name(first: Port, second: Port) -> bool:
-    return name_of(first) == name_of(second)
-
-
 def name_of(port: Port) -> tuple[str, str]:
     """What an interface is called: its module and its own name."""
     return port.scope.module.name, port.interface.name

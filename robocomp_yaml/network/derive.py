@@ -3,32 +3,36 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
+from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
-from robocomp_yaml.network import ports, processes
+from robocomp_yaml.link.program import Program
+from robocomp_yaml.model.deployment import PROGRAM, Text
+from robocomp_yaml.network import ice_texts, ports, processes
 from robocomp_yaml.network.base import Base, base_of
 from robocomp_yaml.network.configuration import Configuration
 from robocomp_yaml.network.connections import Connections
 from robocomp_yaml.network.contents import Contents
-from robocomp_yaml.network.draft import Draft
+from robocomp_yaml.network.draft import Draft, Offer
 from robocomp_yaml.network.drafts import Drafts, drafts_of
-from robocomp_yaml.network.endpoints import endpoint_faults
 from robocomp_yaml.network.gates import Gates
-from robocomp_yaml.network.lengths import length_faults
-from robocomp_yaml.network.network import FOLDER, Network
+from robocomp_yaml.network.network import FOLDER, Network, Process
 from robocomp_yaml.network.order import AFTER, Need, optional, ordered
 from robocomp_yaml.network.targets import Targets
 from robocomp_yaml.network.topics import Topics
-from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, path_fault, shortened, size
+from robocomp_yaml.source.ice_endpoint import fixed_endpoint
+from robocomp_yaml.source.ice_options import LAST_PORT, Refused
 
 
-def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnostic]]:
+def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Diagnostic]]:
     """The network of a deployment, as far as it can be told, and all that is wrong with it. Flat configuration
-    files are read from `disk`."""
+    files are read from the program's disk."""
     deployment = linked.deployment
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
     drafts = drafts_of(linked)
@@ -40,7 +44,7 @@ def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnost
 
     def base(draft: Draft) -> Base:
         if draft not in bases:
-            bases[draft] = base_of(draft.instance, disk)
+            bases[draft] = base_of(draft.instance, program.disk)
         return bases[draft]
 
     contents = Contents()
@@ -62,7 +66,7 @@ def derive(linked: LinkedDeployment, disk: Disk) -> tuple[Network, list[Diagnost
             text: str | None = gates.program(draft)
             hidden: tuple[str, ...] = ()
         else:
-            configuration = Configuration(draft, base(draft))
+            configuration = Configuration(draft, base(draft), program)
             configuration.make()
             diagnostics += configuration.diagnostics
             text, hidden = configuration.text, configuration.secrets
@@ -95,3 +99,74 @@ def _put_in_order(network: Network, needs: Sequence[Need]) -> list[Diagnostic]:
             without = tuple(target for target in targets if target in can_be_absent[name])
             network.processes[name] = replace(network.processes[name], after=targets, optional=without)
     return diagnostics
+
+
+def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
+    for draft in drafts.drafts.values():
+        for offer in draft.adapters:
+            if offer.given:
+                yield from _of_text(draft, offer)
+            elif offer.number > LAST_PORT:
+                yield codes.PORT_TOO_HIGH.at(
+                    offer.span,
+                    name=draft.name,
+                    port=offer.number,
+                    hint="begin with a lower one, or use fewer instances",
+                )
+
+
+def _of_text(draft: Draft, offer: Offer) -> Iterator[Diagnostic]:
+    try:
+        fixed_endpoint(offer.given)
+    except Refused as refused:
+        usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
+        yield codes.BAD_ENDPOINT.at(
+            ice_texts.place(draft, offer.span, offer.given, refused),
+            name=offer.adapter,
+            text=offer.given,
+            problem=refused.problem,
+            hint=ice_texts.hint(draft, offer.given, refused, usual),
+        )
+
+
+def length_faults(linked: LinkedDeployment, drafts: Drafts, network: Network) -> Iterator[Diagnostic]:
+    deployment = linked.deployment
+    if is_too_long(f"{deployment.name}.target"):
+        yield _too_long("deployment", deployment.name, f"{deployment.name}.target", deployment.span)
+        return
+    for host in network.hosts.values():
+        if is_too_long(host.name):
+            yield _too_long("host", host.name, host.name, host.span)
+    for process in network.processes.values():
+        for name in (process.name, *process.aliases):
+            unit = f"{deployment.name}-{name}.service"  # the longest of its files
+            if is_too_long(unit):
+                yield _too_long("entry", name, unit, process.span)
+    for draft in drafts.drafts.values():
+        if draft.name in network.processes:
+            yield from _paths(draft, network.processes[draft.name])
+    if fault := path_fault(network.folder):
+        yield codes.PATH_TOO_LONG.at(deployment.span, path=shortened(network.folder), problem=fault)
+
+
+def _too_long(what: str, name: str, file: str, span: Span) -> Diagnostic:
+    return codes.NAME_TOO_LONG.at(
+        span,
+        what=what,
+        name=shortened(name),
+        file=shortened(file),
+        size=size(file),
+        limit=LONGEST_NAME,
+        hint=f"shorten it by {size(file) - LONGEST_NAME}",
+    )
+
+
+def _paths(draft: Draft, process: Process) -> Iterator[Diagnostic]:
+    entry = draft.instance.entry
+    program = entry.target if entry.kind == PROGRAM else entry.executable
+    given: list[tuple[Text | None, str]] = [(program, process.command[0]), (entry.cwd, process.cwd)]
+    for text, path in given:
+        fault = path_fault(path)
+        if text is not None and fault:
+            yield codes.PATH_TOO_LONG.at(text.span, path=shortened(text.text), problem=fault)
+            return

@@ -32,7 +32,7 @@ def networks_of(program: Program) -> Derived:
     said: list[Diagnostic] = []
     judged: list[str] = []
     for real, linked in sorted(program.deployments.items(), key=lambda item: item[1].deployment.path):
-        networks[real], found = derive(linked, program.disk)
+        networks[real], found = derive(linked, program)
         if not linked.is_included:
             said += found
             judged.append(real)

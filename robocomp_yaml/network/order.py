@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from graphlib import CycleError, TopologicalSorter
 
 import msgspec
 
+from robocomp_yaml import digraph
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -38,9 +38,10 @@ def ordered(
         after: dict[str, dict[str, None]] = {name: {} for name in position}
         for need in kept:
             after[need.source][need.target] = None
-        waves = _waves(after, position)
+        waves = digraph.waves(after)
         if waves is not None:
-            return waves, {name: tuple(targets) for name, targets in after.items()}, diagnostics
+            in_order = [tuple(sorted(wave, key=position.__getitem__)) for wave in waves]
+            return in_order, {name: tuple(targets) for name, targets in after.items()}, diagnostics
         kept, told = _broken(kept, after, position)
         diagnostics += told
 
@@ -60,43 +61,23 @@ def optional(needs: Iterable[Need]) -> dict[str, set[str]]:
     return found
 
 
-def _waves(after: Mapping[str, Iterable[str]], position: Mapping[str, int]) -> list[tuple[str, ...]] | None:
-    """None where there is a circle."""
-    sorter = TopologicalSorter(after)
-    try:
-        sorter.prepare()
-    except CycleError:
-        return None
-    waves = []
-    while sorter.is_active():
-        ready = sorted(sorter.get_ready(), key=position.__getitem__)
-        waves.append(tuple(ready))
-        sorter.done(*ready)
-    return waves
-
-
 def _broken(
     needs: list[Need], after: Mapping[str, Iterable[str]], position: Mapping[str, int]
 ) -> tuple[list[Need], list[Diagnostic]]:
     """The needs without one of each knot of circles: the one that is easiest to do without."""
-    import networkx  # slow to import, and wanted only here
-
     cost: dict[tuple[str, str], int] = {}
     for need in needs:
         pair = need.source, need.target
         cost[pair] = max(cost.get(pair, 0), _cost(need))
-    graph: networkx.DiGraph[str] = networkx.DiGraph({name: list(targets) for name, targets in after.items()})
     dropped: set[tuple[str, str]] = set()
     diagnostics = []
-    for knot in networkx.strongly_connected_components(graph):
+    for knot in digraph.knots(after):
         inside = [pair for pair in cost if pair[0] in knot and pair[1] in knot]
-        if not inside:
-            continue
         source, target = min(inside, key=lambda pair: (cost[pair], position[pair[0]], position[pair[1]]))
-        path = networkx.shortest_path(graph.subgraph(knot), target, source)
+        circle = digraph.circle({**after, source: [target]}, knot, source)
         dropped.add((source, target))
         told = max((need for need in needs if (need.source, need.target) == (source, target)), key=_cost)
-        diagnostics.append(_told(told, [source, *path]))
+        diagnostics.append(_told(told, [*circle, source]))
     return [need for need in needs if (need.source, need.target) not in dropped], diagnostics
 
 

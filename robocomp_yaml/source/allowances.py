@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 
 import msgspec
 
@@ -12,18 +12,21 @@ from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Edit, Fix, Hint
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.spelled import Text
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+from robocomp_yaml.source.tree import Node, Scalar, below, pairs_below
 
 OURS = re.compile(rb"#[ \t]*rcyaml[ \t]*(?::|allow\b)")
 """What no document has that has no such comment."""
 
-_COMMENT = re.compile(r"(?:(?<=[ \t])|(?<![^\r\n]))#[ \t]*rcyaml(?:[ \t]*:|(?=[ \t]*allow\b))[^\r\n]*")
-_PARTS = re.compile(r"#[ \t]*rcyaml(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?")
-_WORD = re.compile(r"[^\s,]+")
-_CODE = re.compile(r"(?i:RC\d{4})|[A-Z]{2,}\d{3,4}")
+_COMMENT = pattern(r"(?:(?<=[ \t])|(?<![^\r\n]))#[ \t]*rcyaml(?:[ \t]*:|(?=[ \t]*allow\b))[^\r\n]*")
+_PARTS = pattern(r"#[ \t]*rcyaml(?P<colon>[ \t]*:)?[ \t]*(?P<verb>\w*)(?P<codes>.*?)(?:(?<=[ \t])--(?P<reason>.*))?")
+_WORD = pattern(r"[^\s,]+")
+_CODE = pattern(r"(?i:RC\d{4})|[A-Z]{2,}\d{3,4}")
+GUESSED = "guessed"
+"""The word that `migrate` writes where it guessed, `# rcyaml: guessed`: a mark for readers, which allows nothing."""
 _FORM = "write `# rcyaml: allow RC1234 -- reason`"
-_EMPTY_LINE = re.compile(r"[ \t]*(?:#.*|---[ \t]*(?:#.*)?|%.*)?")
+_EMPTY_LINE = pattern(r"[ \t]*(?:#.*|---[ \t]*(?:#.*)?|%.*)?")
 
 
 class Allowance(msgspec.Struct, frozen=True):
@@ -65,9 +68,12 @@ def allowances(
     said: list[Diagnostic] = []
     if text.tree is None:
         return found, said
-    texts = [node for node in _nodes(text.tree) if _is_long(node)]
+    keys = (key for key, _ in pairs_below(text.tree))
+    texts = [node for node in (*below(text.tree), *keys) if _is_long(node)]
     for comment in _COMMENT.finditer(text.text):
         if any(node.start <= comment.start() < node.end for node in texts if isinstance(node, Scalar)):
+            continue
+        if re.fullmatch(rf"#[ \t]*rcyaml[ \t]*:[ \t]*{GUESSED}\s*", comment[0]):
             continue
         made, wrong = _read(text, comment, more)
         first, last = _lines(text, comment, texts)
@@ -153,18 +159,3 @@ def _last_line(node: Node) -> int:
 def _is_long(node: Node) -> bool:
     """Whether it has several lines that are one: a text, or what stands in brackets."""
     return (isinstance(node, Scalar) or bool(getattr(node, "is_flow", False))) and node.span.line < node.span.end_line
-
-
-def _nodes(root: Node) -> Iterator[Node]:
-    todo: list[Node] = [root]
-    seen: set[Node] = set()
-    while todo:
-        node = todo.pop()
-        if node in seen:
-            continue
-        seen.add(node)
-        yield node
-        if isinstance(node, Mapping):
-            todo += [part for pair in node.items() for part in pair]
-        elif isinstance(node, Sequence):
-            todo += node.items

@@ -12,8 +12,8 @@ from functools import lru_cache
 
 import msgspec
 
-from robocomp_yaml.source import properties
-from robocomp_yaml.source.ice_options import BLANKS, PROTOCOLS, Refused, words_of
+from robocomp_yaml.semantics.texts import unquoted
+from robocomp_yaml.source.ice_options import BLANKS, PROTOCOLS, Refused, after_blanks, words_of
 
 _EVERYWHERE = ("*", "0.0.0.0", "::")
 _USUAL = ("tcp", "ssl", "udp", "ws", "wss", "default")  # those that a misspelled protocol may mean
@@ -44,7 +44,7 @@ def parse_endpoints(text: str) -> tuple[IceEndpoint, ...]:
     found: list[IceEndpoint] = []
     end = 0
     while end < len(text):
-        start = _after_blanks(text, end)
+        start = after_blanks(text, end)
         if start == len(text) and not found:
             break
         end = _next_colon(text, start)
@@ -68,7 +68,7 @@ def fixed_endpoint(text: str) -> IceEndpoint:
 def parse_endpoint(text: str) -> IceEndpoint | None:
     """The same of a property, whose value may stand in quotes; None where there is none."""
     try:
-        return fixed_endpoint(properties.unquoted(text))
+        return fixed_endpoint(unquoted(text))
     except Refused:
         return None
 
@@ -94,12 +94,6 @@ def _next_colon(text: str, start: int) -> int:
         if closed < 0:
             return colon
         at = closed + 1
-
-
-def _after_blanks(text: str, start: int) -> int:
-    while start < len(text) and text[start] in BLANKS:
-        start += 1
-    return start
 
 
 class UnknownProtocol(Refused):

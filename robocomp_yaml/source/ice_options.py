@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 
 import msgspec
 
+from robocomp_yaml.patterns import pattern
+
 BLANKS = " \t\r\n"
 LAST_PORT = 65535
 
-_INT = re.compile(r"[ \t\n\v\f\r]*[-+]?[0-9]+\Z")
-_BASE64 = re.compile(r"[A-Za-z0-9+/=]+\Z")
-_DEVICE = re.compile(r"[0-9A-Fa-f]{2}(:[0-9A-Fa-f]{2}){5}\Z")
+_INT = pattern(r"[ \t\n\v\f\r]*[-+]?[0-9]+\Z")
+_BASE64 = pattern(r"[A-Za-z0-9+/=]+\Z")
+_DEVICE = pattern(r"[0-9A-Fa-f]{2}(:[0-9A-Fa-f]{2}){5}\Z")
 
 
 class Refused(ValueError):
@@ -31,6 +32,12 @@ class Word(msgspec.Struct, frozen=True):
     text: str
     start: int
     end: int
+
+
+def after_blanks(text: str, start: int) -> int:
+    while start < len(text) and text[start] in BLANKS:
+        start += 1
+    return start
 
 
 def words_of(text: str, start: int, end: int) -> list[Word]:
@@ -113,7 +120,7 @@ class _Ip:
             case "t":
                 _timeout(option, argument)
             case "z":
-                _alone(option, argument)
+                alone(option, argument)
             case _:
                 return False
         return True
@@ -154,7 +161,7 @@ class _Udp(_Ip):
     def is_known(self, option: Word, argument: Word | None) -> bool:
         match option.text:
             case "-c" | "-z":
-                _alone(option, argument)
+                alone(option, argument)
             case "-v" | "-e":
                 check_version(option, argument)
             case "--interface":
@@ -195,7 +202,7 @@ class _Bluetooth(_Ip):
                 if argument is None or argument.text.strip(BLANKS) != "infinite":
                     _timeout(option, argument)
             case "-z":
-                _alone(option, argument)
+                alone(option, argument)
             case "--name":
                 _given(option, argument)
             case _:
@@ -257,7 +264,7 @@ def _given(option: Word, argument: Word | None, what: str = "a value") -> Word:
     return argument
 
 
-def _alone(option: Word, argument: Word | None) -> None:
+def alone(option: Word, argument: Word | None) -> None:
     if argument is not None:
         raise Refused(f"'{option.text}' takes no value, and has '{argument.text}'", argument.start, argument.end)
 

@@ -8,7 +8,7 @@ from functools import lru_cache
 import msgspec
 
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, UnknownProtocol, read_endpoint, segments
-from robocomp_yaml.source.ice_options import BLANKS, Refused, Word, check_version
+from robocomp_yaml.source.ice_options import BLANKS, Refused, Word, after_blanks, alone, check_version
 
 _END = re.compile(f"[{BLANKS}:@]")
 _BLANK = re.compile(f"[{BLANKS}]")
@@ -43,7 +43,7 @@ class Proxy(msgspec.Struct, frozen=True):
 @lru_cache(4096)
 def parse_proxy(text: str) -> Proxy:
     """Raises Refused. The proxy that Ice takes for none at all, `""`, is refused too: nothing can be called there."""
-    start = _after_blanks(text, 0)
+    start = after_blanks(text, 0)
     if start == len(text):
         raise Refused("it is empty", 0, len(text))
     word = _word(text, start, _END)
@@ -81,7 +81,7 @@ def _options(text: str, at: int) -> tuple[str, int]:
     """The letters of a proxy's options, and where these end."""
     letters = ""
     while True:
-        at = _after_blanks(text, at)
+        at = after_blanks(text, at)
         if at == len(text) or text[at] in ":@":
             return letters, at
         end = _until(text, at, _END)
@@ -89,7 +89,7 @@ def _options(text: str, at: int) -> tuple[str, int]:
         at = end
         if len(option.text) != 2 or option.text[0] != "-":
             raise Refused(f"'{option.text}' stands where an option, a colon or @ is expected", option.start, option.end)
-        following = _after_blanks(text, at)
+        following = after_blanks(text, at)
         if following < len(text) and text[following] not in "@:-":
             argument = _word(text, following, _END)
             at = argument.end
@@ -106,8 +106,7 @@ def _options(text: str, at: int) -> tuple[str, int]:
 
 def _check(option: Word, argument: Word | None) -> None:
     if option.text in _ALONE:
-        if argument is not None:
-            raise Refused(f"'{option.text}' takes no value, and has '{argument.text}'", argument.start, argument.end)
+        alone(option, argument)
     elif option.text == "-f":
         if argument is None:
             raise Refused("'-f' needs the name of a facet", option.start, option.end)
@@ -117,23 +116,17 @@ def _check(option: Word, argument: Word | None) -> None:
 
 
 def _adapter(text: str, at: int) -> str:
-    start = _after_blanks(text, at + 1)
+    start = after_blanks(text, at + 1)
     if start == len(text):
         raise Refused("the adapter is missing behind the @", at, at + 1)
     word = _word(text, start, _BLANK)
-    more = _after_blanks(text, word.end)
+    more = after_blanks(text, word.end)
     if more < len(text):
         raise Refused("nothing can follow the adapter", more, len(text))
     found = unescaped(word)
     if not found:
         raise Refused("the adapter has no name", word.start, word.end)
     return found
-
-
-def _after_blanks(text: str, at: int) -> int:
-    while at < len(text) and text[at] in BLANKS:
-        at += 1
-    return at
 
 
 def _until(text: str, at: int, end: re.Pattern[str]) -> int:

@@ -13,6 +13,15 @@ def regular(path: str, flags: int) -> int:
     return _opened(path, flags)[0]
 
 
+def text(path: str, encoding: str = "utf-8") -> str | None:
+    """The text of a regular file, whatever its bytes are; None where there is none that can be read."""
+    try:
+        with open(path, encoding=encoding, errors="replace", opener=regular) as file:
+            return file.read()
+    except OSError:
+        return None
+
+
 def whole(path: str) -> tuple[bytes, os.stat_result]:
     """The bytes of a regular file and what the disk says of it, with a third of the calls that open() makes."""
     opened, status = _opened(path, os.O_RDONLY)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection
 
 from robocomp_yaml.diag.fix import Fix, changing, listing, quoting, unquoting
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.patterns import pattern
 
 BOOL, INTEGER, NUMBER, STRING, LIST = "boolean", "integer", "number", "string", "array"
 """As JSON Schema calls them."""
@@ -14,8 +14,8 @@ BOOL, INTEGER, NUMBER, STRING, LIST = "boolean", "integer", "number", "string", 
 TRUTHS = {"yes": "true", "on": "true", "y": "true", "no": "false", "off": "false", "n": "false"}
 """The words for truth of YAML 1.1, which are text in 1.2."""
 
-_INTEGER = re.compile(r"[-+]?[0-9]+")
-_NUMBER = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
+_INTEGER = pattern(r"[-+]?[0-9]+")
+_NUMBER = pattern(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 _BOOL = ("true", "True", "TRUE", "false", "False", "FALSE")
 
 

@@ -20,6 +20,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.languages.record import TargetLanguage
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.retyped import retyped
 from robocomp_yaml.source.schema_text import schema_text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
@@ -37,7 +38,7 @@ NAME = "^[A-Za-z_][A-Za-z0-9_]*$"
 _NO_NUL = "^[^\\u0000]*$"
 _LINE = "^[^\\u0000-\\u001f\\u007f-\\u009f\\u2028\\u2029]*$"
 _LINE_OF_ICE = "^[^\\u0000-\\u0008\\u000a-\\u001f\\u007f-\\u009f\\u2028\\u2029]*$"
-_NEVER = {pattern: re.compile(pattern[1:-2].replace("[^", "[")) for pattern in (_NO_NUL, _LINE, _LINE_OF_ICE)}
+_NEVER = {whole: pattern(whole[1:-2].replace("[^", "[")) for whole in (_NO_NUL, _LINE, _LINE_OF_ICE)}
 """The schemas' patterns of texts that cannot hold some characters, and these."""
 
 _CALLED = {
@@ -146,9 +147,9 @@ def _fixes(keyword: str, facts: dict[str, Any], node: Node, around: Any) -> Iter
     return ()
 
 
-def _impossible(pattern: str, node: Scalar, place: Path[str | int], *, span: Span) -> Diagnostic:
+def _impossible(rule: str, node: Scalar, place: Path[str | int], *, span: Span) -> Diagnostic:
     """A text with a character that it cannot hold."""
-    found = _NEVER[pattern].search(node.lexeme)
+    found = _NEVER[rule].search(node.lexeme)
     assert found is not None
     is_at_end = found[0] == "\n" and found.end() == len(node.lexeme)
     hint = "it is one line of text" + (_AT_END if is_at_end else "") if found[0] in _ENDS_A_LINE else "leave it out"

@@ -5,7 +5,6 @@ Who finds a fault knows what is meant, and the place; here is the text. A fix th
 
 from __future__ import annotations
 
-import json
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping
@@ -16,16 +15,18 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import IMPORT, LIST, QUOTE, UNQUOTE, UNTAG, VALUE, WORD, Edit, Fix
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as MappingNode
 from robocomp_yaml.source.tree import Node, Scalar, end_of, parse
 from robocomp_yaml.source.tree import Sequence as SequenceNode
+from robocomp_yaml.source.yaml_text import quoted, single_quoted
 
-_LINE_END = re.compile("\r\n|\r|\n")
-_MARKS = re.compile(r"(?:[&!]\S*[ \t]+)+")  # anchor and tag before a value
-_IN_A_TEXT = re.compile(r"[\w ./+@=<>-]+")  # may stand in any text, however it is quoted
-_PLAIN = re.compile(r"[\w./](?:[\w ./+-]*[\w./+-])?")  # needs no quotes, unless it would be read as something else
-_ITEM = re.compile(r"[ ]*-[ \t]+")
+_LINE_END = pattern("\r\n|\r|\n")
+_MARKS = pattern(r"(?:[&!]\S*[ \t]+)+")  # anchor and tag before a value
+_IN_A_TEXT = pattern(r"[\w ./+@=<>-]+")  # may stand in any text, however it is quoted
+_PLAIN = pattern(r"[\w./](?:[\w ./+-]*[\w./+-])?")  # needs no quotes, unless it would be read as something else
+_ITEM = pattern(r"[ ]*-[ \t]+")
 
 
 def spelled(diagnostics: Iterable[Diagnostic], contents: Mapping[str, bytes]) -> Iterator[Diagnostic]:
@@ -119,13 +120,13 @@ class Text:
         is_whole = node is not None and node.lexeme == word
         if is_whole and (is_plain := not _is_quoted(self.text, begin)):
             if self.text[begin:finish] == word:
-                return [self.edit(begin, finish, meant if _is_text(meant) else _quoted(meant))]
+                return [self.edit(begin, finish, meant if _is_text(meant) else quoted(meant))]
         elif is_whole and not is_plain:
             inner = self.text[begin + 1 : finish - 1]
             if inner == word and _IN_A_TEXT.fullmatch(meant):
                 return [self.edit(begin + 1, finish - 1, meant)]
             if self.text[begin] in "'\"":
-                return [self.edit(begin, finish, _quoted(meant, self.text[begin]))]
+                return [self.edit(begin, finish, (single_quoted if self.text[begin] == "'" else quoted)(meant))]
         at = self._where(max(start, begin), begin, finish, word)
         if at is None or not _IN_A_TEXT.fullmatch(meant):
             return []
@@ -148,7 +149,7 @@ class Text:
             return []
         left, right = ('"', '"') if how == QUOTE else ("[", "]")
         if how == QUOTE and ('"' in old or "\\" in old):
-            return [self.edit(start, end, _quoted(old))]
+            return [self.edit(start, end, quoted(old))]
         return [self.edit(start, start, left), self.edit(end, end, right)]
 
     def _unquoted(self, start: int) -> list[Edit]:
@@ -188,7 +189,7 @@ class Text:
         root = self.tree
         if not isinstance(root, MappingNode) or root.is_flow or not root.entries:
             return []
-        new = name if _is_text(name) else _quoted(name)
+        new = name if _is_text(name) else quoted(name)
         if (found := root.entries.get("imports")) is None:
             head = root.entries.get("language") or next(iter(root.entries.values()))
             at = self._end_of_line(max(end_of(head[1]), head[0].end + 1))
@@ -290,9 +291,3 @@ def _is_quoted(text: str, start: int) -> bool:
 def _is_text(meant: str) -> bool:
     """Whether YAML takes it for this text without quotes, wherever it stands."""
     return _PLAIN.fullmatch(meant) is not None and getattr(parse("", meant)[0], "data", None) == meant
-
-
-def _quoted(text: str, mark: str = '"') -> str:
-    if mark == "'" and text.isprintable():
-        return "'" + text.replace("'", "''") + "'"
-    return json.dumps(text, ensure_ascii=False)

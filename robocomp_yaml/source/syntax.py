@@ -21,6 +21,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Edit, Fix
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.patterns import pattern
 
 MAX_DEPTH = 100
 
@@ -28,15 +29,15 @@ UNTAGGED = Tag(suffix="")
 """The tag (`ctag`) of composed nodes for which the text has none."""
 
 # A pair with nothing between that could hide a bracket (a quote, a comment) or be one.
-_INNERMOST = re.compile(r"""\{[^][{}"'#]*\}|\[[^][{}"'#]*\]""")
-_BRACKET = re.compile(r"[\[{\]}]")
+_INNERMOST = pattern(r"""\{[^][{}"'#]*\}|\[[^][{}"'#]*\]""")
+_BRACKET = pattern(r"[\[{\]}]")
 _LINE_ENDS_OF_1_1 = "\x85\u2028\u2029"
 _HAS_THEM = re.compile(f"[{_LINE_ENDS_OF_1_1}]")
 _PRIVATE = range(0xE000, 0xF900)  # characters that mean nothing
 # On its line, in a block.
-_BEFORE_A_VALUE = re.compile(r"[ ]*(?:- +)*(?:[^\s#\"'\[\]{},:&*!|>@`%][^\"'\[\]{}#]*: +|- +)")
-_DOC = re.compile(r"([ ]*(?:- +)*(?:doc|description|message): +)(?=[^\s\"'\[{&*!|>])")
-_DEEP_BLOCK = re.compile(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
+_BEFORE_A_VALUE = pattern(r"[ ]*(?:- +)*(?:[^\s#\"'\[\]{},:&*!|>@`%][^\"'\[\]{}#]*: +|- +)")
+_DOC = pattern(r"([ ]*(?:- +)*(?:doc|description|message): +)(?=[^\s\"'\[{&*!|>])")
+_DEEP_BLOCK = pattern(rf"^[ ?\-]{{{MAX_DEPTH}}}", re.MULTILINE)
 
 # The parsers' words, by a part of them: what a user is told, and how to mend it.
 _WORDS = (
@@ -121,12 +122,12 @@ def _composed_with_stand_ins(path: str, text: str) -> Node | None:
 
 def _nodes(root: Node | None) -> Iterator[Node]:
     """A node and all below it, each once."""
-    todo, seen = [root] if root is not None else [], set()
+    todo, seen = [root] if root is not None else [], set[Node]()
     while todo:
         node = todo.pop()
-        if id(node) in seen:
+        if node in seen:
             continue
-        seen.add(id(node))
+        seen.add(node)
         yield node
         if isinstance(node, MappingNode):
             todo += [part for pair in node.value for part in pair]

@@ -8,6 +8,7 @@ import re
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.regular import regular
 
 MAX_DOCUMENT = 16 << 20
@@ -18,7 +19,7 @@ MAX_SCALAR = 1 << 20
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
 
 
-OF_NO_LINE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029]")
+OF_NO_LINE = pattern("[\x00-\x1f\x7f-\x9f\u2028\u2029]")
 """What a text of one line cannot hold, as the schemas have it: control characters, and what ends a line somewhere."""
 
 

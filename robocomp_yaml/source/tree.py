@@ -20,13 +20,15 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import UNTAG, Edit, Fix, quoting, removal
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.digraph import reached
+from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source import syntax
 from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
 
 MAX_ALIASED = 100_000  # nodes that aliases may add, all together
 
 _INT = re.compile(r"[-+]?[0-9]+\Z")
-_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?\Z")
+_FLOAT = pattern(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?\Z")
 _NAMED: dict[str, bool | float | None] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
 _NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
 _NAMED |= {sign + dot: float(sign + "inf") for sign in ("", "+", "-") for dot in (".inf", ".Inf", ".INF")}
@@ -58,6 +60,14 @@ class Node:
         start, end = self._start, self._end
         return Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
 
+    def get(self, key: str) -> Node | None:
+        """The value of a mapping's key; None where it is missing or null, and where this is no mapping."""
+        return None
+
+    def children(self) -> Iterable[Node]:
+        """The values of a mapping, the items of a sequence."""
+        return ()
+
 
 class Scalar(Node):
     """`lexeme` is the text as spelled, without quotes; `quoted` holds for every style but plain."""
@@ -81,12 +91,14 @@ class Mapping(Node):
         self.is_flow = bool(node.flow_style)
 
     def get(self, key: str) -> Node | None:
-        """The value of a key; None where it is missing or null."""
         entry = self.entries.get(key)
         return entry[1] if entry and entry[1].data is not None else None
 
     def items(self) -> Iterator[tuple[Scalar, Node]]:
         return iter(self.entries.values())
+
+    def children(self) -> Iterable[Node]:
+        return [value for _, value in self.entries.values()]
 
 
 class Sequence(Node):
@@ -96,6 +108,19 @@ class Sequence(Node):
         super().__init__(file, node, [item.data for item in items])
         self.items = items
         self.is_flow = bool(node.flow_style)
+
+    def children(self) -> Iterable[Node]:
+        return self.items
+
+
+def below(root: Node) -> Iterable[Node]:
+    """A node and all that stands in it, each once."""
+    return reached([root], lambda node: node.children())
+
+
+def pairs_below(root: Node) -> Iterator[tuple[Scalar, Node]]:
+    """The keys and values of all mappings in a node."""
+    return (pair for node in below(root) if isinstance(node, Mapping) for pair in node.items())
 
 
 def last_end(node: Mapping) -> int | None:
@@ -167,13 +192,13 @@ class _Builder:
         self.has_anchors = "&" in text
         self.last = None if text.endswith("\n") else _last_mark(text)  # libyaml's blocks end in the line behind it
         self.diagnostics: list[Diagnostic] = []
-        self.known: dict[int, tuple[Node, int]] = {}  # by composed node: ours, and its size with aliases expanded
-        self.open: set[int] = set()
+        self.known: dict[YamlNode, tuple[Node, int]] = {}  # by composed node: ours, and its size with aliases expanded
+        self.open: set[YamlNode] = set()
         self.size = 0
         self.aliased = 0
 
     def build(self, node: YamlNode) -> Node:
-        known = self.known.get(id(node))
+        known = self.known.get(node)
         if known is not None:
             self._alias(node, known[1])
             return known[0]
@@ -183,21 +208,21 @@ class _Builder:
         self.size += 1
         if isinstance(node, ScalarNode):
             built: Node = self._scalar(node)
-        elif id(node) in self.open:
+        elif node in self.open:
             self._say(codes.ALIASES, node, problem="an alias stands inside of what it repeats")
             return Scalar(self.path, ScalarNode(None, "", node.start_mark, node.end_mark), None)
         else:
-            self.open.add(id(node))
+            self.open.add(node)
             built = (
                 self._mapping(node)
                 if isinstance(node, MappingNode)
                 else Sequence(self.path, cast("SequenceNode", node), [self.build(item) for item in node.value])
             )
-            self.open.discard(id(node))
+            self.open.discard(node)
         if self.last is not None and built._end.line > self.last.line:
             built._end = self.last
         if self.has_anchors:  # the composer does not say which nodes have one
-            self.known[id(node)] = (built, self.size - before)
+            self.known[node] = (built, self.size - before)
         return built
 
     def _alias(self, node: YamlNode, size: int) -> None:

@@ -25,7 +25,7 @@ class Newer(Unusable):
     """A later version of rcyaml wrote it."""
 
 
-class Entry(msgspec.Struct, frozen=True):
+class Entry(msgspec.Struct, frozen=True, omit_defaults=True):
     """A file that rcyaml wrote: the digest of what it put there last (see `ownership`), the documents it was written
     for (paths relative to the root), and whether it was written once, as the user's."""
 
@@ -39,7 +39,9 @@ class Manifest(msgspec.Struct, frozen=True):
 
     def text(self) -> str:
         """One line a file, so that versions compare well."""
-        lines = [f"    {_json(path)}: {_json(_fields(entry))}" for path, entry in sorted(self.files.items())]
+        lines = [
+            f"    {_json(path)}: {_json(msgspec.to_builtins(entry))}" for path, entry in sorted(self.files.items())
+        ]
         return f'{{\n  "version": {VERSION},\n  "files": {{\n' + ",\n".join(lines) + "\n  }\n}\n"
 
 
@@ -54,10 +56,12 @@ def read(data: bytes | None) -> Manifest:
     version = raw.get("version") if isinstance(raw, dict) else None
     if isinstance(version, int) and version > VERSION:
         raise Newer("a newer rcyaml wrote it")
-    files = raw.get("files") if version == VERSION else None
-    if not isinstance(files, dict):
+    if version != VERSION or not isinstance(raw, dict) or "files" not in raw:
         raise Unusable("it is damaged")
-    return Manifest({path: _entry(fields) for path, fields in files.items()})
+    try:
+        return msgspec.convert(raw, Manifest)
+    except msgspec.ValidationError:
+        raise Unusable("it is damaged") from None
 
 
 def any_has(file: str, hash_: str) -> bool:
@@ -71,18 +75,6 @@ def any_has(file: str, hash_: str) -> bool:
         above, name = os.path.split(above)
         path = f"{name}/{path}" if name else ""
     return False
-
-
-def _entry(fields: object) -> Entry:
-    match fields:
-        case {"hash": str(hash_), "owners": [*owners], **rest} if all(isinstance(owner, str) for owner in owners):
-            return Entry(hash_, tuple(owners), rest.get("once") is True)
-    raise Unusable("it is damaged")
-
-
-def _fields(entry: Entry) -> dict[str, object]:
-    fields: dict[str, object] = {"hash": entry.hash, "owners": entry.owners}
-    return {**fields, "once": True} if entry.once else fields
 
 
 def _json(value: object) -> str:

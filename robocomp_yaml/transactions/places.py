@@ -41,11 +41,6 @@ class Root:
     def shown(self, path: str) -> str:
         return os.path.normpath(os.path.join(self.path, path))
 
-    def real_path(self, path: str) -> str:
-        """The path with the symlinks of its folders resolved: two spellings of one file give the same."""
-        folder, _, name = path.rpartition("/")
-        return f"{self._real_folder(folder)}/{name}"
-
     def look(self, path: str, *, read: bool = True) -> Found:
         """What stands at a path relative to the root; contents only if `read`."""
         if not _is_plain(path):

@@ -11,8 +11,9 @@ from robocomp_yaml.diag.codes import emitting as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
+from robocomp_yaml.source import properties
 from robocomp_yaml.source.digest import digest
-from robocomp_yaml.transactions import atomic, changes, manifest, ownership
+from robocomp_yaml.transactions import atomic, changes, manifest
 from robocomp_yaml.transactions.changes import Change, Changes, RootChanges
 from robocomp_yaml.transactions.journal import JOURNAL, JOURNAL_DONE, free_name
 from robocomp_yaml.transactions.manifest import Entry, Manifest
@@ -175,7 +176,7 @@ class _Root:
             self._note(plan.path, changes.KEPT)
         else:
             self._write(plan, found, changes.MERGE, merge.text)
-        self._own(plan.path, ownership.merged(entry, merge), once=True)
+        self._own(plan.path, merged(entry, merge), once=True)
         self._keep_base(plan, merge.base)
 
     def _cannot_merge(self) -> bool:
@@ -219,14 +220,14 @@ class _Root:
 
     def _is_ours(self, path: str, data: bytes, entry: Entry | None) -> bool:
         """Whether rcyaml wrote it, for this root or for another one that has it, too."""
-        return ownership.is_as_put(entry, data) or manifest.any_has(f"{self.root.real}/{path}", digest(data))
+        return is_as_put(entry, data) or manifest.any_has(f"{self.root.real}/{path}", digest(data))
 
     def _loses_nothing(self, plan: FilePlan, data: bytes, text: bytes) -> bool:
         """Whether a property file that is the user's has no entry of its own that another text would not have."""
         if not plan.stated_in:
             return False
         base = self._base(plan.path)
-        return ownership.lost(base, data, text) == [] and (base is not None or ownership.lost(None, text, data) == [])
+        return lost(base, data, text) == [] and (base is not None or lost(None, text, data) == [])
 
     def _base(self, path: str) -> bytes | None:
         return self.root.look(f"{manifest.BASE}/{path}").data if path in self.old.files else None
@@ -236,7 +237,7 @@ class _Root:
         adopt = typed("rcyaml", "compile", "--adopt", self.root.shown(self.wanted.files[plan.path].owners[0]))
         if entry is None or not plan.stated_in:
             return codes.NOT_OURS.at(span, path=plan.path, hint=f"`{adopt}` writes it, and keeps yours as .orig")
-        keys = ", ".join(ownership.lost(self._base(plan.path), data, text) or ["them"])
+        keys = ", ".join(lost(self._base(plan.path), data, text) or ["them"])
         return codes.CHANGED.at(
             span,
             path=plan.path,
@@ -342,3 +343,25 @@ class _Root:
         elif found.data != text:
             before = found.data if found.exists else None
             self.steps.append(atomic.Step(path, before, text, mode=found.mode or None, rights=rights))
+
+
+def is_as_put(entry: Entry | None, data: bytes) -> bool:
+    """Whether a file with this content is as rcyaml last put it there."""
+    return entry is not None and entry.hash == digest(data)
+
+
+def merged(entry: Entry | None, merge: Merge) -> str:
+    """What the manifest keeps of a merge: the digest of all of it where nothing of the user was in the file before;
+    else that of the skeleton, which the file then differs from."""
+    return digest(merge.text if is_as_put(entry, merge.before) else merge.base)
+
+
+def lost(base: bytes | None, yours: bytes, new: bytes) -> list[str] | None:
+    """The keys of those entries of the user in a property file that another text lacks, or has with another value: of
+    those that differ from what rcyaml wrote (`base`). None where that cannot be told. To Ice an entry without a value
+    is none."""
+    try:
+        before, mine, then = (properties.read((data or b"").decode()).values for data in (base, yours, new))
+    except UnicodeDecodeError:
+        return None
+    return [key for key, value in mine.items() if value not in (before.get(key, ""), then.get(key, ""))]

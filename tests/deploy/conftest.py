@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from processes import Ports
-from robocomp_yaml.deploy.local import procfs
+from processes import Ports, kill_left
 from small_networks import Place
 
 
@@ -27,15 +24,7 @@ def place(tmp_path: Path) -> Iterator[Place]:
     try:
         yield place
     finally:
-        for _ in range(50):
-            left = procfs.marked(place.folder)
-            for pid in left:
-                try:
-                    os.kill(pid, signal.SIGKILL)
-                except ProcessLookupError:
-                    continue
-            if not left:
-                break
+        kill_left(place.folder)
 
 
 @pytest.fixture

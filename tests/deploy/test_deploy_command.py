@@ -361,7 +361,7 @@ def test_several_hosts_need_icegrid_too(robot: Path, rcyaml: Rcyaml, monkeypatch
     write_tree(robot, {"robot.ddsl.yaml": f"deployment: Robot\n{hosts}{entries}"})
     result = deploy(rcyaml, "probe", "one", "--format", "json")
     assert [one["program"] for one in json.loads(result.stdout)["hosts"]["one"]] == ["sh", "icegridnode"]
-    monkeypatch.setattr("robocomp_yaml.commands._probing.programs", lambda network: {Wanted("no-node"): (NODE,)})
+    monkeypatch.setattr("robocomp_yaml.deploy.probe.programs", lambda network: {Wanted("no-node"): (NODE,)})
     assert deploy(rcyaml, "probe", "one").exit_code == 1
 
 

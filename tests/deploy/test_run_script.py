@@ -16,7 +16,7 @@ from processes import until
 from robocomp_yaml import resources
 from robocomp_yaml.deploy.icegrid.status import of_text
 
-SCRIPT = resources.folder("templates") / "icegrid" / "run"
+SCRIPT = Path(resources.folder("templates")) / "icegrid" / "run"
 ONCE = "1 no 10 100 5 60000"
 
 

@@ -23,7 +23,7 @@ from typing import Any
 import pytest
 
 from conftest import ROOT, write_tree
-from processes import until
+from processes import kill_left, until
 from robocomp_yaml.deploy.local import procfs
 
 NAMES = ("onboard", "head", "arm")
@@ -215,12 +215,4 @@ class Deployment:
 
     def clean_up(self) -> None:
         """Kills whatever is left."""
-        for _ in range(100):
-            left = procfs.marked(self.folder)
-            for pid in left:
-                try:
-                    os.kill(pid, signal.SIGKILL)
-                except ProcessLookupError:
-                    continue
-            if not left:
-                return
+        kill_left(self.folder)

@@ -7,7 +7,7 @@ import pytest
 from conftest import write_tree
 from editor.proposals import assert_can_stand_there
 from editor.workbench import Workbench
-from robocomp_yaml.emit.parameter_files import SCHEMA, schemas
+from robocomp_yaml.emit.component import SCHEMA, schemas
 from robocomp_yaml.pipeline import analyse
 
 P = "parameters:\n"

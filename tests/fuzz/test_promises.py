@@ -17,8 +17,11 @@ import pytest
 from conftest import ROOT, Tree, read_tree, write_tree
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.legacy import grammar, reading
-from robocomp_yaml.link import deployment_sizes, parameters
-from robocomp_yaml.model import expression, pattern, pattern_match
+from robocomp_yaml.link import deployment_documents
+from robocomp_yaml.parameters.expressions import expression
+from robocomp_yaml.parameters.patterns import match as pattern_match
+from robocomp_yaml.parameters.patterns import pattern
+from robocomp_yaml.parameters.resolution import resolve as parameters
 from robocomp_yaml.source import syntax, text, tree, xml
 
 SPEECH = "module: RoboCompSpeech\ninterfaces: {Speech: {methods: {say: {in: {text: string}}}}}\n"
@@ -183,7 +186,8 @@ LIMITS = {
     "plain values of a component's parameters": parameters.MAX_VALUES, "types inside of types": parameters.MAX_DEPTH,
     "a constraint": expression.MAX_LENGTH, "nesting of a constraint": expression.MAX_DEPTH, "a count in a `pattern:`": pattern.MAX_COUNT,
     "what the counts of a `pattern:` come to, together": pattern_match.MAX_PLACES,
-    "processes of a deployment": deployment_sizes.MOST, "includes inside of each other": deployment_sizes.DEEPEST,
+    "processes of a deployment": deployment_documents.MOST,
+    "includes inside of each other": deployment_documents.DEEPEST,
 }  # fmt: skip
 
 

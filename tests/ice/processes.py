@@ -10,10 +10,13 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
 import pytest
+
+from robocomp_yaml.deploy.local import procfs
 
 PATIENCE = 60.0  # seconds: generous, because the machines that run the tests may be busy; never waited in full
 SLACK = 3.0  # seconds that such a machine may take longer than what a component promises
@@ -27,6 +30,17 @@ def until(condition: Callable[[], Any], what: str | Callable[[], str], timeout: 
             pytest.fail(f"waited {timeout} s in vain: {what() if callable(what) else what}")
         time.sleep(0.02)
     return value
+
+
+def kill_left(folder: str) -> None:
+    """Kills whatever is left of the deployment that runs from a folder."""
+    for _ in range(100):
+        left = procfs.marked(folder)
+        for pid in left:
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        if not left:
+            return
 
 
 @dataclass

@@ -12,7 +12,7 @@ import pytest
 
 from robocomp_yaml import pipeline, resources
 from robocomp_yaml.emit import slice as target
-from robocomp_yaml.emit.slice_literal import quoted
+from robocomp_yaml.emit.slice import quoted
 from slice_compilers import complaints, needs_compilers
 
 pytestmark = needs_compilers

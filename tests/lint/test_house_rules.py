@@ -34,6 +34,15 @@ def test_modules_of_tests_have_names_of_their_own() -> None:
     assert [name for name, count in names.items() if count > 1] == []
 
 
+def test_paths_are_texts() -> None:
+    """One dialect: `os.path`, which tells what a link leads to from what its path says."""
+    for path in MODULES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+            assert "pathlib" not in names, f"{named(path)}:{node.lineno}: use os.path"
+
+
 SPEAKING = {
     *("click.echo", "click.secho", "click.style", "click.echo_via_pager", "click.confirm", "print"),
     *("sys.stdout.write", "sys.stderr.write", "sys.stdout.buffer.write", "sys.stderr.buffer.write"),
@@ -56,13 +65,21 @@ def test_text_meets_a_terminal_in_one_place() -> None:
                     assert is_ours, f"{named(path)}:{node.lineno}: what is asked is a text of ours"
 
 
+def test_nothing_is_kept_by_the_address_of_an_object() -> None:
+    """Another object has it as soon as the first is gone. What has no name of its own gets a number."""
+    for path in MODULES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call):
+                assert ast.unparse(node.func) != "id", f"{named(path)}:{node.lineno}: `id()`"
+
+
 # What these read is the project's own, has been looked at, or was named by the user.
 READING_OTHERWISE = {"legacy/settings/corrections.py", "link/options.py"}
 
 
 def test_only_what_has_an_end_is_opened() -> None:
     """A pipe in somebody's folder, or a link to /dev/zero, would be waited for."""
-    for layer in ("source", "transactions", "link", "values", "network", "check", "emit", "legacy"):
+    for layer in ("source", "transactions", "parameters", "link", "network", "check", "emit", "legacy"):
         for path in sorted((ROOT / "robocomp_yaml" / layer).rglob("*.py")):
             if str(path.relative_to(ROOT / "robocomp_yaml")) in READING_OTHERWISE:
                 continue

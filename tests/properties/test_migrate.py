@@ -12,7 +12,6 @@ from hypothesis.strategies import SearchStrategy
 from robocomp_yaml.legacy import document, ledger
 from robocomp_yaml.legacy.convert import Converted, convert
 from robocomp_yaml.legacy.draft import ConfigDraft
-from robocomp_yaml.legacy.yamltext import scalar
 from robocomp_yaml.model import build_component, build_interface
 from robocomp_yaml.model.component import Component, Gui, Language, Option, Use
 from robocomp_yaml.model.interface import (
@@ -32,6 +31,7 @@ from robocomp_yaml.model.interface import (
 )
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.tree import Mapping, Scalar, parse
+from robocomp_yaml.source.yaml_text import text_of as scalar
 
 KEYWORDS = {
     "module", "struct", "enum", "exception", "sequence", "dictionary", "interface", "const", "class", "local", "void",

@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 
 import msgspec
 
@@ -40,11 +39,11 @@ class ComponentView(msgspec.Struct, frozen=True):
 
 
 class NewDocument(msgspec.Struct, frozen=True):
-    path: Path
+    path: str
     text: str
 
 
-def deployment_document(root: Path, name: str) -> NewDocument:
+def deployment_document(root: str, name: str) -> NewDocument:
     from robocomp_yaml.api.new import deployment
 
     _refuse_odd(name)
@@ -52,7 +51,7 @@ def deployment_document(root: Path, name: str) -> NewDocument:
     return NewDocument(_free(path), text)
 
 
-def parameters_document(root: Path, name: str) -> NewDocument:
+def parameters_document(root: str, name: str) -> NewDocument:
     from robocomp_yaml.api.new import parameters
 
     _refuse_odd(name)
@@ -60,13 +59,13 @@ def parameters_document(root: Path, name: str) -> NewDocument:
     return NewDocument(_free(path), text)
 
 
-def interface_document(root: Path, name: str) -> NewDocument:
+def interface_document(root: str, name: str) -> NewDocument:
     from robocomp_yaml.api.new.imports import interface_folder
     from robocomp_yaml.emit.render import render
     from robocomp_yaml.link.workspace_files import modeline
 
     _refuse_odd(name)
-    path = _free(interface_folder(root) / f"{name}.idsl.yaml")
+    path = _free(os.path.join(interface_folder(root), f"{name}.idsl.yaml"))
     view = InterfaceView(modeline("idsl", path, root), f"RoboComp{name[0].upper()}{name[1:]}", name)
     document = NewDocument(path, render("new/interface.idsl.yaml.j2", view))
     _refuse_faulty(document, name)
@@ -74,14 +73,14 @@ def interface_document(root: Path, name: str) -> NewDocument:
 
 
 def component_document(
-    root: Path, name: str, language: str, uses: Mapping[str, Sequence[str]], include: Sequence[str] = ()
+    root: str, name: str, language: str, uses: Mapping[str, Sequence[str]], include: Sequence[str] = ()
 ) -> NewDocument:
     from robocomp_yaml.api.new.imports import imports_for
     from robocomp_yaml.emit.render import render
     from robocomp_yaml.link.workspace_files import modeline
 
     _refuse_odd(name)
-    path = _free(root / "components" / name.lower() / f"{name.lower()}.cdsl.yaml")
+    path = _free(os.path.join(root, "components", name.lower(), f"{name.lower()}.cdsl.yaml"))
     for key, names in uses.items():
         for twice in {n for n in names if list(names).count(n) > 1}:
             raise Refused(f"--{key} {twice} stands twice")
@@ -99,7 +98,8 @@ def _refuse_odd(name: str) -> None:
         raise Refused(f"'{name[:20]}…' is longer than a name may be, {_LONGEST_NAME} letters")
 
 
-def _free(path: Path) -> Path:
+def _free(path: str) -> str:
+    path = os.path.normpath(path)
     if os.path.lexists(path):
         raise Refused(f"{path} is there already, and stays as it is")
     return path
@@ -112,8 +112,9 @@ def _refuse_faulty(document: NewDocument, name: str) -> None:
     from robocomp_yaml.pipeline import analyse
 
     with TemporaryDirectory() as folder:
-        path = os.path.join(folder, document.path.name)
-        Path(path).write_text(document.text, encoding="utf-8")
+        path = os.path.join(folder, os.path.basename(document.path))
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(document.text)
         for diagnostic in analyse([path]).diagnostics:
             raise Refused(f"'{name}' cannot be an interface: {diagnostic.message}")
 

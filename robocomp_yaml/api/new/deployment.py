@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.program import LinkedComponent, Port
-    from robocomp_yaml.model.parameters import Parameters
+    from robocomp_yaml.parameters.types import Parameters
 
 _SUFFIX = "comp"
 
@@ -24,12 +23,12 @@ class DeploymentView(msgspec.Struct, frozen=True):
     has_components: bool
 
 
-def deployment_document(root: Path, name: str) -> tuple[Path, str]:
+def deployment_document(root: str, name: str) -> tuple[str, str]:
     """Path and text: in the workspace's folder of deployments."""
     from robocomp_yaml.emit.render import render
     from robocomp_yaml.link.workspace_files import modeline
 
-    path = root / "deployments" / f"{name.lower()}.ddsl.yaml"
+    path = os.path.join(root, "deployments", f"{name.lower()}.ddsl.yaml")
     components = _components(root)
     names = _names(components)
     rows = [row for linked in components for row in _entry(linked, path, names, components)]
@@ -38,7 +37,7 @@ def deployment_document(root: Path, name: str) -> tuple[Path, str]:
     return path, render("new/deployment.ddsl.yaml.j2", view)
 
 
-def _components(root: Path) -> list[LinkedComponent]:
+def _components(root: str) -> list[LinkedComponent]:
     """The components of a workspace that have no errors, in the order of their paths."""
     from robocomp_yaml.link.documents import Documents
     from robocomp_yaml.link.linker import Linker
@@ -46,7 +45,7 @@ def _components(root: Path) -> list[LinkedComponent]:
     from robocomp_yaml.pipeline import search_folders
     from robocomp_yaml.source.discover import of_kind
 
-    program = Linker(Documents(), Search(search_folders(()))).link(of_kind(str(root), "cdsl"))
+    program = Linker(Documents(), Search(search_folders(()))).link(of_kind(root, "cdsl"))
     sound = (linked for linked in program.components.values() if not linked.broken)
     return sorted(sound, key=lambda linked: linked.component.path)
 
@@ -64,14 +63,14 @@ def _names(components: Sequence[LinkedComponent]) -> dict[LinkedComponent, str]:
 
 
 def _entry(
-    linked: LinkedComponent, path: Path, names: dict[LinkedComponent, str], components: Sequence[LinkedComponent]
+    linked: LinkedComponent, path: str, names: dict[LinkedComponent, str], components: Sequence[LinkedComponent]
 ) -> Iterator[str]:
-    document = Path(os.path.relpath(linked.component.path, path.parent)).as_posix()
+    document = os.path.relpath(linked.component.path, os.path.dirname(path))
     yield f"  {names[linked]}:"
     yield f"    component: {document}"
     missing = {} if _has_values(linked) else _required(linked.parameters.parameters)
     if missing:
-        from robocomp_yaml.values.spell_yaml import flow
+        from robocomp_yaml.source.yaml_text import flow
 
         yield f"    set: {flow(missing)}  # examples: these have no default"
     connect = list(_connections(linked, names, components))
@@ -86,7 +85,7 @@ def _has_values(linked: LinkedComponent) -> bool:
 
 def _required(parameters: Parameters) -> dict[str, Any]:
     """A value, for example, of each parameter that needs one."""
-    from robocomp_yaml.values.fitting import fitted
+    from robocomp_yaml.parameters.examples.fitting import fitted
 
     found: dict[str, Any] = {}
     for path, value in fitted(parameters).given.items():

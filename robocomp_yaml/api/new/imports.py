@@ -4,25 +4,24 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
 from robocomp_yaml.diag.errors import Refused
 
 
-def interface_folder(root: Path) -> Path:
+def interface_folder(root: str) -> str:
     """The folder for new interfaces: the first that the workspace declares."""
     from robocomp_yaml.link.workspace import read
 
-    declared = read(str(root))[0].interfaces
-    return Path(declared[0]) if declared else root / "interfaces"
+    declared = read(root)[0].interfaces
+    return declared[0] if declared else os.path.join(root, "interfaces")
 
 
-def interfaces_of(root: Path, include: Sequence[str] = ()) -> dict[str, list[tuple[str, str]]]:
+def interfaces_of(root: str, include: Sequence[str] = ()) -> dict[str, list[tuple[str, str]]]:
     """The interfaces and topics that documents of the workspace define: name to (module, path), sorted."""
     from robocomp_yaml.link.workspace import read
     from robocomp_yaml.pipeline import analyse
 
-    folders = [str(root), *read(str(root))[0].interfaces, *include]
+    folders = [root, *read(root)[0].interfaces, *include]
     program = analyse([folder for folder in folders if os.path.isdir(folder)], include).program
     found: dict[str, set[tuple[str, str]]] = {}
     for linked in program.modules.values():
@@ -31,7 +30,7 @@ def interfaces_of(root: Path, include: Sequence[str] = ()) -> dict[str, list[tup
     return {name: sorted(found[name]) for name in sorted(found)}
 
 
-def imports_for(root: Path, document: Path, wanted: Sequence[str], include: Sequence[str] = ()) -> list[str]:
+def imports_for(root: str, document: str, wanted: Sequence[str], include: Sequence[str] = ()) -> list[str]:
     """What a component document must import for the interfaces wanted, each once."""
     if not wanted:
         return []
@@ -41,11 +40,11 @@ def imports_for(root: Path, document: Path, wanted: Sequence[str], include: Sequ
     return list(dict.fromkeys(_spelled(path, document, searched) for path in paths))
 
 
-def _searched(root: Path, include: Sequence[str]) -> Iterator[str]:
+def _searched(root: str, include: Sequence[str]) -> Iterator[str]:
     from robocomp_yaml.link.workspace import read
     from robocomp_yaml.pipeline import search_folders
 
-    yield from read(str(root))[0].interfaces
+    yield from read(root)[0].interfaces
     yield from search_folders(include)
 
 
@@ -57,7 +56,7 @@ def _defining(wanted: str, known: dict[str, list[tuple[str, str]]]) -> str:
     candidates = [
         (defining, path)
         for defining, path in known.get(name, ())
-        if not module or module in (defining, Path(path).name.removesuffix(".idsl.yaml"))
+        if not module or module in (defining, os.path.basename(path).removesuffix(".idsl.yaml"))
     ]
     if not candidates:
         meant = suggest(name, known)
@@ -69,9 +68,9 @@ def _defining(wanted: str, known: dict[str, list[tuple[str, str]]]) -> str:
     return candidates[0][1]
 
 
-def _spelled(path: str, document: Path, searched: set[str]) -> str:
+def _spelled(path: str, document: str, searched: set[str]) -> str:
     """An import: the document's name where it is looked for anyway, else a relative path."""
-    name = Path(path).name.removesuffix(".idsl.yaml")
+    name = os.path.basename(path).removesuffix(".idsl.yaml")
     if os.path.realpath(os.path.dirname(path)) in searched:
         return name
-    return os.path.relpath(os.path.join(os.path.dirname(path), name), document.parent)
+    return os.path.relpath(os.path.join(os.path.dirname(path), name), os.path.dirname(document))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.codes import forms as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -11,7 +12,9 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.model.component import Gui
 from robocomp_yaml.source.disk import NOTHING, Disk
-from robocomp_yaml.source.form import Form, read
+
+if TYPE_CHECKING:
+    from robocomp_yaml.source.form import Form
 
 FORM = os.path.join("src", "mainUI.ui")
 CLASS = "guiDlg"
@@ -32,6 +35,8 @@ def _form(linked: LinkedComponent, gui: Gui, disk: Disk) -> Iterator[Diagnostic]
     if raw is None:
         yield from (codes.NOT_A_FORM.at(Span(path), reason=fault.message) for fault in said)
         return
+    from robocomp_yaml.source.form import read  # with the parser of XML, which few need
+
     form, said = read(path, raw)
     yield from said
     if form is not None:

@@ -6,7 +6,6 @@ and component that brings two such documents together, and of none that merely i
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
@@ -15,12 +14,14 @@ from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.digraph import reached
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.references import macro
+from robocomp_yaml.patterns import pattern
 
 Importer = LinkedModule | LinkedComponent
 
-_FILE_NAME = re.compile(r"\w[\w.+-]*\Z")
+_FILE_NAME = pattern(r"\w[\w.+-]*\Z")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -47,7 +48,8 @@ def _meetings(alike: list[LinkedModule], importers: dict[Importer, list[Importer
     """What is wrong where two of these documents first meet."""
     seen_by: dict[Importer, dict[LinkedModule, None]] = defaultdict(dict)
     for linked in alike:
-        for importer in _reach(linked, importers):
+        itself: list[Importer] = [linked]
+        for importer in reached(itself, lambda importer: importers.get(importer, ())):
             seen_by[importer][linked] = None
     for importer, sees in seen_by.items():
         below = [seen_by.get(imported, {}) for imported in importer.imports]
@@ -55,18 +57,6 @@ def _meetings(alike: list[LinkedModule], importers: dict[Importer, list[Importer
             first, *others = sees
             for other in others:
                 yield from _together(importer, first, other)
-
-
-def _reach(linked: LinkedModule, importers: dict[Importer, list[Importer]]) -> list[Importer]:
-    """A module and all that import it, directly or not."""
-    reached: dict[Importer, None] = {linked: None}
-    todo: list[Importer] = [linked]
-    while todo:
-        for importer in importers.get(todo.pop(), ()):
-            if importer not in reached:
-                reached[importer] = None
-                todo.append(importer)
-    return list(reached)
 
 
 def _together(importer: Importer, one: LinkedModule, other: LinkedModule) -> Iterator[Diagnostic]:

@@ -8,8 +8,9 @@ from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, plain, prefixes
+from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
+from robocomp_yaml.semantics.events import beginning
 
 _MANY = 500  # names to look for a similar one in
 _PLATFORM = ("done.", "error", "*", ".*")
@@ -41,14 +42,14 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
         for target in transition.targets
     ):
         return
-    targets = {index.number(target) for _, transition in index.transitions() for target in index.targets(transition)}
+    targets = {target.number for _, transition in index.transitions() for target in index.targets(transition)}
     reached: set[int] = set()
     todo = [index.machine.root]
     while todo:
         state = todo.pop()
-        if index.number(state) in reached:
+        if state.number in reached:
             continue
-        reached.add(index.number(state))
+        reached.add(state.number)
         if state.kind == HISTORY:
             around = index.ancestors(state)[:1]
             todo += index.targets(state.initial) if state.initial else index.defaults(around[0])
@@ -58,13 +59,13 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
         for parent in around:
             if parent.kind == PARALLEL:
                 todo += index.defaults(parent)
-        if index.number(state) in targets or not any(index.number(child) in reached for child in state.states):
+        if state.number in targets or not any(child.number in reached for child in state.states):
             todo += index.defaults(state)  # it is not only entered because a state in it is
         for transition in state.transitions:
             todo += index.targets(transition)
     for state in index.machine.states:
-        lost = index.number(state) not in reached
-        if lost and state.kind != HISTORY and all(index.number(one) in reached for one in index.ancestors(state)[:1]):
+        lost = state.number not in reached
+        if lost and state.kind != HISTORY and all(one.number in reached for one in index.ancestors(state)[:1]):
             yield codes.UNREACHABLE.at(state.span, id=state.id or "(without a name)")
 
 
@@ -74,13 +75,13 @@ def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
     for start in index.machine.states:
         path: dict[int, State] = {}
         state: State | None = start
-        while state is not None and index.number(state) not in seen:
-            seen.add(index.number(state))
-            path[index.number(state)] = state
+        while state is not None and state.number not in seen:
+            seen.add(state.number)
+            path[state.number] = state
             state = _at_once(index, state)
-        if state is not None and index.number(state) in path:
+        if state is not None and state.number in path:
             members = list(path.values())
-            circle = members[list(path).index(index.number(state)) :]
+            circle = members[list(path).index(state.number) :]
             place = next(t.span for s in _sources(index, state) for t in s.transitions if not t.events)
             names = " → ".join(member.id or "(without a name)" for member in (*circle, state))
             yield codes.ENDLESS.at(place, circle=names, hint="give one of the transitions an event or a condition")
@@ -129,7 +130,7 @@ def _sent(machine: StateMachine) -> tuple[list[Text], bool]:
 def _unheard(index: MachineIndex) -> Iterator[Diagnostic]:
     """What the machine sends to itself, and no transition waits for."""
     heard = [event.text for _, transition in index.transitions() for event in transition.events]
-    known = {plain(descriptor) for descriptor in heard}
+    known = {beginning(descriptor) for descriptor in heard}
     named = [descriptor for descriptor in known if descriptor and not descriptor.startswith(_PLATFORM)]
     for action in index.actions():
         if isinstance(action, Raise):
@@ -160,7 +161,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
                 continue
             if event.text.startswith(_PLATFORM):
                 yield from _platform(index, transition, event)
-            elif fired and complete and plain(event.text) not in heads:
+            elif fired and complete and beginning(event.text) not in heads:
                 hint = did_you_mean(
                     event.text,
                     known[:_MANY],

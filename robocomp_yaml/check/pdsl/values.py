@@ -12,24 +12,24 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.attachments import leads_to
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
+from robocomp_yaml.parameters.layers.effective import Effective, document_faults
+from robocomp_yaml.parameters.writing.harmless import is_harmless
+from robocomp_yaml.parameters.writing.properties import properties
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import parse_endpoints
 from robocomp_yaml.source.ice_options import Refused
 from robocomp_yaml.source.ice_proxy import parse_proxy
-from robocomp_yaml.source.properties import unquoted
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
-from robocomp_yaml.values.effective import Effective, document_faults, effective
-from robocomp_yaml.values.harmless import is_harmless
-from robocomp_yaml.values.properties import properties
 
 _SUCH_AS = {"endpoint": "tcp -p 10001", "proxy": '"mouth:tcp -h localhost -p 10002"'}
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in sorted(program.values.values(), key=lambda values: values.document.path):
-        yield from of_document(linked)
+        yield from of_document(linked, program)
 
 
-def of_document(linked: LinkedValues, *, complete: bool = False) -> Iterator[Diagnostic]:
+def of_document(linked: LinkedValues, program: Program, *, complete: bool = False) -> Iterator[Diagnostic]:
     """`complete`: to be judged as the values of a component even where another document builds on it."""
     yield from _texts_of_ice(linked)
     if linked.parameters is None:
@@ -41,9 +41,9 @@ def of_document(linked: LinkedValues, *, complete: bool = False) -> Iterator[Dia
     yield from _layers(linked)
     yield from _ports(linked)
     if is_only_layer(linked) and not complete:
-        yield from document_faults(linked)
+        yield from document_faults(linked, linked.parameters)
         return
-    values, found = effective(linked)
+    values, found = program.effective(linked)
     yield from found
     if values is not None and not has_errors(found) and not is_plain(linked, values):
         yield from properties(linked, values)[1]

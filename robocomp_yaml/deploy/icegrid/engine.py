@@ -10,17 +10,18 @@ import contextlib
 import importlib.util
 import shutil
 import threading
-from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Sequence
+from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
+from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, STOP_WITHIN, STOPPED, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LogReader
 from robocomp_yaml.deploy.local.log_reader import merged as merged_here
 from robocomp_yaml.deploy.local.obstacles import Cleared, is_here, obstacles
+from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying, grids
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -111,7 +112,6 @@ class IceGridEngine:
 
     async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
         """On this machine all that can be known; of other hosts, whether they have a node, and the ports."""
-        from robocomp_yaml.deploy.icegrid import far_ports
 
         running = await self.observe() if self._grid else {}
         roots = {one.pid for name, one in running.items() if name in leaving and one.pid}
@@ -124,7 +124,7 @@ class IceGridEngine:
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
         far = [spec for spec in specs if not is_here(spec.address) and spec.process.host not in lost]
-        found += await far_ports.taken(far, running)
+        found += await taken(far, running)
         return [*lost.values(), *found] + [
             deploying.REFUSED.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
             for spec in specs
@@ -317,3 +317,32 @@ def _missing() -> str:
         if shutil.which(program) is None:
             return f"{program} is not installed (Debian: {package})"
     return ""
+
+
+_WITHIN = 1.0  # seconds for an answer
+
+
+async def taken(specs: Sequence[Spec], running: Mapping[str, Running]) -> list[Diagnostic]:
+    """`specs` are to be started; what runs of the deployment itself is in nobody's way."""
+    own = {
+        (one.spec.address, endpoint.port)
+        for one in running.values()
+        if one.spec and one.state not in (STOPPED, ENDED, GIVEN_UP)
+        for endpoint in one.spec.process.endpoints
+    }
+    asked = [
+        (spec, endpoint)
+        for spec in specs
+        for endpoint in spec.process.endpoints
+        if endpoint.port and endpoint.protocol != "udp" and (spec.address, endpoint.port) not in own
+    ]
+    answers = await asyncio.gather(*(listens(spec.address, endpoint.port, _WITHIN) for spec, endpoint in asked))
+    return [
+        deploying.PORT_TAKEN.at(
+            endpoint.span if endpoint.span.file else spec.process.span,
+            hint=f"`ss -ltnp` says there which; end it, or give '{spec.name}' another port",
+            name=spec.name, port=endpoint.port, program=f"one on the host '{spec.process.host}'",
+        )
+        for (spec, endpoint), is_taken in zip(asked, answers, strict=True)
+        if is_taken
+    ]  # fmt: skip

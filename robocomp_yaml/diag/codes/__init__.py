@@ -7,19 +7,18 @@ RC6xxx emitting · RC7xxx deploying. Within a family the number says nothing; a 
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from functools import cache
 
 from robocomp_yaml.diag.code import KNOWN, Code
+from robocomp_yaml.registry import Modules
 
 
 @cache
 def table() -> dict[str, Code]:
     """Every row by its id, in order of id. Raises ValueError when two rows share an id."""
     rows: dict[str, Code] = {}
-    for module in pkgutil.iter_modules(__path__):
-        for row in vars(importlib.import_module(f"{__name__}.{module.name}")).values():
+    for module in Modules(__name__, "family").every():
+        for row in vars(module).values():
             if isinstance(row, Code):
                 if row.id in rows:
                     raise ValueError(f"two diagnostics are called {row.id}")

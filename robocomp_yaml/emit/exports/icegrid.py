@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import file_name, with_files, without_config
-from robocomp_yaml.emit.exports._xml import HEAD, element
+from robocomp_yaml.emit.xml_text import HEAD, element
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network.network import ICESTORM, NEVER, PROGRAM, Network, Process
 from robocomp_yaml.source import properties

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import file_name
-from robocomp_yaml.emit.exports._xml import HEAD, element
+from robocomp_yaml.emit.xml_text import HEAD, element
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network.network import ICESTORM, LOOPBACK, Network, Process
 from robocomp_yaml.source.ice_endpoint import spelled_host

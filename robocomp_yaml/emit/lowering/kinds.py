@@ -7,8 +7,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, RecordType, Size, Type
-from robocomp_yaml.model.pdsl import Spelling
+from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Size, Type
+
+_LIMITS = {"at_least": "atLeast", "above": "above", "at_most": "atMost", "below": "below"}
 
 
 class Builders(msgspec.Struct, frozen=True):
@@ -37,6 +39,12 @@ class Builders(msgspec.Struct, frozen=True):
             case _:
                 return f"{functions[type_.name or group or '']}()"
 
+    def member(self, start: str, member: Member, functions: Mapping[str, str], group: str | None) -> str:
+        """The same of a member; `start` is the call up to its name."""
+        made = f"{start}, {self.kind(member.type, functions, group)})"
+        made += f".byDefault({self.value(member.default.data)})" if member.default is not None else ""
+        return made + "".join(f".{word}()" for word in ("optional", "editable") if getattr(member, word))
+
     def _plain(self, type_: BasicType) -> str:
         if type_.name == "bool":
             made = f"{self.prefix}truth()"
@@ -49,11 +57,8 @@ class Builders(msgspec.Struct, frozen=True):
     def _limits(self, type_: BasicType) -> Iterator[str]:
         if type_.values:
             yield f"oneOf({self.listed([self.value(literal.value) for literal in type_.values])})"
-        low, high = (type_.range.low, type_.range.high) if type_.range else (None, None)
-        if low is not None:
-            yield f"{'above' if low.is_open else 'atLeast'}({self.value(low.value)})"
-        if high is not None:
-            yield f"{'below' if high.is_open else 'atMost'}({self.value(high.value)})"
+        for name, end in type_.range.limits.items() if type_.range else ():
+            yield f"{_LIMITS[name]}({self.value(end)})"
         if type_.pattern is not None:
             yield f"matching({self.pattern(type_.pattern.portable)}, {self.text(type_.pattern.text)})"
         if type_.unit:

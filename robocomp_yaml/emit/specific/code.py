@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -101,12 +101,18 @@ def plain(node: Node | None) -> str:
     return " ".join(words(node)) if node else ""
 
 
-def words(node: Node) -> Iterator[str]:
+def field(node: Node, name: str) -> Node:
+    """A part of a node by its name; the node itself where it has none."""
+    found = node.child_by_field_name(name)
+    return found if found is not None else node
+
+
+def words(node: Node, without: Collection[Node | None] = ()) -> Iterator[str]:
     """The tokens below a node."""
     todo = [node]
     while todo:
         current = todo.pop()
-        if current.type == "comment":
+        if current.type == "comment" or current in without:
             continue
         if current.child_count == 0:
             yield text(current)

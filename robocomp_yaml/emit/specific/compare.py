@@ -40,10 +40,6 @@ class Comparison(msgspec.Struct):
     outdated: list[Outdated] = []
     gone: list[Gone] = []
 
-    @property
-    def is_complete(self) -> bool:
-        return not self.lacking and not self.outdated
-
 
 def compare(
     new: Sequence[Code], base: Mapping[str, Code], yours: Sequence[Code], bases: Collection[str] = ()

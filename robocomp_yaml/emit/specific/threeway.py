@@ -7,7 +7,6 @@ import os
 import shutil
 import subprocess
 import tempfile
-from pathlib import Path
 
 import msgspec
 from msgspec.structs import replace
@@ -55,7 +54,8 @@ def _by_git(base: str, yours: str, new: str) -> str | None:
     with tempfile.TemporaryDirectory(prefix="rcyaml-") as folder:
         texts = {"yours": yours, "base": base, "new": new}
         for name, text in texts.items():
-            (Path(folder) / name).write_bytes(text.encode())
+            with open(os.path.join(folder, name), "wb") as file:
+                file.write(text.encode())
         labels = [word for label in (YOURS, BASE, NEW) for word in ("-L", label)]
         command = [_git() or "git", "merge-file", "-p", "-q", "--diff3", *labels, *texts]
         # What the user configured for other merges does not count here.

@@ -73,6 +73,8 @@ class _Module(msgspec.Struct):
                     yield from self.results(definition)
 
     def macro(self, name: Name) -> Iterator[Diagnostic]:
+        if name.text not in EVER and not name.text.startswith(FAMILIES):
+            return  # as nearly all: no user needs to be asked
         hit = [user for user in self.users if _is_macro_for(name.text, user)]
         if hit or name.text in EVER:
             yield self.said(codes.CPP_MACRO.at(name.span, kind=name.kind, name=name.text, hint=_other(name.text)), hit)

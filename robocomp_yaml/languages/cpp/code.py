@@ -18,10 +18,12 @@ from robocomp_yaml.emit.specific.code import (
     Signature,
     below,
     faults,
+    field,
     lines_of,
     place,
     plain,
     text,
+    words,
 )
 
 _PARAMETERS = ("parameter_declaration", "optional_parameter_declaration")
@@ -40,8 +42,8 @@ def read(path: str, source: str) -> Code:
     imports, import_end = [], 0
     for node in root.children:
         if node.type == "preproc_include":
-            words = " ".join(text(node).split())
-            imports.append(Import(words.partition("include")[2].strip(), f"{words}\n"))
+            line = " ".join(text(node).split())
+            imports.append(Import(line.partition("include")[2].strip(), f"{line}\n"))
             import_end = node.start_point[0] + 1
     definitions = tuple(_definitions(root, lines))
     class_ = next(_classes(root), None)
@@ -53,7 +55,7 @@ def read(path: str, source: str) -> Code:
     bases = [text(node) for node in clause.named_children if node.type != "access_specifier"] if clause else []
     return Code(
         path, lines, faults(root), tuple(_members(body, lines)), definitions, tuple(imports), import_end,
-        place(_field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
+        place(field(class_, "name"), lines), body.end_point[0], bases=tuple(bases),
     )  # fmt: skip
 
 
@@ -78,7 +80,7 @@ def _is_scope(node: Node) -> bool:
 def _classes(root: Node) -> Iterator[Node]:
     for node, _ in below(root, _is_scope):
         if node.type in ("class_specifier", "struct_specifier"):
-            if node.child_by_field_name("body") and text(_field(node, "name")) == CLASS:
+            if node.child_by_field_name("body") and text(field(node, "name")) == CLASS:
                 yield node
 
 
@@ -110,7 +112,7 @@ def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True
     first = node.start_point[0]
     while first and lines[first - 1].lstrip().startswith("///"):
         first -= 1
-    parameters = _field(declarator, "parameters")
+    parameters = field(declarator, "parameters")
     typed = [child for child in parameters.children if child.type in _PARAMETERS]
     optional = sum(child.type.startswith("optional") for child in typed)
     trailing = next((child for child in declarator.children if child.type == "trailing_return_type"), None)
@@ -132,17 +134,8 @@ def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True
 def _type(parameter: Node) -> str:
     """A parameter's type without its name and default."""
     default = parameter.child_by_field_name("default_value")
-    name = _identifier(parameter)
-    words: list[str] = []
-    todo = [parameter]
-    while todo:
-        node = todo.pop()
-        if node.type in ("comment", "=") or node in (name, default):
-            continue
-        if node.child_count == 0:
-            words.append(text(node))
-        todo += reversed(node.children)
-    return " ".join(words)
+    unnamed = words(parameter, (_identifier(parameter), default))
+    return " ".join(word for word in unnamed if word != "=")
 
 
 def _name(parameter: Node) -> str:
@@ -155,8 +148,3 @@ def _identifier(parameter: Node) -> Node | None:
     while node is not None and node.type != "identifier":
         node = node.named_children[-1] if node.named_children else None
     return node
-
-
-def _field(node: Node, name: str) -> Node:
-    found = node.child_by_field_name(name)
-    return found if found is not None else node

@@ -7,17 +7,18 @@ from collections.abc import Iterator
 import msgspec
 
 from robocomp_yaml.emit.lowering.kinds import Builders, pattern_count
-from robocomp_yaml.emit.lowering.names import Names
 from robocomp_yaml.emit.lowering.parameters import (
+    ConstraintView,
     Spelling,
     Types,
     about_enum,
     about_member,
-    capitals,
+    declared,
     group_of,
+    inside,
     path_of,
+    titled,
 )
-from robocomp_yaml.emit.parameter_facts import inside
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.cpp import LANGUAGE
 from robocomp_yaml.languages.cpp.literals import number, string, value
@@ -25,7 +26,7 @@ from robocomp_yaml.languages.cpp.literals import text as quoted
 from robocomp_yaml.languages.cpp.names import names
 from robocomp_yaml.languages.cpp.text import IN, comment, folded, one_line
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import (
+from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     Member,
@@ -70,12 +71,6 @@ class GetterView(msgspec.Struct, frozen=True):
     setter_definitions: list[str]
 
 
-class ConstraintView(msgspec.Struct, frozen=True):
-    text: str
-    otherwise: str
-    value: str
-
-
 class View(msgspec.Struct, frozen=True):
     source: str
     name: str
@@ -92,12 +87,7 @@ class View(msgspec.Struct, frozen=True):
 
 def plan(linked: LinkedComponent) -> list[FilePlan]:
     """`generated/parameters.h` and `.cpp`."""
-    found = linked.parameters
-    source = found.document.path if found.document is not None else linked.component.path
-    return [
-        FilePlan(f"generated/{name}", made)
-        for name, made in texts(found.parameters, linked.component.name, source).items()
-    ]
+    return [FilePlan(f"generated/{name}", made) for name, made in texts(*declared(linked)).items()]
 
 
 def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]:
@@ -113,12 +103,11 @@ def _view(parameters: Parameters, name: str, source: str) -> View:
         *(["expressions.h"] if parameters.constraints else []), "kinds.h",
         *(["pattern.h"] if pattern_count(parameters.root) else []),
     ]  # fmt: skip
-    said = f"The parameters of {name} while it runs."
     enums = [types.enum(enum) for enum in types.enums]
     return View(
         source=source,
         name=name,
-        comment=comment(f"{said}\n\n{parameters.doc}" if parameters.doc else said),
+        comment=comment(titled(f"The parameters of {name} while it runs.", parameters.doc)),
         enums=enums,
         records=views,
         converted=[*(enum.name for enum in enums), *(view.name for view in views)],
@@ -196,9 +185,7 @@ class _Types(Types):
         """`group` is the path of the group that it stands in, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), string(member.name)
-        made = f"runtime::Member({key}, {_BUILDERS.kind(member.type, self.functions, inner)})"
-        made += f".byDefault({value(member.default.data)})" if member.default is not None else ""
-        made += "".join(f".{word}()" for word in ("optional", "editable") if getattr(member, word))
+        made = _BUILDERS.member(f"runtime::Member({key}", member, self.functions, inner)
         initial = self.initial(member)
         return MemberView(
             comment=comment(about_member(member, "\n"), IN),
@@ -239,7 +226,7 @@ class _Types(Types):
                 body = f"return live_.now().{field};"
             else:
                 made, body = f"runtime::Held<{made}>", f"return live_.held(&parameters::Values::{field});"
-            setters = list(self.setters(member, group, (member.name,), taken))
+            setters = [(name, self.argument(inner), path) for name, inner, path in self.setters(member, taken)]
             yield GetterView(
                 comment(about_member(member, "\n"), IN),
                 f"{made} {name}() const;",
@@ -248,17 +235,10 @@ class _Types(Types):
                 [_setter(*setter) for setter in setters],
             )
 
-    def setters(
-        self, member: Member, group: str, path: tuple[str, ...], taken: Names
-    ) -> Iterator[tuple[str, str, str]]:
-        """Name, type and path of each setter: of the member, or of what the group holds."""
-        if member.is_group and isinstance(member.type, RecordType):
-            for inner in member.type.members:
-                yield from self.setters(inner, inside(group, inner.code_name), (*path, inner.name), taken)
-        elif member.editable:
-            made = self.member_type(member, None)
-            is_small = isinstance(member.type, BasicType | EnumType) and made != "std::string" and not member.optional
-            yield taken.take(f"set{capitals(group[1:])}"), made if is_small else f"const {made}&", ".".join(path)
+    def argument(self, member: Member) -> str:
+        made = self.member_type(member, None)
+        is_small = isinstance(member.type, BasicType | EnumType) and made != "std::string" and not member.optional
+        return made if is_small else f"const {made}&"
 
 
 def _enumerators(enum: EnumType) -> dict[str, str]:

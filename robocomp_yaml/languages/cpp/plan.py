@@ -26,7 +26,7 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 if TYPE_CHECKING:
-    from robocomp_yaml.languages.cpp.statemachine import MachineView
+    from robocomp_yaml.emit.machines.views import MachineView
 
 # Targets that CMake makes by itself.
 _CMAKE_TARGETS = frozenset(

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import msgspec
 
+from robocomp_yaml.emit.lowering import parameters as lowering
 from robocomp_yaml.emit.lowering.kinds import Builders
 from robocomp_yaml.emit.lowering.names import Names
 from robocomp_yaml.emit.lowering.parameters import (
@@ -13,17 +14,18 @@ from robocomp_yaml.emit.lowering.parameters import (
     Types,
     about_enum,
     about_member,
-    capitals,
+    declared,
     group_of,
+    inside,
     path_of,
+    titled,
 )
-from robocomp_yaml.emit.parameter_facts import inside
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import METHODS, TYPES
 from robocomp_yaml.languages.java.text import IN, comment, listed, literal, one_line, value
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import (
+from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
@@ -71,10 +73,7 @@ class GetterView(msgspec.Struct, frozen=True):
     setters: list[str]
 
 
-class ConstraintView(msgspec.Struct, frozen=True):
-    text: str
-    otherwise: str
-    value: str
+class ConstraintView(lowering.ConstraintView, frozen=True):
     comma: str
 
 
@@ -91,18 +90,15 @@ class View(msgspec.Struct, frozen=True):
 
 def plan(linked: LinkedComponent) -> FilePlan:
     """`generated/Parameters.java`."""
-    parameters = linked.parameters
-    source = parameters.document.path if parameters.document is not None else linked.component.path
-    return FilePlan("generated/Parameters.java", text(parameters.parameters, linked.component.name, source))
+    return FilePlan("generated/Parameters.java", text(*declared(linked)))
 
 
 def text(parameters: Parameters, component: str, source: str) -> str:
     """The class with the parameters of a component, made from the document `source`."""
     types = _Types(parameters.root)
-    said = f"The parameters of {component} while it runs."
     view = View(
         source=one_line(source.rpartition("/")[2]),
-        comment=comment(f"{said}\n\n{parameters.doc}" if parameters.doc else said),
+        comment=comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),
         enums=[types.enum(enum) for enum in types.enums],
         records=[types.record(path, record) for path, record in types.records],
         getters=list(types.getters()),
@@ -190,9 +186,6 @@ class _Types(Types):
         """`group` is the path of the group that it stands in, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), literal(member.name)
-        made = f"new Member({key}, {_BUILDERS.kind(member.type, self.functions, inner)})"
-        made += f".byDefault({value(member.default.data)})" if member.default is not None else ""
-        made += "".join(f".{word}()" for word in ("optional", "editable") if getattr(member, word))
         got = f"of.get({key})"
         if member.optional:
             got = f"optional({got}, {self.function(member.type, inner)})"
@@ -202,7 +195,7 @@ class _Types(Types):
             comment=comment(about_member(member, "\n"), IN * 2),
             field=f"public final {self.member_type(member, inner)} {name};",
             read=f"this.{name} = {got};",
-            kind=made,
+            kind=_BUILDERS.member(f"new Member({key}", member, self.functions, inner),
         )
 
     def member_type(self, member: Member, group: str | None) -> str:
@@ -232,26 +225,16 @@ class _Types(Types):
         getters = {member.name: names.take(LANGUAGE.in_code(member.code_name)) for member in self.root.members}
         for member in self.root.members:
             group = inside(".", member.code_name)
-            setters = self.setters(member, group, (member.name,), names)
             yield GetterView(
                 comment(about_member(member, "\n"), IN),
                 f"public {self.member_type(member, group)} {getters[member.name]}()",
                 LANGUAGE.in_code(member.code_name),
                 [
-                    f"public void {name}({type_} value) {{\n{IN * 2}set({literal(path)}, value);\n{IN}}}"
-                    for name, type_, path in setters
+                    f"public void {name}({self.member_type(inner, None)} value) "
+                    f"{{\n{IN * 2}set({literal(path)}, value);\n{IN}}}"
+                    for name, inner, path in self.setters(member, names)
                 ],
             )
-
-    def setters(
-        self, member: Member, group: str, path: tuple[str, ...], names: Names
-    ) -> Iterator[tuple[str, str, str]]:
-        """Name, type and path of each setter: of the member, or of what the group holds."""
-        if member.is_group and isinstance(member.type, RecordType):
-            for inner in member.type.members:
-                yield from self.setters(inner, inside(group, inner.code_name), (*path, inner.name), names)
-        elif member.editable:
-            yield names.take(f"set{capitals(group[1:])}"), self.member_type(member, None), ".".join(path)
 
 
 def _constants(enum: EnumType) -> dict[str, str]:

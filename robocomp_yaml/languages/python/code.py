@@ -18,6 +18,7 @@ from robocomp_yaml.emit.specific.code import (
     Signature,
     below,
     faults,
+    field,
     lines_of,
     place,
     plain,
@@ -36,15 +37,15 @@ def read(path: str, source: str) -> Code:
     imports = list(_imports(root))
     tops = [node for node in root.children if node.type.startswith(("import", "future_import"))]
     import_end = tops[-1].end_point[0] + 1 if tops else _behind_docstring(root)
-    found = next((node for node in _classes(root) if text(_field(node, "name")) == CLASS), None)
+    found = next((node for node in _classes(root) if text(field(node, "name")) == CLASS), None)
     if found is None:
         return Code(path, lines, faults(root), imports=tuple(imports), import_end=import_end)
-    body = _field(found, "body")
+    body = field(found, "body")
     members = tuple(_members(body, lines))
     bases = found.child_by_field_name("superclasses")
     return Code(
         path, lines, faults(root), members, (), tuple(imports), import_end,
-        place(_field(found, "name"), lines),
+        place(field(found, "name"), lines),
         _last_line(body),
         _indent(body, lines) or "    ",
         tuple(text(base) for base in bases.named_children) if bases else (),
@@ -70,16 +71,16 @@ def _is_condition(node: Node) -> bool:
 def _classes(root: Node) -> Iterator[Node]:
     """Classes of the module, under conditions too."""
     for node, _ in below(root, _is_condition):
-        inner = _field(node, "definition") if node.type == "decorated_definition" else node
+        inner = field(node, "definition") if node.type == "decorated_definition" else node
         if inner.type == "class_definition":
             yield inner
 
 
 def _members(body: Node, lines: list[str]) -> Iterator[Method]:
     for node, nested in below(body, _is_condition):
-        inner = _field(node, "definition") if node.type == "decorated_definition" else node
+        inner = field(node, "definition") if node.type == "decorated_definition" else node
         if inner.type == "function_definition":
-            name = _field(inner, "name")
+            name = field(inner, "name")
             first = _with_comments(node.start_point[0], lines)
             yield Method(text(name), place(name, lines), first, _last_line(node), _signature(inner), nested=nested)
         elif node.type == "expression_statement":
@@ -98,7 +99,7 @@ def _assigned(statement: Node, lines: list[str]) -> Iterator[Method]:
 def _signature(function: Node) -> Signature:
     parameters, names, least, most = [], [], 0, 0
     limited, keywords = True, False
-    for node in _field(function, "parameters").named_children[1:]:  # without self
+    for node in field(function, "parameters").named_children[1:]:  # without self
         word = plain(node)
         if node.type in ("comment", "positional_separator"):
             continue
@@ -152,8 +153,3 @@ def _last_line(node: Node) -> int:
 def _indent(body: Node, lines: list[str]) -> str:
     line = lines[body.start_point[0]]
     return line[: len(line) - len(line.lstrip())]
-
-
-def _field(node: Node, name: str) -> Node:
-    found = node.child_by_field_name(name)
-    return found if found is not None else node

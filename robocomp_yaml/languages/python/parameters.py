@@ -7,13 +7,24 @@ from collections.abc import Iterable, Iterator
 import msgspec
 
 from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.emit.lowering.parameters import Spelling, Types, about_enum, about_member, group_of, path_of
-from robocomp_yaml.emit.parameter_facts import records
+from robocomp_yaml.emit.lowering.parameters import (
+    ConstraintView,
+    Spelling,
+    Types,
+    about_enum,
+    about_member,
+    declared,
+    group_of,
+    path_of,
+    records,
+    titled,
+)
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import docstring, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import (
+from robocomp_yaml.parameters.specification.document import Spelling as PropertySpelling
+from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
@@ -24,7 +35,6 @@ from robocomp_yaml.model.parameters import (
     Size,
     Type,
 )
-from robocomp_yaml.model.pdsl import Spelling as PropertySpelling
 from robocomp_yaml.transactions.plan import FilePlan
 
 WIDTH = 112
@@ -53,12 +63,6 @@ class RecordView(msgspec.Struct, frozen=True):
     members: list[MemberView]
 
 
-class ConstraintView(msgspec.Struct, frozen=True):
-    text: str
-    otherwise: str
-    value: str
-
-
 class View(msgspec.Struct, frozen=True):
     source: str
     title: str
@@ -71,9 +75,7 @@ class View(msgspec.Struct, frozen=True):
 
 def plan(linked: LinkedComponent) -> FilePlan:
     """`generated/parameters.py`."""
-    found = linked.parameters
-    source = found.document.path if found.document is not None else linked.component.path
-    return FilePlan("generated/parameters.py", text(found.parameters, linked.component.name, source))
+    return FilePlan("generated/parameters.py", text(*declared(linked)))
 
 
 def text(parameters: Parameters, component: str, source: str) -> str:
@@ -85,10 +87,9 @@ def _view(parameters: Parameters, name: str, source: str) -> View:
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
     constraints = _constraints(parameters) if parameters.constraints else []
-    said = f"The parameters of {name}."
     return View(
         source=source,
-        title=docstring(f"{said}\n\n{parameters.doc}" if parameters.doc else said, ""),
+        title=docstring(titled(f"The parameters of {name}.", parameters.doc), ""),
         imports=list(_imports(views, bool(types.enums), bool(parameters.spellings), bool(constraints))),
         enums=[types.enum(enum) for enum in types.enums],
         records=views,
@@ -115,8 +116,9 @@ def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints:
         yield f"from typing import {', '.join(typing)}"
     if "Mapping[" in hints or typing:
         yield ""
-    modules = {"composite": True, "constraints": constraints, "parameters": True, "plain": True, "reading": spellings}
-    yield f"from generated.runtime import {', '.join(name for name, used in modules.items() if used)}"
+    yield "from generated.runtime import parameters"
+    modules = {"composite": True, "constraints": constraints, "plain": True, "reading": spellings}
+    yield f"from generated.runtime.semantics import {', '.join(name for name, used in modules.items() if used)}"
 
 
 _SPELLING = Spelling(
@@ -194,11 +196,8 @@ def _plain(type_: BasicType) -> str:
 def _limits(type_: BasicType) -> Iterator[str]:
     if type_.values:
         yield f"values={literal(tuple(value.value for value in type_.values))}"
-    low, high = (type_.range.low, type_.range.high) if type_.range else (None, None)
-    if low is not None:
-        yield f"{'above' if low.is_open else 'at_least'}={low.value!r}"
-    if high is not None:
-        yield f"{'below' if high.is_open else 'at_most'}={high.value!r}"
+    if type_.range:
+        yield from (f"{name}={end!r}" for name, end in type_.range.limits.items())
     if type_.pattern is not None:
         yield f"pattern={literal(type_.pattern.portable)}"
         if type_.pattern.text != type_.pattern.portable:

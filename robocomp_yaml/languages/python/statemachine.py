@@ -5,44 +5,52 @@ The part that evaluates Python text is copied only where the machine's data mode
 
 from __future__ import annotations
 
+import json
 import re
+from dataclasses import MISSING, fields, is_dataclass
 
 import msgspec
 
 from robocomp_yaml.emit.copied import copied
-from robocomp_yaml.emit.machines import lower
+from robocomp_yaml.emit.machines import lower, views
+from robocomp_yaml.emit.machines.views import EventView, MachineView
 from robocomp_yaml.emit.render import render
-from robocomp_yaml.languages.python import machine_text
 from robocomp_yaml.languages.python.names import python_name
 from robocomp_yaml.languages.python.text import docstring, one_line
-from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.statemachine import PYTHON, State, StateMachine
+from robocomp_yaml.model.statemachine import PYTHON, StateMachine
 from robocomp_yaml.transactions.plan import FilePlan
 
+WIDTH = 110
+
+
+def text(table: object, indent: str = "") -> str:
+    """A call of the table's class, without what is as by default; long ones with one argument a line."""
+    if isinstance(table, tuple):
+        return _sequence([text(item, indent + "    ") for item in table], indent)
+    if isinstance(table, str):
+        return json.dumps(table, ensure_ascii=False)
+    if not is_dataclass(table):
+        return repr(table)
+    name = type(table).__name__
+    given = [f for f in fields(table) if f.default is MISSING or getattr(table, f.name) != f.default]
+    inner = indent + "    "
+    parts = [f"{f.name}={text(getattr(table, f.name), inner)}" for f in given]
+    line = f"{name}({', '.join(parts)})"
+    if "\n" not in line and len(indent) + len(line) <= WIDTH:
+        return line
+    return f"{name}(\n" + "".join(f"{inner}{part},\n" for part in parts) + f"{indent})"
+
+
+def _sequence(items: list[str], indent: str) -> str:
+    line = f"({', '.join(items)}{',' if len(items) == 1 else ''})"
+    if "\n" not in line and len(indent) + len(line) <= WIDTH:
+        return line
+    inner = indent + "    "
+    return "(\n" + "".join(f"{inner}{item},\n" for item in items) + f"{indent})"
+
+
 _SCRIPTING = "scripting.py"
-
-
-class EventView(msgspec.Struct, frozen=True):
-    name: str
-    method: str
-
-
-class StateView(msgspec.Struct, frozen=True):
-    name: str
-    docstring: str
-
-
-class MachineView(msgspec.Struct, frozen=True):
-    """What the worker has of a machine: states, names of guards and actions. `fires` is an example of an event.
-    `member` and `signals` are for code for RoboComp's own tool."""
-
-    states: list[StateView]
-    guards: list[str]
-    actions: list[str]
-    fires: str
-    member: str
-    signals: list[str]
 
 
 class TablesView(msgspec.Struct, frozen=True):
@@ -55,18 +63,7 @@ class TablesView(msgspec.Struct, frozen=True):
 
 
 def view(machine: StateMachine) -> MachineView:
-    return MachineView(
-        [StateView(state.id, _docstring(state)) for state in names.with_handler(machine)],
-        [guard.name for guard in names.guards(machine)],
-        [action.name for action in names.actions(machine) if action.name not in names.CALLABLE],
-        next((f"self.events.{event.method}()" for event in _events(machine)), "there are none"),
-        python_name(names.robocomps_machine(machine)),
-        names.robocomps_signals(machine),
-    )
-
-
-def _docstring(state: State) -> str:
-    return docstring(f"The state '{state.id}' has been entered.\n\n{state.doc}", "        ")
+    return views.view(machine, python_name, lambda text: docstring(text, " " * 8), "self.events.")
 
 
 def files(machine: StateMachine, component: str) -> list[FilePlan]:
@@ -77,7 +74,7 @@ def files(machine: StateMachine, component: str) -> list[FilePlan]:
 
 def tables(machine: StateMachine, component: str) -> str:
     """The module that holds the tables."""
-    literal = machine_text.text(lower.lower(machine))
+    literal = text(lower.lower(machine))
     return render(
         "python/statemachine.py.j2",
         TablesView(
@@ -85,7 +82,7 @@ def tables(machine: StateMachine, component: str) -> str:
             name=component,
             scripting=_scripts(machine),
             tables=", ".join(sorted(set(re.findall(r"\b([A-Z][a-z]+)\(", _without_texts(literal))))),
-            events=_events(machine),
+            events=views.events(machine, python_name),
             machine=literal,
         ),
     )
@@ -93,10 +90,6 @@ def tables(machine: StateMachine, component: str) -> str:
 
 def _without_texts(literal: str) -> str:
     return re.sub(r"""'(?:[^'\\\n]|\\.)*'|"(?:[^"\\\n]|\\.)*\"""", "''", literal)
-
-
-def _events(machine: StateMachine) -> list[EventView]:
-    return [EventView(event.text.text, python_name(event.name)) for event in names.events(machine)]
 
 
 def _scripts(machine: StateMachine) -> bool:

@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable
-from pathlib import Path
 
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
-from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
 from robocomp_yaml.legacy.draft import ComponentDraft, NamedMachine, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
-from robocomp_yaml.source.regular import regular
+from robocomp_yaml.source import regular
 
 LISTS = ("implements", "requires", "publishes", "subscribesto")
 
 
 def convert(reader: Reader) -> ComponentDraft | None:
     """The document of a file's component."""
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     return _Converter(reader).document(tree, trees(tree, "component")[0])
 
 
@@ -63,15 +61,9 @@ class _Converter:
 
     def _has_code_of_robocomp(self) -> bool:
         """Whether the user's code beside the file was written against what RoboComp's own tool generates."""
-        folder = Path(self.reader.source.path).parent
-        for name, pattern in self.reader.rules.code.items():
-            try:
-                with open(folder / name, encoding="utf-8", errors="replace", opener=regular) as file:
-                    if re.search(pattern, file.read()):
-                        return True
-            except OSError:
-                continue  # it is not there, or it is none of our business
-        return False
+        folder = os.path.dirname(self.reader.source.path)
+        code = self.reader.rules.code.items()
+        return any(re.search(pattern, regular.text(os.path.join(folder, name)) or "") for name, pattern in code)
 
     def _once(self, clause: Tree[Token]) -> None:
         """A clause stands at most once; of two, nobody knows which one holds."""
@@ -93,15 +85,6 @@ class _Converter:
 
     def _key(self, clause: Tree[Token]) -> str:
         return self.reader.rules.keys[str(clause.data)]
-
-    def _value(self, name: str, at: Token) -> str:
-        """A word in its one spelling; an error for a word that is none of those known."""
-        known = self.reader.rules.values[name]
-        if str(at).lower() not in known:
-            hint = did_you_mean(str(at), known, otherwise="write " + " or ".join(dict.fromkeys(known.values())))
-            span = self.reader.span(at)
-            self.reader.diagnostics.append(codes.UNKNOWN_VALUE.at(span, what=name, value=at, hint=hint))
-        return known.get(str(at).lower(), str(at))
 
     def _communications(self, clause: Tree[Token]) -> None:
         """The lists of the block; the comments around it stand above the first and below the last of them."""
@@ -126,39 +109,25 @@ class _Converter:
         else:
             known.notes.add(notes)
         assert isinstance(known.value, List)
-        tree = self.reader.parsed.tree
-        assert tree is not None
-        same = [item for other in tree.find_data(str(clause.data)) for item in trees(other, "interface")]
+        same = [item for other in self.reader.tree.find_data(str(clause.data)) for item in trees(other, "interface")]
         declared = {self.reader.name(item) for item in same}
         for item in trees(clause, "interface"):
             known.value.put(self._port(item, known.value, declared), self.reader.notes(item))
 
     def _port(self, item: Tree[Token], listed: List, declared: set[str]) -> Value:
-        interface = self.reader.name(item)
         used = {entry.value.entries[0].key if isinstance(entry.value, Map) else entry.value for entry in listed.items}
-        name, number = interface, 0
-        while name in used or (number and name in declared):
-            number += 1
-            name = f"{interface}{number}"
         middleware = token(item, "MIDDLEWARE")
-        if middleware is not None and middleware.lower() == "ros":
-            self.reader.diagnostics.append(codes.MIDDLEWARE.at(self.reader.span(item), name=interface))
-            long = Map()
-            long.put("interface", interface)
-            long.put("x-middleware", "ros")
-            return Map([Entry(name, long)])
-        return interface if name == interface else Map([Entry(name, interface)])
+        ros = item if middleware is not None and middleware.lower() == "ros" else None
+        return self.reader.port(self.reader.name(item), {str(name) for name in used}, declared, ros)
 
     def language(self, clause: Tree[Token]) -> None:
         word = token(clause, "WORD")
         assert word is not None
-        self._put("language", self._value("language", word), self.reader.notes(clause))
+        self._put("language", self.reader.word("language", str(word), word), self.reader.notes(clause))
 
     def gui(self, clause: Tree[Token]) -> None:
         names = [child for child in clause.children if isinstance(child, Token)]
-        body = Map()
-        body.put("toolkit", self._value("toolkit", names[0]))
-        body.put("base", self._value("base", names[1]) if names[1:] else self.reader.rules.defaults["base"])
+        body = self.reader.gui([str(name) for name in names], [*names])
         self._put("gui", body, self.reader.notes(clause))
 
     def options(self, clause: Tree[Token]) -> None:

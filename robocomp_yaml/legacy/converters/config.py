@@ -20,6 +20,7 @@ from robocomp_yaml.legacy.settings.entries import (
     guess,
     settle_head,
 )
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
 
 MAX_KEY = 1000
@@ -29,8 +30,7 @@ _PROTECTED = re.compile(r'\s*"(?P<value>[^"]*#[^"]*)"\s*(?:#(?P<comment>.*))?$')
 
 def convert(reader: Reader) -> ConfigDraft | None:
     """The settings of a file. Lines that set nothing stay as comments above the next setting."""
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     lines = flat.lines(tree)
     last = properties.last(line.entry for line in lines if line.entry is not None)
     dialect = _dialect(reader, lines)
@@ -95,7 +95,7 @@ def _setting(
         text, notes.tail = protected[0], [protected[1]] if protected[1] else []
         raw = f'"{text}"'
     elif dialect == FLAT_TOML:
-        text = properties.unquoted(raw)
+        text = unquoted(raw)
         if text == raw and '"' in raw:
             reader.repaired("half_quoted", node, entry.key)
     is_quoted = text != raw

@@ -10,7 +10,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import literals
-from robocomp_yaml.legacy.document import Doc, List, Map, Name, Notes, Raw, Value
+from robocomp_yaml.legacy.document import TRUE, Doc, List, Map, Name, Notes, Value
 from robocomp_yaml.legacy.draft import ModuleDraft, ModuleNames, Reader, Reference, plain
 from robocomp_yaml.legacy.grammar import token, trees
 
@@ -26,8 +26,7 @@ SECTIONS = {
 
 def convert(reader: Reader) -> ModuleDraft | None:
     """The document of a file's one module; None where it cannot be written, with the reason."""
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     modules = trees(tree, "module")
     if not modules:
         reader.diagnostics.append(codes.EMPTY.at(Span(reader.source.path), what="no module"))
@@ -50,15 +49,13 @@ class _Converter:
         document.put("module", self.names.name, Notes(notes.head, notes.tail))
         self._doc(document, module, self.names.name)
         listed, imports = reader.imports(trees(tree, "import", "include"))
-        if listed.items:
-            document.put("imports", listed)
+        document.put_some("imports", listed)
         sections = {name: Map(block=True) for name in ("constants", "types", "exceptions", "interfaces")}
         for definition in trees(module, *SECTIONS):
             section = sections[SECTIONS[str(definition.data)]]
             self._define(definition, section)
         for name, section in sections.items():
-            if section.entries:
-                document.put(name, section)
+            document.put_some(name, section)
         around = reader.placed.around
         around.foot[:0] = notes.foot
         return ModuleDraft(document, around, tuple(imports), self.names)
@@ -83,8 +80,7 @@ class _Converter:
 
     def _doc(self, into: Map, tree: Tree[Token], *names: str) -> None:
         doc = self.reader.doc(tree, *names)
-        if doc:
-            into.put("doc", Doc(doc))
+        into.put_some("doc", Doc(doc) if doc else None)
 
     def _type(self, tree: Tree[Token]) -> Name:
         """A type as a document names it, noted as a reference."""
@@ -160,8 +156,7 @@ class _Converter:
             value = self._literal(trees(item)[0]) if trees(item) else None
             if doc:
                 long = Map()
-                if value is not None:
-                    long.put("value", value)
+                long.put_some("value", value)
                 long.put("doc", Doc(doc))
                 value = long
             listed.put(key, value, notes)
@@ -196,8 +191,7 @@ class _Converter:
                 self.reader.diagnostics.append(codes.OVERLOAD.at(at, name=legacy, new=key))
             used.add(key)
             methods.put(key, self._method(method, legacy, key), self.reader.notes(method))
-        if methods.entries:
-            body.put("methods", methods)
+        body.put_some("methods", methods)
         return body
 
     def _method(self, tree: Tree[Token], legacy: str, key: str) -> Map | None:
@@ -215,17 +209,12 @@ class _Converter:
                 members = self._members(chosen, seen)
                 members.block = False
                 body.put(direction, members)
-        returned = trees(tree, "type")
-        if returned:
-            body.put("returns", self._type(returned[0]))
+        for returned in trees(tree, "type"):
+            body.put("returns", self._type(returned))
         thrown = [self._name(qname) for throws in trees(tree, "throws") for qname in trees(throws)]
-        if thrown:
-            listed = List()
-            for exception in thrown:
-                listed.put(exception)
-            body.put("throws", listed)
+        body.put_some("throws", List.of(thrown))
         if token(tree, "IDEMPOTENT") is not None:
-            body.put("idempotent", Raw("true"))
+            body.put("idempotent", TRUE)
         return body if body.entries else None
 
 

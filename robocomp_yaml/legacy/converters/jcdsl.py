@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Value
 from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, NamedMachine, Reader, base_name
 from robocomp_yaml.legacy.grammar import token, trees
@@ -18,8 +17,7 @@ Node = Tree[Token]
 
 
 def convert(reader: Reader) -> ComponentDraft | None:
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     top = trees(tree)
     if not top or top[0].data != "object":
         reader.diagnostics.append(codes.SYNTAX.at(reader.source.span(0, 1), problem="this is no JSON object", hint=""))
@@ -49,10 +47,7 @@ class _Converter:
             else:
                 self.no_place(key, name, value)
         if self.options:
-            listed = List()
-            for option in dict.fromkeys(self.options):
-                listed.put(option)
-            self.put("options", listed)
+            self.put("options", List.of(dict.fromkeys(self.options)))
         named = self.entries.get("component")
         if named is None or not named.value:
             at = self.reader.span(top)
@@ -79,15 +74,6 @@ class _Converter:
         """One text, or several."""
         return [self.text(item) for item in trees(node)] if node.data == "array" else [self.text(node)]
 
-    def word(self, what: str, node: Node, text: str) -> str:
-        known = self.reader.rules.values[what]
-        if text.lower() not in known:
-            hint = did_you_mean(text, known, otherwise="write " + " or ".join(dict.fromkeys(known.values())))
-            self.reader.diagnostics.append(
-                codes.UNKNOWN_VALUE.at(self.reader.span(node), what=what, value=text, hint=hint)
-            )
-        return known.get(text.lower(), text)
-
     def ports(self, node: Node) -> List:
         """Interfaces: names, or pairs of a name and its middleware. A second one gets a number, as in CDSL."""
         listed, used = List(), set[str]()
@@ -96,17 +82,10 @@ class _Converter:
             interface = parts[0] if parts else ""
             if not interface:
                 continue
-            name, number = interface, 0
-            while name in used:
-                number += 1
-                name = f"{interface}{number}"
-            used.add(name)
-            if len(parts) > 1 and parts[1].lower() == "ros":
-                self.reader.diagnostics.append(codes.MIDDLEWARE.at(self.reader.span(item), name=interface))
-                long = Map([Entry("interface", interface), Entry("x-middleware", "ros")])
-                listed.put(Map([Entry(name, long)]))
-            else:
-                listed.put(interface if name == interface else Map([Entry(name, interface)]))
+            ros = item if len(parts) > 1 and parts[1].lower() == "ros" else None
+            entry = self.reader.port(interface, used, (), ros)
+            used.add(entry.entries[0].key if isinstance(entry, Map) else interface)
+            listed.put(entry)
         return listed
 
     def import_(self, node: Node) -> None:
@@ -127,16 +106,14 @@ class _Converter:
             if "name" not in found:
                 return
             name = found["name"]
-        self.put("language", self.word("language", name, self.text(name)))
+        self.put("language", self.reader.word("language", self.text(name), name))
 
     def gui(self, node: Node) -> None:
         if _word(node) == "null":
             return
         parts = [_text(value) for _, _, value in _pairs(node)] if node.data == "object" else self.texts(node)
         if parts and parts[0]:
-            body = Map([Entry("toolkit", self.word("toolkit", node, parts[0]))])
-            body.put("base", self.word("base", node, parts[1]) if parts[1:] else self.reader.rules.defaults["base"])
-            self.put("gui", body)
+            self.put("gui", self.reader.gui(parts, [node, node]))
 
     def option(self, node: Node) -> None:
         self.options += [text.lower() for text in self.texts(node) if text]

@@ -9,8 +9,7 @@ from robocomp_yaml.legacy.grammar import token, trees
 
 
 def convert(reader: Reader) -> ValuesDraft | None:
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     config = trees(tree, "config")[0]
     notes = reader.notes(config)
     path = f"{reader.name(config)}.pdsl"
@@ -27,7 +26,6 @@ def convert(reader: Reader) -> ValuesDraft | None:
             continue
         seen.add(name)
         parameters.put(name, value("", literal(node)), reader.notes(node))
-    if parameters.entries:
-        document.put("parameters", parameters)
+    document.put_some("parameters", parameters)
     reader.placed.around.foot[:0] = notes.foot
     return ValuesDraft(document, reader.placed.around)

@@ -6,7 +6,7 @@ from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy import literals
-from robocomp_yaml.legacy.document import List, Map, Notes, Raw, Value
+from robocomp_yaml.legacy.document import TRUE, List, Map, Notes, Raw, Value
 from robocomp_yaml.legacy.draft import ParametersDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees
 
@@ -14,8 +14,7 @@ LITERALS = ("STRING", "NUMBER", "BOOLEAN")
 
 
 def convert(reader: Reader) -> ParametersDraft | None:
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     component = trees(tree, "component")[0]
     notes = reader.notes(component)
     document, parameters = Map(block=True), Map(block=True)
@@ -31,7 +30,7 @@ def convert(reader: Reader) -> ParametersDraft | None:
         body = _parameter(reader, node)
         flag = next((token(found, "FLAG") for found in trees(node, "flag")), None)
         if flag == "T":
-            body.put("editable", Raw("true"))
+            body.put("editable", TRUE)
             if not told:
                 what = reader.rules.repairs["flag"]
                 reader.diagnostics.append(codes.GUESSED.at(reader.span(flag), name=reader.name(component), what=what))
@@ -48,10 +47,7 @@ def _parameter(reader: Reader, node: Tree[Token]) -> Map:
     body.put("type", kind)
     limits = [literals.value(end) for found in trees(node, "range") for end in found.children if isinstance(end, Token)]
     if limits and kind in ("int", "float", "double"):
-        listed = List()
-        for limit in limits:
-            listed.put(limit)
-        body.put("range", listed)
+        body.put("range", List.of(limits))
     default = literal(node)
     if fits(kind, default) and _inside(default, limits if kind in ("int", "float", "double") else []):
         body.put("default", value(kind, default))

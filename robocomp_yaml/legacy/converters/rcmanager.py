@@ -8,11 +8,10 @@ import msgspec
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes
+from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
 from robocomp_yaml.legacy.draft import DeploymentDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.networks import command, endpoint
-from robocomp_yaml.legacy.networks.exact import exact
 from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
 
 ATTRIBUTES = {
@@ -42,8 +41,7 @@ class _Element(msgspec.Struct, eq=False):
 
 
 def convert(reader: Reader) -> DeploymentDraft | None:
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     if trees(tree, "refused_doctype"):
         return None
     return _Converter(reader).draft(trees(tree, "element")[0])
@@ -177,3 +175,11 @@ class _Converter:
     def refused(self, refusal: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
         reason = self.reader.rules.refusals[refusal].format(text=text, **facts)
         self.reader.diagnostics.append(codes.REFUSED.at(self.reader.span(node), reason=reason))
+
+
+_NUMBER = re.compile(r"-?(?:0|[1-9][0-9]{0,15})(?:\.[0-9]{1,17})?")
+
+
+def exact(text: str) -> str | Raw:
+    """A plain number where it is one; everything else is text, in quotes where it has to be."""
+    return Raw(text) if _NUMBER.fullmatch(text) else text

@@ -9,6 +9,7 @@ import msgspec
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
+from robocomp_yaml.digraph import reached
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import MachineDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees
@@ -28,8 +29,7 @@ class _Block(msgspec.Struct, eq=False):
 
 def convert(reader: Reader) -> MachineDraft | None:
     """The document of a file's machine."""
-    tree = reader.parsed.tree
-    assert tree is not None
+    tree = reader.tree
     return _Converter(reader).draft(tree)
 
 
@@ -122,14 +122,10 @@ class _Converter:
 
     def _circles(self, top: _Block, inner: list[_Block]) -> None:
         """Every state is somewhere in the machine, not only in itself."""
-        todo, reached = list(top.states), set[ScxmlState]()
-        while todo:
-            state = todo.pop()
-            reached.add(state)
-            todo += [child for child in state.states if child not in reached]
+        placed = reached(top.states, lambda state: state.states)
         for block in inner:
             parent = self.known.get(block.name)
-            if parent is not None and parent not in reached:
+            if parent is not None and parent not in placed:
                 self._refused("refused_circle", block.tree, block.name)
 
     def _transitions(self, block: _Block) -> None:

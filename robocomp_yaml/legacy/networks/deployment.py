@@ -9,7 +9,8 @@ import msgspec
 
 from robocomp_yaml.diag.codes import managers as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
+from robocomp_yaml.digraph import reached
+from robocomp_yaml.legacy.document import List, Map, Notes, Raw
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
 from robocomp_yaml.legacy.networks.components import Known, match
 from robocomp_yaml.legacy.networks.entries import COMMON, Site, component_entry, program_entry
@@ -54,8 +55,7 @@ class _Builder(msgspec.Struct, eq=False):
         notes = self.network.notes
         document, services, components = Map(block=True), Map(block=True), Map(block=True)
         document.put("deployment", self.name, Notes(notes.head, notes.tail))
-        if hosts:
-            document.put("hosts", self.hosts_map(hosts))
+        document.put_some("hosts", self.hosts_map(hosts))
         kept = Map(block=True)
         for node in nodes:
             self.judge(node)
@@ -66,13 +66,10 @@ class _Builder(msgspec.Struct, eq=False):
                 self.keep(kept, node)
             else:
                 components.put(node.name, self.entry(node, hosts), node.notes)
-        if services.entries:
-            document.put("services", services)
+        document.put_some("services", services)
         document.put("components", components)
-        if kept.entries:
-            self.network.extra.put("nodes", kept)
-        if self.network.extra.entries:
-            document.put(self.key, self.network.extra)
+        self.network.extra.put_some("nodes", kept)
+        document.put_some(self.key, self.network.extra)
         document.entries[-1].notes.foot += notes.foot
         return document
 
@@ -202,19 +199,12 @@ class _Builder(msgspec.Struct, eq=False):
 
     def is_in_circle(self, node: Node) -> bool:
         """Whether it waits, by way of others, for itself: a deployment passes over one of these dependences."""
-        todo, seen = list(self.waits.get(node.name, ())), set[str]()
-        while todo:
-            name = todo.pop()
-            if name == node.name:
-                return True
-            if name not in seen:
-                seen.add(name)
-                todo += self.waits.get(name, ())
-        return False
+        waits = self.waits
+        return node.name in reached(waits.get(node.name, ()), lambda name: waits.get(name, ()))
 
     def keep_dependences(self, node: Node) -> None:
         """The dependences as the file has them, where `after:` does not say the same."""
-        node.extra.put("dependence", List([Entry("", alias) for alias, _, _ in node.after]))
+        node.extra.put("dependence", List.of(alias for alias, _, _ in node.after))
 
 
 def _spellings(known: Sequence[Known]) -> dict[str, str]:

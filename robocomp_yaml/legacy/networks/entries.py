@@ -34,16 +34,11 @@ def program_entry(node: Node, host: str, after: List, key: str, *, process: str 
         made.put("process", process)
     elif command is not None:
         made.put("program", command.words[0], node.by_key.get("program"))
-        if host:
-            made.put("host", host)
-        if command.folder:
-            made.put("cwd", command.folder, node.by_key.get("cwd"))
-        args = list(command.full[1:])
-        if args:
-            made.put("args", List([Entry("", word) for word in args]))
+        made.put_some("host", host)
+        made.put_some("cwd", command.folder, node.by_key.get("cwd"))
+        made.put_some("args", List.of(command.full[1:]))
     if node.endpoint is not None:
-        endpoints = Map()
-        endpoints.put(node.interface, node.endpoint.text)
+        endpoints = Map([Entry(node.interface, node.endpoint.text)])
         made.put("endpoints", endpoints, node.by_key.get("endpoints"))
     return _closed(made, node, after, key)
 
@@ -60,11 +55,8 @@ def component_entry(
     executable = _below(command.program, command.folder, home)
     if executable and executable != f"bin/{component.name}" and os.path.isfile(os.path.join(home, executable)):
         made.put("executable", executable)
-    if host:
-        made.put("host", host)
-    args = command.words[command.words.index(command.program) + 1 :]
-    if args:
-        made.put("args", List([Entry("", word) for word in args]))
+    made.put_some("host", host)
+    made.put_some("args", List.of(command.words[command.words.index(command.program) + 1 :]))
     if command.config:
         made.put("config", _config(command, home, site))
     if node.endpoint is not None:
@@ -74,8 +66,7 @@ def component_entry(
         serving = [other for other in depends if other.interface.lower() == interface.lower()]
         if len(serving) == 1:
             connect.put(proxy, serving[0].name)
-    if connect.entries:
-        made.put("connect", connect)
+    made.put_some("connect", connect)
     return _closed(made, node, after, key), problem
 
 
@@ -89,15 +80,11 @@ def _ports(made: Map, node: Node, component: Known) -> str:
     port = Raw(str(endpoint.port))
     notes = node.by_key.get("endpoints")
     if endpoint.options or endpoint.protocol not in ("tcp", "default"):
-        endpoints = Map()
-        endpoints.put(name, endpoint.text)
-        made.put("endpoints", endpoints, notes)
+        made.put("endpoints", Map([Entry(name, endpoint.text)]), notes)
     elif name == served[0]:
         made.put("port", port, notes)
     else:
-        ports = Map()
-        ports.put(name, port)
-        made.put("ports", ports, notes)
+        made.put("ports", Map([Entry(name, port)]), notes)
     return ""
 
 
@@ -121,15 +108,13 @@ def _below(path: str, folder: str, home: str) -> str:
 
 def _closed(made: Map, node: Node, after: List, key: str) -> Map:
     """The entry with what it waits for, and with what only an exporter needs and cannot know otherwise."""
-    if after.items:
-        made.put("after", after)
+    made.put_some("after", after)
     known = _known_anyway(node, made)
     for entry in list(node.extra.entries):
         if entry.key in known and entry.value == known[entry.key]:
             node.extra.entries.remove(entry)
             node.notes.add(entry.notes)
-    if node.extra.entries:
-        made.put(key, node.extra)
+    made.put_some(key, node.extra)
     return made
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw, Value
+from robocomp_yaml.legacy.document import TRUE, Entry, List, Map, Notes, Raw, Value
 from robocomp_yaml.legacy.settings.entries import STRING
 from robocomp_yaml.legacy.settings.headers import free
 from robocomp_yaml.legacy.settings.plan import Path, Plan, Spelled
 from robocomp_yaml.legacy.settings.shapes import Field, ListOf, Record, Scalar, Shape, leaves
+from robocomp_yaml.source.allowances import GUESSED
 
-MARK = "rcyaml: guessed"
+MARK = f"rcyaml: {GUESSED}"
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 
 
@@ -28,15 +29,13 @@ class _Writer:
         document = Map(block=True)
         document.put("component", component)
         parameters = self.parameters([plan for plan in plans if not plan.built_in])
-        if self.types.entries:
-            document.put("types", self.types)
+        document.put_some("types", self.types)
         document.put("parameters", parameters)
         legacy = Map(block=True)
         for plan in plans:
             if plan.spelled is not None:
                 legacy.put(".".join(plan.path), _spelling(plan.spelled))
-        if legacy.entries:
-            document.put("legacy", legacy)
+        document.put_some("legacy", legacy)
         return document
 
     def parameters(self, plans: Sequence[Plan]) -> Map:
@@ -57,7 +56,7 @@ class _Writer:
             if _is_sometimes_empty(plan):
                 body.put("default", "")
             elif plan.optional:
-                body.put("optional", Raw("true"))
+                body.put("optional", TRUE)
             self._code_name(body, plan.path, siblings)
             short = body.entries[0].value if len(body.entries) == 1 and body.entries[0].key == "type" else body
             notes = Notes(tail=[MARK]) if plan.guessed else Notes()
@@ -75,10 +74,8 @@ class _Writer:
             body.put("as", own)
 
     def type(self, shape: Shape, name: str, plan: Plan, body: Map) -> None:
-        if isinstance(shape, ListOf):
-            body.put("list", self.element(shape.element, name, plan))
-        else:
-            body.put("type", self.element(shape, name, plan))
+        key, element = ("list", shape.element) if isinstance(shape, ListOf) else ("type", shape)
+        body.put(key, self.element(element, name, plan))
 
     def element(self, shape: Shape, name: str, plan: Plan) -> Value:
         if isinstance(shape, Scalar):
@@ -106,9 +103,8 @@ class _Writer:
         body = Map()
         self.type(field.shape, field.name, plan, body)
         if field.optional:
-            body.put("optional", Raw("true"))
-        if doc:
-            body.put("doc", doc)
+            body.put("optional", TRUE)
+        body.put_some("doc", doc)
         self._code_name(body, (field.name,), used)
         return body.entries[0].value if len(body.entries) == 1 and body.entries[0].key == "type" else body
 
@@ -123,25 +119,11 @@ def _spelling(spelled: Spelled) -> Value:
     if not (spelled.columns or spelled.separators or spelled.fields or spelled.first or "{i}" in spelled.key):
         return spelled.key
     body = Map()
-    if spelled.fields:
-        body.put("fields", Map([Entry(name, key) for name, key in spelled.fields.items()]))
-    else:
-        body.put("key", spelled.key)
-    if spelled.first:
-        body.put("first", Raw(str(spelled.first)))
-    if spelled.columns:
-        body.put("columns", _texts(spelled.columns))
-        if spelled.separator != ",":
-            body.put("separator", spelled.separator)
-    if spelled.separators:
-        body.put("separators", _texts(spelled.separators))
-        if spelled.trailing:
-            body.put("trailing", Raw("true"))
+    body.put_some("fields", Map([Entry(name, key) for name, key in spelled.fields.items()]))
+    body.put_some("key", "" if spelled.fields else spelled.key)
+    body.put_some("first", Raw(str(spelled.first)) if spelled.first else None)
+    body.put_some("columns", List.of(spelled.columns))
+    body.put_some("separator", spelled.separator if spelled.columns and spelled.separator != "," else "")
+    body.put_some("separators", List.of(spelled.separators))
+    body.put_some("trailing", TRUE if spelled.separators and spelled.trailing else None)
     return body
-
-
-def _texts(texts: Sequence[str]) -> List:
-    listed = List()
-    for text in texts:
-        listed.put(text)
-    return listed

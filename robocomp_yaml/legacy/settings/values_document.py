@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
 
@@ -12,7 +12,7 @@ from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, STRING, TO
 from robocomp_yaml.legacy.settings.plan import Config, Path, Plan
 from robocomp_yaml.legacy.settings.shapes import plain, written
 from robocomp_yaml.legacy.settings.sorting import Named
-from robocomp_yaml.source.properties import unquoted
+from robocomp_yaml.semantics.texts import unquoted
 
 
 class Links(msgspec.Struct, frozen=True):
@@ -27,45 +27,26 @@ def values_document(config: Config, plans: Sequence[Plan], links: Links, *, exac
     found, dialect = config.sorted, config.sorted.dialect
     document = Map(block=True)
     document.put("component", links.component)
-    parameters = _parameters(config, plans)
-    if parameters.entries:
-        document.put("parameters", parameters)
-    _put_section(document, "endpoints", found.endpoints, dialect)
-    proxies = Map(block=True)
-    for named in found.proxies:
-        body: Value = _text(named)
-        if named.key:
-            body = Map([Entry("proxy", body), Entry("key", named.key)])
-        proxies.put(named.name, body, named.setting.notes)
-    if proxies.entries:
-        document.put("proxies", proxies)
-    topics = Map(block=True)
-    for named in found.manager:
-        topics.put("manager", _text(named), named.setting.notes)
-    _put_section(topics, "prefix", found.prefixes, dialect)
-    _put_section(topics, "name", found.names, dialect)
-    if topics.entries:
-        document.put("topics", topics)
-    ice = Map(block=True)
-    for named in found.ice:
-        ice.put(named.name, _text(named) if dialect == CLASSIC else _typed(named), named.setting.notes)
-    if ice.entries:
-        document.put("ice", ice)
-    properties = Map(block=True)
-    for named in found.properties:
-        properties.put(named.name, named.setting.raw or _verbatim(named), named.setting.notes)
-    if properties.entries:
-        document.put("properties", properties)
+    document.put_some("parameters", _parameters(config, plans))
+    document.put_some("endpoints", _section(found.endpoints, _text))
+    document.put_some("proxies", _section(found.proxies, _proxy))
+    topics = _section(found.manager, _text)
+    topics.put_some("prefix", _section(found.prefixes, _text))
+    topics.put_some("name", _section(found.names, _text))
+    document.put_some("topics", topics)
+    document.put_some("ice", _section(found.ice, _text if dialect == CLASSIC else _typed))
+    document.put_some("properties", _section(found.properties, lambda named: named.setting.raw or _verbatim(named)))
     document.put("legacy", _legacy(config, plans, links, exact))
     return document
 
 
-def _put_section(document: Map, title: str, entries: Sequence[Named], dialect: str) -> None:
-    section = Map(block=True)
-    for named in entries:
-        section.put(named.name, _text(named), named.setting.notes)
-    if section.entries:
-        document.put(title, section)
+def _section(entries: Sequence[Named], value: Callable[[Named], Value]) -> Map:
+    return Map([Entry(named.name, value(named), named.setting.notes) for named in entries], block=True)
+
+
+def _proxy(named: Named) -> Value:
+    body = _text(named)
+    return Map([Entry("proxy", body), Entry("key", named.key)]) if named.key else body
 
 
 def _text(named: Named) -> Value:
@@ -105,16 +86,10 @@ def _parameters(config: Config, plans: Sequence[Plan]) -> Map:
 def _legacy(config: Config, plans: Sequence[Plan], links: Links, exact: bool) -> Map:
     body = Map()
     body.put("file", links.file)
-    if config.sorted.dialect != CLASSIC:
-        body.put("dialect", config.sorted.dialect)
-    if links.after:
-        body.put("after", links.after)
-    originals = Map(block=True)
-    if config.sorted.dialect != TOML:
-        for key, raw in _originals(config, plans, exact):
-            originals.put(key, raw)
-    if originals.entries:
-        body.put("exact", originals)
+    body.put_some("dialect", config.sorted.dialect if config.sorted.dialect != CLASSIC else "")
+    body.put_some("after", links.after)
+    originals = _originals(config, plans, exact) if config.sorted.dialect != TOML else ()
+    body.put_some("exact", Map([Entry(key, raw) for key, raw in originals], block=True))
     return body
 
 

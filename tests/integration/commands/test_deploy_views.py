@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import io
 import sys
 from collections.abc import Callable
@@ -38,7 +39,11 @@ def test_progress_takes_one_line_of_a_narrow_terminal_for_each(monkeypatch: pyte
     monkeypatch.setattr(sys, "stdout", terminal)
     monkeypatch.setenv("COLUMNS", "12")
     name = "a-process-with-a-long-name"
-    Progress(True, False, [name]).report(Event(name, STARTING))
+
+    async def work() -> None:
+        Progress(True, False, [name]).report(Event(name, STARTING))
+
+    asyncio.run(work())
     assert terminal.getvalue() == "a-process-…\n"
 
 

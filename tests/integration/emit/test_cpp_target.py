@@ -5,33 +5,17 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
 import pytest
 
-from conftest import ROOT, write_tree
+from conftest import ROOT
 from mouth import MOUTH
-from robocomp_yaml import pipeline
-from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.component import of_language
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.transactions.plan import ONCE
 
 TEMPLATES = ROOT / "robocomp_yaml" / "languages" / "cpp" / "templates"
-
-
-@pytest.fixture
-def link(tmp_path: Path) -> Callable[[Mapping[str, str]], LinkedComponent]:
-    """`link({path: YAML})`: the one component among the documents."""
-
-    def linked(documents: Mapping[str, str]) -> LinkedComponent:
-        analysis = pipeline.analyse([str(write_tree(tmp_path, documents))])
-        assert [d for d in analysis.diagnostics if d.severity == ERROR] == []
-        (component,) = analysis.program.components.values()
-        return component
-
-    return linked
 
 
 Link = Callable[[Mapping[str, str]], LinkedComponent]

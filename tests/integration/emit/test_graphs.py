@@ -20,7 +20,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.graphs import picture as parts
 from robocomp_yaml.emit.graphs.forms import draw
 from robocomp_yaml.emit.graphs.geometry import LABEL, Block, Geometry, geometry_of
-from robocomp_yaml.emit.graphs.layers import layers
+from robocomp_yaml.emit.graphs.grid import layers
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.of_network import picture_of
 from robocomp_yaml.emit.graphs.picture import Box, Line, Node, Picture

@@ -16,7 +16,7 @@ from test_exports import one, systemd_words
 from conftest import write_tree
 from robocomp_yaml.emit.exports import Unwritable, export, noted
 from robocomp_yaml.emit.exports._units import Unit, folder, quoted
-from robocomp_yaml.emit.exports._xml import element
+from robocomp_yaml.emit.xml_text import element
 
 
 @pytest.mark.parametrize("value", ["a\nb", "a\rb", "a\0b", "\x1b[0m", "a\x85b", "a\u2029b", "a\tb", "a\\"])

@@ -10,7 +10,7 @@ import pytest
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.codes import forms as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
-from robocomp_yaml.emit.form import text
+from robocomp_yaml.emit.windows import text
 
 BASES = ("QWidget", "QMainWindow", "QDialog")
 

@@ -15,7 +15,7 @@ from jinja2 import Environment, UndefinedError, nodes
 from robocomp_yaml import languages, resources
 from robocomp_yaml.emit import render
 
-FOLDERS = (resources.folder("templates"), *(language.templates for language in languages.table().values()))
+FOLDERS = (Path(resources.folder("templates")), *(Path(language.templates) for language in languages.table().values()))
 TEMPLATES = sorted(path for folder in FOLDERS for path in folder.rglob("*.j2"))
 
 # `{{ name.field }}`, for, if of a flag, include; and the list that a `for` goes over.

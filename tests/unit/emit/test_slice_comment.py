@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from robocomp_yaml.emit.slice import literal, quoted
 from robocomp_yaml.emit.slice_comment import WIDTH, comment
-from robocomp_yaml.emit.slice_literal import literal, quoted
 from robocomp_yaml.model.interface import Literal
 
 

@@ -10,7 +10,7 @@ import pytest
 from conftest import write_tree
 from robocomp_yaml.emit.component import of_language
 from robocomp_yaml.languages.cpp.machine_text import string as cpp_string
-from robocomp_yaml.languages.python.machine_text import text as python
+from robocomp_yaml.languages.python.statemachine import text as python
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.transactions.plan import FilePlan
 

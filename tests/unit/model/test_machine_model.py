@@ -6,10 +6,11 @@ from dataclasses import fields, replace
 from pathlib import Path
 
 from conftest import ROOT, write_tree
-from robocomp_yaml.emit.machines import tables
 from robocomp_yaml.emit.machines.lower import lower
+from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import StateMachine
 from robocomp_yaml.pipeline import analyse
+from robocomp_yaml.semantics import tables
 
 INLINE = """
   initial: initialize
@@ -60,11 +61,11 @@ SCXML = """<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="C"
 """
 
 
-def machine_of(folder: Path, statemachine: str, scxml: str = "") -> StateMachine:
+def machine_of(folder: Path, statemachine: str, scxml: str = "", *, is_faulty: bool = False) -> StateMachine:
     document = f"component: C\nlanguage: python\nstatemachine:{statemachine}"
     write_tree(folder, {"c/c.cdsl.yaml": document, "c/c.scxml": scxml or "<a/>"})
     analysis = analyse([str(folder)])
-    assert not analysis.diagnostics
+    assert is_faulty or not analysis.diagnostics
     [component] = analysis.program.components.values()
     assert component.machine is not None
     return component.machine
@@ -83,16 +84,22 @@ def _sorted(machine: tables.Machine) -> tables.Machine:
     return replace(machine, states=states, transitions=tuple(sorted(machine.transitions, key=repr)))
 
 
-def test_the_run_times_have_the_same_tables() -> None:
-    languages = ROOT / "robocomp_yaml" / "languages"
-
-    names: dict[str, object] = {}
-    exec((languages / "python" / "templates" / "machine" / "tables.py").read_text(encoding="utf-8"), names)
-    header = (languages / "cpp" / "templates" / "machine" / "tables.h").read_text(encoding="utf-8")
+def test_the_run_time_of_cpp_has_the_same_tables() -> None:
+    header = (ROOT / "robocomp_yaml/languages/cpp/templates/machine/tables.h").read_text(encoding="utf-8")
     for table in vars(tables).values():
         if isinstance(table, type) and table.__module__ == tables.__name__:
             own = [field.name for field in fields(table)]
-            assert [field.name for field in fields(names[table.__name__])] == own  # type: ignore[arg-type]
             body = header.partition(f"\nstruct {table.__name__}\n")[2].partition("\n};")[0]
             members = [line.split("=")[0].rstrip("; ").split()[-1] for line in body.splitlines()[1:] if line.strip()]
             assert members == own
+
+
+def test_states_alike_in_all_they_say_are_told_apart(tmp_path: Path) -> None:
+    twins = "<parallel><state><state/></state><state><state/></state></parallel><state><state/></state>"
+    scxml = f'<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0">{twins}</scxml>'
+    machine = machine_of(tmp_path, " c.scxml\n", scxml, is_faulty=True)
+    index = MachineIndex(machine)
+    assert [state.number for state in index.states] == list(range(8))
+    homes = [index.parent(state) for state in index.states]
+    assert [home.number if home else None for home in homes] == [None, 0, 1, 2, 1, 4, 0, 6]
+    assert [one.number for one in index.ancestors(list(machine.states)[4])] == [4, 1, 0]

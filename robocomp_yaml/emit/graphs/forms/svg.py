@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from xml.sax.saxutils import escape
 
@@ -19,8 +18,8 @@ from robocomp_yaml.emit.graphs.geometry import (
 from robocomp_yaml.emit.graphs.measure import shortened, width
 from robocomp_yaml.emit.graphs.picture import Fault, Node, Picture
 from robocomp_yaml.emit.graphs.routes import Net
+from robocomp_yaml.emit.xml_text import IMPOSSIBLE
 
-_IMPOSSIBLE = re.compile("[^\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _ROUND = 4.0
 _COLORS = 6
 """Lines of different targets have different colours, so that the eye can follow them."""
@@ -173,4 +172,4 @@ def _place(block: Block) -> str:
 
 def _text(text: str) -> str:
     """A text as XML's; what XML cannot hold is left out."""
-    return escape(_IMPOSSIBLE.sub("", text))
+    return escape(IMPOSSIBLE.sub("", text.replace("\r", "")))

@@ -1,0 +1,114 @@
+"""Effective values made complete: defaults filled in at every level.
+
+What nobody gives comes from defaults alone, which are the same for all documents of values. Records that are given and
+lack something are completed by Cerberus. It is a hundred times slower than the compiled schema that tells, so of many
+records that lack the same it sees one.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from robocomp_yaml.parameters.defaults import defaults
+from robocomp_yaml.parameters.documents import ResolvedParameters
+from robocomp_yaml.parameters.schema.gate import fits, of_complete
+from robocomp_yaml.parameters.schema.json_schema import COMPLETE
+from robocomp_yaml.parameters.types import BasicType, ListType, MapType, Member, RecordType, Type
+
+Data = dict[str, Any]
+Completer = Callable[[Any], Any]
+
+
+def complete_at_once(linked: ResolvedParameters, data: Data) -> Data | None:
+    """Values that lack nothing but parameters which have defaults; None for all others, right or wrong."""
+    whole = _defaults(linked) | data
+    return _in_order(linked.parameters.root, whole) if fits(linked, COMPLETE, whole) else None
+
+
+def completed(linked: ResolvedParameters, data: Data) -> Data:
+    """Values that the gate let pass (without null), with their defaults."""
+    root = linked.parameters.root
+    completers = linked.once("completers", lambda: {m.name: _completer(m.type) or _as_it_is for m in root.members})
+    given = {name: completers[name](value) for name, value in data.items()}
+    return _in_order(root, _defaults(linked) | given)
+
+
+def _defaults(linked: ResolvedParameters) -> Data:
+    return linked.once("defaults", lambda: defaults(linked.parameters.root))
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
+
+
+def _in_order(record: RecordType, data: Data) -> Data:
+    return {member.name: data[member.name] for member in record.members if member.name in data}
+
+
+def _completer(type_: Type) -> Completer | None:
+    """What completes values of a type; None where they never lack anything."""
+    match type_:
+        case ListType(element=element) | MapType(element=element):
+            inner = _completer(element)
+            return None if inner is None else partial(_entries, inner)
+        case RecordType(members=members) if any(m.default is not None or _completer(m.type) for m in members):
+            return _Records(type_).complete
+        case _:
+            return None
+
+
+def _entries(inner: Completer, value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: inner(entry) for name, entry in value.items()}
+    return [inner(item) for item in value]
+
+
+class _Records:
+    """Completes records of a type. `added` is what those with these keys lacked."""
+
+    def __init__(self, type_: RecordType) -> None:
+        self.type = type_
+        self.is_complete = of_complete(type_).is_valid
+        self.added: dict[tuple[str, ...], Data] = {}
+        self.normalize: Completer | None = None
+
+    def complete(self, data: Data) -> Data:
+        keys = tuple(data)
+        if keys in self.added and self.is_complete(whole := _in_order(self.type, data | self.added[keys])):
+            return whole
+        if self.is_complete(data):
+            return data
+        if self.normalize is None:
+            from cerberus import Validator  # slow to import, and seldom wanted
+
+            self.normalize = Validator(_rules(self.type)).normalized
+        whole = _in_order(self.type, self.normalize(data))
+        self.added[keys] = {name: value for name, value in whole.items() if name not in data}
+        return whole
+
+
+def _rules(record: RecordType) -> Data:
+    """Cerberus's rules for what a record lacks; whether the rest is right has been judged."""
+    return {member.name: _rules_of(member.type) | _default(member) for member in record.members}
+
+
+def _default(member: Member) -> Data:
+    data = {} if member.is_group else None if member.default is None else member.default.data
+    return {} if data is None else {"default_setter": lambda document: copy.deepcopy(data)}
+
+
+def _rules_of(type_: Type) -> Data:
+    match type_:
+        case ListType(element=element):
+            return {"type": "list", "schema": _rules_of(element)}
+        case MapType(element=element):
+            return {"type": "dict", "valuesrules": _rules_of(element)}
+        case RecordType():
+            return {"type": "dict", "schema": _rules(type_)}
+        case BasicType(is_integer=True):
+            return {"coerce": lambda value: int(value) if isinstance(value, float) else value}  # 1.0 is a whole number
+        case _:
+            return {}

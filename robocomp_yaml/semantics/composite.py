@@ -1,0 +1,195 @@
+# Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
+"""The types of parameters that hold others: lists, maps and records; and the members of records.
+
+All values are immutable: lists become tuples, maps read-only mappings, records instances of their classes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, Union
+
+from . import limits
+from .paths import Path, in_words
+from .plain import Plain, Taking, shown
+from .references import Unresolved
+from .secrecy import HIDDEN
+
+Kind = Union[Plain, "Listing", "Naming", "Recording"]
+
+
+class _Sized:
+    """What has entries: `at_least` to `at_most` of them."""
+
+    def __init__(self, element: Kind, at_least: int = 0, at_most: int | None = None) -> None:
+        self.element = element
+        self._at_least, self._at_most = at_least, at_most
+
+    def check_size(self, count: int, path: Path, taking: Taking) -> None:
+        if not limits.has_size(count, self._at_least, self._at_most):
+            entries, wanted = limits.entries(count), limits.size_in_words(self._at_least, self._at_most)
+            taking.refuse(path, f"has {entries}, and must have {wanted}", entries, wanted)
+
+
+class Listing(_Sized):
+    def __init__(self, element: Kind, at_least: int = 0, at_most: int | None = None, unique: bool = False) -> None:
+        super().__init__(element, at_least, at_most)
+        self._unique = unique
+
+    def take(self, raw: Any, path: Path, taking: Taking) -> Any:
+        if not isinstance(raw, (list, tuple)):
+            taking.refuse(path, f"must be {limits.LIST}, and is {shown(raw)}", shown(raw), limits.LIST)
+            return None
+        self.check_size(len(raw), path, taking)
+        items = tuple(self.element.take(item, (*path, place), taking) for place, item in enumerate(raw))
+        known = [item for item in items if item is not None]
+        if self._unique and len(set(known)) < len(known):
+            twice = next(item for place, item in enumerate(known) if item in known[:place])
+            said = self.element.shown(twice) if isinstance(self.element, Plain) else shown(twice)
+            taking.refuse(path, f"holds {said} twice", said, "entries that all differ")
+        return items
+
+
+class Naming(_Sized):
+    """Maps: values by name."""
+
+    def take(self, raw: Any, path: Path, taking: Taking) -> Any:
+        if not isinstance(raw, Mapping) or not all(isinstance(name, str) for name in raw):
+            taking.refuse(path, f"must be {limits.MAP}, and is {shown(raw)}", shown(raw), "a mapping")
+            return None
+        self.check_size(len(raw), path, taking)
+        return MappingProxyType({name: self.element.take(item, (*path, name), taking) for name, item in raw.items()})
+
+
+class Member:
+    """A member of a record. `key` is its name in documents and paths, `attribute` the one in code."""
+
+    attribute = ""
+
+    def __init__(
+        self, kind: Kind, key: str, has_default: bool, default: Any, is_optional: bool, is_editable: bool
+    ) -> None:
+        self.kind = kind
+        self.key = key
+        self.has_default, self.default = has_default, default
+        self.is_optional = is_optional
+        self.is_editable = is_editable
+
+    @property
+    def reads_as_empty(self) -> bool:
+        """Whether a text or list without a property is an empty one."""
+        return not self.has_default and not self.is_optional
+
+
+_NOTHING = object()
+
+
+def member(
+    kind: Kind, *, default: Any = _NOTHING, optional: bool = False, editable: bool = False, key: str = ""
+) -> Any:
+    """Declares a member in the class of a record."""
+    has_default = default is not _NOTHING
+    return Member(kind, key, has_default, default if has_default else None, optional, editable)
+
+
+class Record:
+    """A group of values: they can be read and compared, never changed."""
+
+    __hash__ = None  # type: ignore[assignment]
+    __members__: tuple[Member, ...] = ()
+
+    def __init_subclass__(cls) -> None:
+        own = {name: value for name, value in vars(cls).items() if isinstance(value, Member)}
+        for name, value in own.items():
+            value.attribute, value.key = name, value.key or name
+            delattr(cls, name)  # what is read is the instance's
+        cls.__members__ = (*cls.__members__, *own.values())
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"{type(self).__name__}.{name} cannot be set: parameters change through set()")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"{type(self).__name__}.{name} cannot be deleted")
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and all(
+            getattr(other, member.attribute) == getattr(self, member.attribute) for member in self.__members__
+        )
+
+    def __repr__(self) -> str:
+        pairs = ((member, getattr(self, member.attribute)) for member in self.__members__)
+        said = (f"{m.attribute}={HIDDEN if _hides(m.kind) and value else repr(value)}" for m, value in pairs)
+        return f"{type(self).__name__}({', '.join(said)})"
+
+
+def _hides(kind: Kind) -> bool:
+    """Whether plain values of a type, or those that it holds, are secret."""
+    while isinstance(kind, _Sized):
+        kind = kind.element
+    return isinstance(kind, Plain) and kind.is_secret
+
+
+class Recording:
+    """Records of a class; `is_group` when their members stand directly in their parent's document."""
+
+    def __init__(self, made: type[Record], *, is_group: bool = False) -> None:
+        self.made = made
+        self.is_group = is_group
+        self.members = {member.key: member for member in made.__members__}
+
+    def take(self, raw: Any, path: Path, taking: Taking) -> Any:
+        if isinstance(raw, self.made):
+            raw = {member.key: getattr(raw, member.attribute) for member in self.members.values()}
+            raw = {key: value for key, value in raw.items() if value is not None}
+        if not isinstance(raw, Mapping):
+            words = limits.record_in_words(self.members)
+            taking.refuse(path, f"must be {words}, and is {shown(raw)}", shown(raw), words)
+            return None
+        for key in raw:
+            if key not in self.members:
+                taking.refuse((), f"there is no parameter '{in_words((*path, str(key)))}'")
+        made = self.made()
+        for member in self.members.values():
+            object.__setattr__(made, member.attribute, self._member(member, raw, (*path, member.key), taking))
+        return made
+
+    def _member(self, member: Member, raw: Mapping[str, Any], path: Path, taking: Taking) -> Any:
+        if member.key in raw:
+            return member.kind.take(raw[member.key], path, taking)
+        if member.has_default:
+            return member.kind.take(member.default, path, Taking())  # the compiler has checked it
+        if isinstance(member.kind, Recording) and member.kind.is_group:
+            return member.kind.take({}, path, taking)
+        if not member.is_optional:
+            taking.refuse(path, "has no value, and no default")
+        return None
+
+
+def listing(element: Kind, **more: Any) -> Kind:
+    return Listing(element, **more)
+
+
+def naming(element: Kind, **more: Any) -> Kind:
+    return Naming(element, **more)
+
+
+def record(made: type[Record]) -> Kind:
+    return Recording(made)
+
+
+def group(made: type[Record]) -> Kind:
+    return Recording(made, is_group=True)
+
+
+def data(kind: Kind, value: Any) -> Any:
+    """A value as plain data: dictionaries, lists, numbers, texts; what is optional and left out is left out. References
+    that were not followed are as documents have them."""
+    if isinstance(kind, Recording):
+        pairs = ((member, getattr(value, member.attribute)) for member in kind.members.values())
+        return {member.key: data(member.kind, item) for member, item in pairs if item is not None}
+    if isinstance(kind, Listing):
+        return [data(kind.element, item) for item in value]
+    if isinstance(kind, Naming):
+        return {name: data(kind.element, item) for name, item in value.items()}
+    return dict(value.data) if isinstance(value, Unresolved) else value

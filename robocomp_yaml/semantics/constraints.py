@@ -1,0 +1,155 @@
+# Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
+"""What must hold between values. One that is not known, such as an optional one that is left out, is None: so is what
+is made of it, unless the rest decides. A constraint that stays unknown holds."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+Part = Callable[[], Any]
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """`text` is as the document says it, `otherwise` what to say when it does not hold."""
+
+    text: str
+    otherwise: str
+    value: Callable[[Any], Any]
+
+    def holds(self, values: Any) -> bool:
+        return holds(lambda: self.value(values))
+
+
+class _Unknown(Exception):
+    """A list that is not there is asked for its entries."""
+
+
+def holds(part: Part) -> bool:
+    """Whether it is true or unknown. A division by zero, or an entry that is not there, does not hold."""
+    try:
+        return part() is not False
+    except (ArithmeticError, LookupError, ValueError):
+        return False
+
+
+def every(*parts: Part) -> Any:
+    return all_of(part() for part in parts)
+
+
+def some(*parts: Part) -> Any:
+    return any_of(part() for part in parts)
+
+
+def opposite(truth: Any) -> Any:
+    return None if truth is None else not truth
+
+
+def attribute(owner: Any, name: str) -> Any:
+    return None if owner is None else getattr(owner, name)
+
+
+def entry(owner: Any, index: Any) -> Any:
+    if owner is None or index is None:
+        return None
+    if isinstance(index, int) and index < 0:
+        raise LookupError(index)
+    return owner[index]
+
+
+_BINARY: dict[str, Callable[[Any, Any], Any]] = {
+    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "%": operator.mod,
+    "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
+    "in": lambda one, many: one in many, "not in": lambda one, many: one not in many,
+}  # fmt: skip
+
+
+def arithmetic(sign: str, left: Any, right: Any = 0) -> Any:
+    return None if left is None or right is None else _BINARY[sign](left, right)
+
+
+def compare(first: Any, *rest: Any) -> Any:
+    """`compare(a, "<", b, "<=", c)`."""
+    return all_of(compared(first, zip(rest[::2], rest[1::2])))
+
+
+def compared(left: Any, rest: Iterable[tuple[str, Any]]) -> Iterator[Any]:
+    """What each comparison of a chain comes to."""
+    for sign, right in rest:
+        unknown = left is None or right is None or (isinstance(right, tuple) and None in right)
+        yield None if unknown else _BINARY[sign](left, right)
+        left = right
+
+
+def known(many: Any) -> Any:
+    """The list to go through."""
+    if many is None:
+        raise _Unknown
+    return many
+
+
+def when(condition: Any, element: Part) -> Iterator[Any]:
+    """The element, unless the condition leaves it out."""
+    if condition is None:
+        yield None
+    elif condition:
+        yield element()
+
+
+def call(function: Callable[[Any], Any], operand: Part) -> Any:
+    """A function of something that may be unknown, or hold what is."""
+    try:
+        argument = operand()
+        if argument is None:
+            return None
+        if function is all:
+            return all_of(argument)
+        if function is any:
+            return any_of(argument)
+        if isinstance(argument, Iterator):
+            argument = tuple(argument)
+        return None if isinstance(argument, tuple) and None in argument else function(argument)
+    except _Unknown:
+        return None
+
+
+def unique(parts: Iterable[Any]) -> bool:
+    every_one = tuple(parts)
+    return len(set(every_one)) == len(every_one)
+
+
+def keys(mapping: Mapping[str, Any]) -> tuple[str, ...]:
+    return tuple(mapping)
+
+
+def values(mapping: Mapping[str, Any]) -> tuple[Any, ...]:
+    return tuple(mapping.values())
+
+
+FUNCTIONS: dict[str, Callable[[Any], Any]] = {
+    "len": len, "min": min, "max": max, "abs": abs, "sum": sum, "all": all, "any": any, "unique": unique, "keys": keys,
+    "values": values,
+}  # fmt: skip
+
+
+def all_of(parts: Iterable[Any]) -> Any:
+    unknown = False
+    for part in parts:
+        if part is None:
+            unknown = True
+        elif not part:
+            return False
+    return None if unknown else True
+
+
+def any_of(parts: Iterable[Any]) -> Any:
+    unknown = False
+    for part in parts:
+        if part is None:
+            unknown = True
+        elif part:
+            return True
+    return None if unknown else False

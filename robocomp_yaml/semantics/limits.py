@@ -1,0 +1,111 @@
+# Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
+"""What values of a type may be: kinds, ranges, sizes, and how that is said."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from math import isfinite, trunc
+from numbers import Integral, Real
+from types import MappingProxyType
+from typing import Any, Optional, Union
+
+Number = Union[int, float]
+LIMITS: dict[str, tuple[Number, Number]] = {
+    "int": (-(2**31), 2**31 - 1),
+    "long": (-(2**63), 2**63 - 1),
+    "float": (-3.4028234663852886e38, 3.4028234663852886e38),
+    "double": (-1.7976931348623157e308, 1.7976931348623157e308),
+}
+INTEGERS = ("int", "long")
+WORDS = {"bool": "true or false", "string": "text", "int": "a whole number", "long": "a whole number"}
+WORDS |= dict.fromkeys(("float", "double"), "a number")
+"""What a value of a plain type is, for messages."""
+LIST, MAP = "a list", "a mapping of names to values"
+
+
+def record_in_words(names: Collection[str]) -> str:
+    return f"a mapping of {', '.join(names)}"
+
+
+def one_of(values: Collection[str], secret: bool = False) -> str:
+    """Which values something may have, for messages: of a secret, only how many."""
+    return f"one of the {len(values)} values allowed" if secret else f"one of {', '.join(values)}"
+
+
+def is_of(type_: str, data: Any) -> bool:
+    """Whether data is of the kind of a plain type. A bool is no number, 2.0 is a whole number, and neither NaN nor an
+    infinity is any."""
+    if type_ == "bool":
+        return isinstance(data, bool)
+    if type_ not in LIMITS:
+        return isinstance(data, str)
+    if isinstance(data, bool) or not isinstance(data, Real):
+        return False
+    return isinstance(data, Integral) or (isfinite(data) and (type_ not in INTEGERS or data == trunc(data)))
+
+
+CHOICE, PATTERN, RANGE, LIMIT = "choice", "pattern", "range", "limit"
+_NO_ENDS: Mapping[str, Number] = MappingProxyType({})
+Matches = Optional[Callable[[str], bool]]
+
+
+def outside(
+    type_: str, value: Any, values: Collection[Any] = (), ends: Mapping[str, Number] = _NO_ENDS, matches: Matches = None
+) -> str:
+    """Why a value of the right kind is not allowed: CHOICE for none of the values there are, PATTERN for a text that
+    does not match, RANGE for a number beyond the ends that `holds` takes, LIMIT for one that its type cannot hold; or
+    ''."""
+    if values:
+        return "" if value in values else CHOICE
+    if type_ not in LIMITS:
+        return "" if matches is None or matches(value) else PATTERN
+    if not holds(value, **ends):
+        return RANGE
+    least, most = LIMITS[type_]
+    return "" if least <= value <= most else LIMIT
+
+
+def limits_in_words(type_: str) -> str:
+    """What its type can hold."""
+    least, most = LIMITS[type_]
+    return f"from {least} to {most} ({type_})"
+
+
+def holds(
+    value: Number,
+    at_least: Number | None = None,
+    at_most: Number | None = None,
+    above: Number | None = None,
+    below: Number | None = None,
+) -> bool:
+    """Whether a number is within limits: `at_least` and `at_most` may be reached, `above` and `below` not."""
+    return not (
+        (at_least is not None and value < at_least)
+        or (at_most is not None and value > at_most)
+        or (above is not None and value <= above)
+        or (below is not None and value >= below)
+    )
+
+
+def range_in_words(at_least: object = None, at_most: object = None, above: object = None, below: object = None) -> str:
+    """`from 0 to 2`, `at least 0`, `above 0 and at most 5`."""
+    if at_least is not None and at_most is not None:
+        return f"from {at_least} to {at_most}"
+    ends = {"at least": at_least, "above": above, "at most": at_most, "below": below}
+    return " and ".join(f"{word} {end}" for word, end in ends.items() if end is not None)
+
+
+def has_size(count: int, least: int, most: int | None) -> bool:
+    return least <= count and (most is None or count <= most)
+
+
+def size_in_words(least: int, most: int | None) -> str:
+    if most is None:
+        return f"at least {least}"
+    if least == most:
+        return f"exactly {least}"
+    return f"from {least} to {most}" if least else f"at most {most}"
+
+
+def entries(count: int) -> str:
+    return f"{count} entr{'y' if count == 1 else 'ies'}"

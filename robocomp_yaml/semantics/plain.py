@@ -1,0 +1,220 @@
+# Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
+"""The types of plain parameters: what values they take, from data or from text, and how they say so."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from math import trunc
+from numbers import Real
+from typing import Any
+
+from . import limits, references, texts
+from .limits import Number
+from .paths import Path, in_words
+from .problems import Problem
+from .secrecy import HIDDEN, url
+
+
+@dataclass
+class Taking:
+    """Values being taken. `is_text`: plain values are legacy texts. `references` are the paths of values that were
+    given by reference, with the reference."""
+
+    is_text: bool = False
+    problems: list[Problem] = field(default_factory=list)
+    references: dict[Path, str] = field(default_factory=dict)
+
+    def refuse(self, path: Path, message: str, value: str = "", wanted: str = "", unit: str = "") -> None:
+        name = in_words(path)
+        self.problems.append(Problem(name, f"{name} {message}" if name else message, value, wanted, unit))
+
+
+class Plain:
+    """A type of plain values. `name` is the type's, `unit` that of its numbers;
+    `takes_any_text`: a text is a value as it stands; `is_secret`: it is never shown."""
+
+    unit = ""
+    takes_any_text = False
+    is_secret = False
+
+    def __init__(self, name: str, words: str = "") -> None:
+        self.name = name
+        self.words = words or limits.WORDS[name]  # what a value is
+
+    def take(self, raw: Any, path: Path, taking: Taking) -> Any:
+        """The value that `raw` stands for; a problem goes to `taking` where there is none."""
+        raw = references.referred(raw)
+        if isinstance(raw, references.Unresolved):
+            return raw
+        if isinstance(raw, references.Missing):
+            taking.refuse(path, raw.why)
+            return None
+        if isinstance(raw, references.Referred):
+            taking.references[path] = raw.reference
+        is_text = isinstance(raw, references.Referred) or (taking.is_text and isinstance(raw, str))
+        value = self.read(raw) if is_text else self.of(raw)
+        if value is None:
+            unit = f" ({self.unit})" if self.unit else ""
+            wanted = f"{self.words}{unit}"
+            said = self.shown(raw)
+            taking.refuse(path, f"must be {wanted}, and is {said}", said, wanted, self.unit)
+        elif wanted := self.limit(value):
+            unit = f" {self.unit}" if self.unit else ""
+            said = self.shown(raw) if self.takes_any_text else self.shown(raw).strip("'")
+            taking.refuse(path, f"is {said}{unit}, and must {wanted}", said, wanted, self.unit)
+        return value
+
+    def shown(self, raw: Any) -> str:
+        """A value of this type, or what was to be one, for messages."""
+        is_hidden = self.is_secret and isinstance(raw, (str, Real)) and not isinstance(raw, references.Referred)
+        return HIDDEN if is_hidden else shown(raw)
+
+    def one_of(self, values: Sequence[Any]) -> str:
+        """Which values it may have, for messages."""
+        return limits.one_of(tuple(map(str, values)), self.is_secret)
+
+    def of(self, raw: Any) -> Any:
+        """The value of data of the right type, else None."""
+        raise NotImplementedError
+
+    def read(self, text: str) -> Any:
+        """The value that a text spells, or None."""
+        return str(text) if self.takes_any_text else texts.read(self.name, text)
+
+    def limit(self, value: Any) -> str:
+        """What the value must do to be within the limits, or ''."""
+        return ""
+
+
+def shown(raw: Any) -> str:
+    """A value for messages, shortened."""
+    if isinstance(raw, references.Referred):
+        return raw.reference
+    text = repr(url(raw)) if isinstance(raw, str) else texts.spelled(raw)
+    if raw is None or isinstance(raw, (list, tuple)) or hasattr(raw, "keys"):
+        text = "nothing" if raw is None else "a mapping" if hasattr(raw, "keys") else "a list"
+    return text if len(text) <= 60 else f"{text[:59]}…"
+
+
+class Truth(Plain):
+    def __init__(self) -> None:
+        super().__init__("bool")
+
+    def of(self, raw: Any) -> Any:
+        return raw if limits.is_of("bool", raw) else None
+
+
+class Numeric(Plain):
+    """Numbers, within limits: `at_least` and `at_most` may be reached, `above` and `below` not."""
+
+    def __init__(
+        self,
+        name: str,
+        values: Sequence[Number] = (),
+        at_least: Number | None = None,
+        at_most: Number | None = None,
+        above: Number | None = None,
+        below: Number | None = None,
+        unit: str = "",
+    ) -> None:
+        super().__init__(name)
+        self.values = values
+        ends = {"at_least": at_least, "at_most": at_most, "above": above, "below": below}
+        self._ends = {name: end for name, end in ends.items() if end is not None}
+        self.unit = unit
+
+    def limit(self, value: Any) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        fault = limits.outside(self.name, value, self.values, self._ends)
+        if fault == limits.CHOICE:
+            return f"be {self.one_of(self.values)}{unit}"
+        if fault == limits.RANGE:
+            return f"be {limits.range_in_words(**self._ends)}{unit}"
+        return f"be {limits.limits_in_words(self.name)}" if fault else ""
+
+
+class Whole(Numeric):
+    def of(self, raw: Any) -> Any:
+        return trunc(raw) if limits.is_of(self.name, raw) else None
+
+
+class Decimal(Numeric):
+    def of(self, raw: Any) -> Any:
+        if not limits.is_of(self.name, raw):
+            return None
+        try:
+            return float(raw)
+        except OverflowError:
+            return raw  # no type can hold it
+
+
+class Text(Plain):
+    """Text; `pattern` must match all of it."""
+
+    takes_any_text = True
+
+    def __init__(self, values: Sequence[str] = (), pattern: str = "", shown_as: str = "") -> None:
+        super().__init__("string")
+        self.values = values
+        self._pattern = re.compile(pattern) if pattern else None
+        self._shown_as = shown_as or pattern
+
+    def of(self, raw: Any) -> Any:
+        return str(raw) if limits.is_of(self.name, raw) else None
+
+    def matches(self, value: str) -> bool:
+        return self._pattern is None or self._pattern.fullmatch(value) is not None
+
+    def limit(self, value: Any) -> str:
+        fault = limits.outside(self.name, value, self.values, matches=self.matches)
+        return (
+            f"be {self.one_of(self.values)}" if fault == limits.CHOICE else f"match {self._shown_as}" if fault else ""
+        )
+
+
+class Choice(Plain):
+    """One of an enum's names."""
+
+    takes_any_text = True
+
+    def __init__(self, name: str, names: Sequence[str]) -> None:
+        super().__init__(name, self.one_of(names))
+        self.names = names
+
+    def of(self, raw: Any) -> Any:
+        return str(raw) if limits.is_of("string", raw) else None
+
+    def limit(self, value: Any) -> str:
+        return f"be {self.words}" if limits.outside(self.name, value, self.names) else ""
+
+
+def truth() -> Plain:
+    return Truth()
+
+
+def whole(name: str, **more: Any) -> Plain:
+    """`name` is int (32 bits) or long (64)."""
+    return Whole(name, **more)
+
+
+def decimal(name: str, **more: Any) -> Plain:
+    """`name` is float or double: the range, since values are kept as Python's floats."""
+    return Decimal(name, **more)
+
+
+def text(**more: Any) -> Plain:
+    return Text(**more)
+
+
+def choice(name: str, *names: str) -> Plain:
+    return Choice(name, names)
+
+
+def secret(kind: Plain) -> Plain:
+    """The same type, of values that are never shown."""
+    kind.is_secret = True
+    if isinstance(kind, Choice):
+        kind.words = kind.one_of(kind.names)
+    return kind

@@ -1,0 +1,91 @@
+"""Data as YAML text, so that our reader gives the same data back: scalars, comments, and all on one line."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+_PLAIN = re.compile(r"(?:[A-Za-z_/]|\.\.?/)[A-Za-z0-9_./ -]*[A-Za-z0-9_./-]\Z|[A-Za-z_/]\Z")
+_UNREADABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]")
+_NOT_TEXT = frozenset(("true", "false", "null", "yes", "no", "on", "off", "y", "n"))
+
+# What a plain scalar must not look like: null, booleans, numbers (also those with leading zeros, which we refuse).
+_READ_OTHERWISE = re.compile(
+    r"""(?: ~ | null | Null | NULL | true | True | TRUE | false | False | FALSE | <<
+        | [-+]?[0-9]+ | 0x[0-9a-fA-F]+ | 0o[0-7]+
+        | [-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?
+        | [-+]?\.(?:inf|Inf|INF) | \.(?:nan|NaN|NAN) )""",
+    re.VERBOSE,
+)
+_BAD_START = re.compile(r"[-?:](?:\s|$)|[,\[\]{}#&*!|>'\"%@`]|---|\.\.\.|\s")
+_BAD_INSIDE = re.compile(r":(?:\s|$)|\s\#|\s$|[\t\n\r]")
+_BAD_IN_FLOW = re.compile(r"[,\[\]{}:?]|^-")
+_UNPRINTABLE = re.compile("[^\x09\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+
+
+def scalar(data: Any) -> str:
+    """A plain value; text in quotes unless nothing could take it for anything else."""
+    if data is None:
+        return "null"
+    if isinstance(data, bool):
+        return "true" if data else "false"
+    if not isinstance(data, str):
+        return _number(data)
+    return data if _PLAIN.match(data) and data.lower() not in _NOT_TEXT else quoted(data)
+
+
+def _number(data: int | float) -> str:
+    text = repr(data)
+    return {"inf": ".inf", "-inf": "-.inf", "nan": ".nan"}.get(text, text)
+
+
+def quoted(text: str) -> str:
+    """In double quotes. JSON's escapes are YAML's, but for DEL and the C1 controls, which YAML cannot hold bare."""
+    return _UNREADABLE.sub(_escape, json.dumps(text, ensure_ascii=False))
+
+
+def single_quoted(text: str) -> str:
+    return "'" + text.replace("'", "''") + "'" if text.isprintable() else quoted(text)
+
+
+def _escape(found: re.Match[str]) -> str:
+    return {"\n": "\\n", "\t": "\\t"}.get(found[0], f"\\u{ord(found[0]):04x}")
+
+
+def text_of(text: str, *, in_flow: bool = False) -> str:
+    """A text, in quotes only where it has to be: where it would be read as something else, or could not stand there.
+    `in_flow`: it stands inside of `[]` or `{}`."""
+    bad = not text or _READ_OTHERWISE.fullmatch(text) or _BAD_START.match(text) or _BAD_INSIDE.search(text)
+    if bad or _UNPRINTABLE.search(text) or (in_flow and _BAD_IN_FLOW.search(text)):
+        return single_quoted(text) if "'" not in text and re.search(r'["\\]', text) else quoted(text)
+    return text
+
+
+def is_printable(text: str) -> bool:
+    """Whether a text of several lines can stand in a block scalar."""
+    return not _UNPRINTABLE.search(text.replace("\n", ""))
+
+
+def comment(text: str) -> str:
+    """Text as a comment of one line can hold it."""
+    return f"# {_UNREADABLE.sub(_escape, text)}".rstrip()
+
+
+def escaped(text: str) -> tuple[str, bool]:
+    """A line of a comment with unprintable characters as escapes, and whether there were any."""
+    return _UNPRINTABLE.subn(_code, text)[0], bool(_UNPRINTABLE.search(text))
+
+
+def _code(found: re.Match[str]) -> str:
+    code = ord(found[0])
+    return f"\\x{code:02X}" if code < 0x100 else f"\\u{code:04X}"
+
+
+def flow(data: Any) -> str:
+    """Any data, as flow collections."""
+    if isinstance(data, dict):
+        return "{" + ", ".join(f"{scalar(key)}: {flow(value)}" for key, value in data.items()) + "}"
+    if isinstance(data, list):
+        return "[" + ", ".join(flow(item) for item in data) + "]"
+    return scalar(data)

@@ -1,0 +1,166 @@
+"""Flat configs as documents of parameters and values: each case is one rule, with what is written for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+
+Run = Callable[..., Result]
+Golden = Callable[[str, Mapping[str, str]], None]
+
+SPEECH = "module RoboCompSpeech { interface Speech { void say(string text); }; interface News { void told(string text); }; };\n"
+CDSL = (
+    'import "Speech.idsl";\nComponent SpeechComp { Communications { implements Speech; requires Speech; '
+    "publishes News; }; language python; };\n"
+)
+
+CASES: dict[str, tuple[str, ...]] = {
+    "rows count from zero or from one": (
+        "M0 = a,1,true\nM1 = b,2,false\nJoint_1 = x, 0.5\nJoint_2 = y, 1.5\nJoint_3 = z, 2\n",
+    ),
+    "rows whose numbers have gaps carry their number": ("Cam3 = front,640\nCam17 = back,320\nOther = 1\n",),
+    "numbers with gaps are no rows where another key begins alike": ("Cam3 = front,640\nCam17 = back,320\nCamera = 1\n",),
+    "a key with a zero in front keeps it": ("M00 = a,1\nM01 = b,2\n",),
+    "rows of different lengths are texts": ("Row0 = a,1\nRow1 = b,2,3\n",),
+    "a longer row in another config has optional columns": ("M0 = a,1\nM1 = b,2\n", "M0 = a,1,5\n"),
+    "configs that disagree about columns keep texts": ("# name,most\nM0 = a,1\n", "# most,title,third\nM0 = 1,b,c\n"),
+    "columns are called by the comment above": ("# name (its name),min angle (rad),max\nM0 = a,1,2\nM1 = b,1,2\n",),
+    "columns are called by a comment with a label": ("# Motors: name, id, speed\nMotor0 = a,1,2.5\nMotor1 = b,2,3\n",),
+    "prose above rows names no columns": ("# this is for the two\nM0 = a,1,2,3,4\nM1 = b,1,2,3,4\n",),
+    "a comment far above names nothing": ("# name,most\n" + "\n" * 30 + "M0 = a,1\nM1 = b,2\n",),
+    "a column that is named twice gets a number": ("# x,y,x\nM0 = 1,2,3\nM1 = 1,2,3\n",),
+    "blanks behind commas stay": ("M0 = a, 1, 2\nM1 = b, 3, 4\nN0 = a,1\nN1 = b,2\n",),
+    "ranges": ("ID:0-10 = 100 # size\nID:11-20 = 200 # size\nOther:1-2 = 5\n",),
+    "a range with commas is none": ("ID:0-10 = 100,5\n",),
+    "fields that count alike are one list": ("rx_0 = 1\nry_0 = 2\nrx_1 = 3.5\nry_1 = 4\n",),
+    "fields with a count beside them are called by it": ("num_cameras = 1\nname_0 = front\nwidth_0 = 640\n",),
+    "one field alone is no list of records": ("name_0 = front\nwidth = 640\n",),
+    "fields in groups stay there": ("cams.x0 = 1\ncams.y0 = 2\ncams.x1 = 3\ncams.y1 = 4\n",),
+    "lists": (
+        "Names = a,b,c\nPairs = a,1;b,2\nEnded = a;b;\nTwo = a,b\nComma = 0,5\nPath = /a b, c\nUrl = http://a,b,c\n"
+        "Empty = ,\nSpaced = a, b, c\n",
+    ),
+    "a list in one config is one in all": ("Names = a,b,c\n", "Names = a\n", "Names =\n"),
+    "plain values": (
+        "Ba = true\nBb = False\nBc = on\nIa = 0\nIb = -5\nIc = 2147483647\nId = 2147483648\nIe = 9223372036854775808\n"
+        "Fa = 1.\nFb = .5\nFc = 1e5\nFd = 1e39\nFe = 1e400\nZa = 007\nZb = -0\nZc = +3\nTa = 1.2.3\nTb = 0x1F\n",
+    ),
+    "the least type that fits all configs": (
+        "A = 1\nB = 1\nC = true\nD = 3000000000\nE = 1\nF = x\n", "A = 1.5\nB = x\nC = 1\nD = 0.5\nE = 3000000000\nF = y\n",
+    ),
+    "what one config lacks is optional": ("A = 1\nB = x\nC =\n", "A = 2\n", "A = 3\nB = \n"),
+    "names that code cannot have": ("a-b = 1\na.b-c = 2\n2d = 3\nclass = 4\na_b = 5\n",),
+    "a parameter and a group of one name": ("a = 1\na.b = 2\na.c = 3\n",),
+    "groups": ("Arm.Left.x = 1\nArm.Left.y = 2\nArm.name = a\n",),
+    "periods": ("Period = 50\nPeriod.Compute = 20\nx = 1\n",),
+    "connections and what Ice has": (
+        "Speech.Endpoints = tcp -p 10001\nSpeechProxy = speech:tcp -h localhost -p 10002\nCamProxy = cam:tcp -p 3\n"
+        "viewer = viewer:tcp -p 4\nTopicManager.Proxy = IceStorm/TopicManager:default -p 9999\nNews = News\n"
+        "NewsTopic = Daily\nIce.Warn.Connections = 0\nIceStorm.Trace = 1\n"
+        "InnerModelPath = a.xml\nSpeech = other\n",
+    ),
+    "flat TOML is told by its keys": (
+        "Endpoints.Speech = tcp -p 10001\nProxies.Speech = speech:tcp -p 2\nProxies.SpeechPrefix = robot1\n"
+        "Proxies.TopicManager = IceStorm/TopicManager:default -p 9999\nIce.Warn.Connections = 0\nArm.n = 1\nx = a b\n",
+    ),
+    "references stay as they are": ("key = ${env:KEY}\nother = ${file:a}\n",),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("rule", CASES)
+def test_flat_configs(rule: str, rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+    names = ("config", "config_a", "config_b")
+    files = {f"speech/etc/{name}": text for name, text in zip(names, CASES[rule], strict=False)}
+    write_tree(tmp_path, {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
+    golden(f"settings/{rule.replace(' ', '-')}", migrated(rcyaml, tmp_path))
+
+
+def migrated(rcyaml: Run, folder: Path, *arguments: str) -> dict[str, str]:
+    """What is written of parameters and values, behind what is said."""
+    result = rcyaml("migrate", ".", *arguments)
+    told = "".join(line + "\n" for line in result.output.splitlines() if "config" in line or "guessed" in line)
+    written = [path for path in sorted(folder.rglob("*.yaml")) if path.name.endswith(("pdsl.yaml", "config.yaml"))]
+    documents = {path.name: path.read_text(encoding="utf-8").partition("\n")[2] for path in written}
+    checked = rcyaml("check", ".")
+    assert "error[" not in checked.output and "RC0062" not in checked.output, checked.output
+    return {"said.txt": told, **documents}
+
+
+TOML = """\
+# at the top
+Title = "it"
+n = 5
+list = [1, 2.5]
+texts = ["a", "b"]
+on = true
+
+[Endpoints]
+Speech = "tcp -p 10001"  # here
+[Proxies]
+Speech = "speech:tcp -p 2"
+TopicManager = "IceStorm/TopicManager:default -p 9999"
+NewsPrefix = "robot1"
+[Ice]
+Warn.Connections = 0
+[Arm]
+name = "left"
+joints = [{name = "a", most = 1.5}, {name = "b", most = 2}]
+"""
+
+
+def test_a_config_in_toml(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+    files = {"speech/etc/config.toml": TOML}
+    write_tree(tmp_path, {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
+    golden("settings/toml", migrated(rcyaml, tmp_path))
+
+
+RULES = "names: {M: [name, most]}\ntypes: {A: float, B.c: string}\ntext: [Zip]\n"
+
+
+def test_what_the_user_knows_better(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+    config = "M0 = a,1\nM1 = b,2\nN0 = a,1\nN1 = b,2\nA = 1\nB.c = 5\nZip = 1,2,3\n"
+    files = {"speech/etc/config": config, "rules.yaml": RULES}
+    write_tree(tmp_path, {"interfaces/Speech.idsl": SPEECH, "speech/speech.cdsl": CDSL, **files})
+    golden("settings/corrected", migrated(rcyaml, tmp_path, "--rules", "rules.yaml", "--names", "N=title,count"))
+
+
+@pytest.mark.parametrize(
+    ("names", "rules", "problem"),
+    [
+        ("M", None, "--names takes KEY=a,b,c, not 'M'"),
+        ("=a,b", None, "--names takes KEY=a,b,c, not '=a,b'"),
+        ("M=a,2d", None, "--names M needs a list of names, of letters, digits and underscores"),
+        ("M=a,,b", None, "--names M needs a list of names, of letters, digits and underscores"),
+        ("M=a,b,a", None, "--names M has a name twice"),
+        ("", "- a\n", "rules.yaml is no YAML mapping of names, types and text"),
+        ("", "a: [\n", "rules.yaml is no YAML mapping of names, types and text: "),
+        ("", "nmes: {}\n", "rules.yaml has the key 'nmes'; there are names, types and text"),
+        ("", "names: [a]\n", "rules.yaml: names is a mapping of keys"),
+        ("", "names: {M: a}\n", "rules.yaml: M needs a list of names, of letters, digits and underscores"),
+        ("", "names: {M: [a, a]}\n", "rules.yaml: M has a name twice"),
+        ("", "types: {A: integer}\n", "rules.yaml: A cannot be 'integer'; the types are bool, int, long, float, double, string"),
+        ("", "text: Zip\n", "rules.yaml: text is a list of keys"),
+    ],
+)  # fmt: skip
+def test_corrections_that_cannot_be_meant(
+    rcyaml: Run, tmp_path: Path, names: str, rules: str | None, problem: str
+) -> None:
+    write_tree(tmp_path, {"speech/etc/config": "M0 = a,1\n", "rules.yaml": rules or ""})
+    given = ["--names", names] if names else ["--rules", "rules.yaml"]
+    result = rcyaml("migrate", ".", *given)
+    assert result.exit_code == 2 and problem in " ".join(result.output.split()), result.output
+
+
+def test_parameters_that_somebody_declared_are_taken_as_they_are(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+    declared = "component: speech.cdsl.yaml\nparameters:\n  A: float\n  B: {group: {c: {type: string}}}\n  L: {list: int, default: []}\n"
+    config = "A = 1\nB.c = 5\nD = 7\nM0 = a,1\nM1 = b,2\nL = 1,2,3\n"
+    cdsl = "component: SpeechComp\nlanguage: python\n"
+    write_tree(
+        tmp_path, {"speech/speech.cdsl.yaml": cdsl, "speech/speech.pdsl.yaml": declared, "speech/etc/config": config}
+    )
+    golden("settings/declared", migrated(rcyaml, tmp_path))

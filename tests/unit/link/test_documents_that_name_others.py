@@ -1,0 +1,148 @@
+"""Documents that name each other: what is said where one is not there, is another, or does not name it back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from in_memory import said
+
+C = "component: SpeechComp\nlanguage: python\n"
+P = "component: speech.cdsl.yaml\nparameters: {a: {type: int, default: 1}}\n"
+A = "module: RoboCompA\n"
+CASES: dict[str, dict[str, str]] = {
+    "parameters that are not there": {"speech.cdsl.yaml": C + "parameters: spech.pdsl.yaml\n", "speech.pdsl.yaml": P},
+    "parameters without their ending": {"speech.cdsl.yaml": C + "parameters: speech\n", "speech.pdsl.yaml": P},
+    "parameters in no folder": {"speech.cdsl.yaml": C + "parameters: nowhere/speech.pdsl.yaml\n"},
+    "parameters that are a folder": {
+        "speech.cdsl.yaml": C + "parameters: more\n",
+        "more/x.pdsl.yaml": "parameters: {}\n",
+    },
+    "parameters that are a component": {
+        "speech.cdsl.yaml": C + "parameters: speech.cdsl.yaml\n",
+        "other.pdsl.yaml": "parameters: {a: int}\n",
+    },
+    "parameters that are no document": {"speech.cdsl.yaml": C + "parameters: notes.txt\n", "notes.txt": "x"},
+    "a component that is not there": {
+        "speech.cdsl.yaml": C,
+        "x.pdsl.yaml": "component: spech.cdsl.yaml\nparameters: {a: int}\n",
+    },
+    "a component by its name": {"speech.cdsl.yaml": C, "x.pdsl.yaml": "component: SpeechComp\nparameters: {a: int}\n"},
+    "a component by its name elsewhere": {
+        "s/speech.cdsl.yaml": C,
+        "p/x.pdsl.yaml": "component: SpeechComp\nparameters: {a: int}\n",
+        "rcyaml.yaml": "{}\n",
+    },
+    "a component that is a folder": {"s/speech.cdsl.yaml": C, "x.pdsl.yaml": "component: s\nparameters: {a: int}\n"},
+    "a component that is an interface": {
+        "A.idsl.yaml": A,
+        "speech.cdsl.yaml": C,
+        "x.pdsl.yaml": "component: A.idsl.yaml\nparameters: {a: int}\n",
+    },
+    "two documents for one component": {"speech.cdsl.yaml": C, "speech.pdsl.yaml": P, "more.pdsl.yaml": P},
+    "the component names another than names it": {
+        "speech.cdsl.yaml": C + "parameters: more.pdsl.yaml\n",
+        "speech.pdsl.yaml": P,
+        "more.pdsl.yaml": "parameters: {a: int}\n",
+    },
+    "parameters of another component": {
+        "speech.cdsl.yaml": C + "parameters: other/o.pdsl.yaml\n",
+        "other/o.cdsl.yaml": "component: O\nlanguage: python\n",
+        "other/o.pdsl.yaml": "component: o.cdsl.yaml\nparameters: {a: int}\n",
+    },
+    "parameters that nobody claims": {"speech.cdsl.yaml": C, "x.pdsl.yaml": "parameters: {a: int}\n"},
+    "parameters elsewhere": {
+        "speech/speech.cdsl.yaml": C,
+        "p/x.pdsl.yaml": "component: ../speech/speech.cdsl.yaml\nparameters: {a: {type: int, default: 1}}\n",
+    },
+    "values of no component": {"speech.cdsl.yaml": C, "speech.pdsl.yaml": P, "x.config.yaml": "parameters: {a: 2}\n"},
+    "values of a component that is not there": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "x.config.yaml": "component: spech.cdsl.yaml\nparameters: {a: 2}\n",
+    },
+    "values by the parameters": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "x.config.yaml": "component: speech.pdsl.yaml\nparameters: {a: x}\n",
+    },
+    "values of the component around": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "etc/config.yaml": "parameters: {a: x}\n",
+    },
+    "values that extend what is not there": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "x.config.yaml": "component: speech.cdsl.yaml\nextends: [bse.config.yaml]\n",
+        "base.config.yaml": "parameters: {a: 2}\n",
+    },
+    "values that extend themselves": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "x.config.yaml": "component: speech.cdsl.yaml\nextends: [x.config.yaml]\n",
+    },
+    "values that extend each other": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "x.config.yaml": "component: speech.cdsl.yaml\nextends: [y.config.yaml]\n",
+        "y.config.yaml": "component: speech.cdsl.yaml\nextends: [x.config.yaml]\n",
+    },
+    "values that extend those of another component": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "x.config.yaml": "component: speech.cdsl.yaml\nextends: [o/y.config.yaml]\n",
+        "o/o.cdsl.yaml": "component: O\nlanguage: python\n",
+        "o/y.config.yaml": "component: o.cdsl.yaml\n",
+    },
+    "an import that is not there": {"A.idsl.yaml": A + "imports: [B]\n", "Bb.idsl.yaml": "module: RoboCompBb\n"},
+    "an import of itself": {"A.idsl.yaml": A + "imports: [A]\n"},
+    "imports in a circle": {
+        "A.idsl.yaml": A + "imports: [B]\n",
+        "B.idsl.yaml": "module: RoboCompB\nimports: [D]\n",
+        "D.idsl.yaml": "module: RoboCompD\nimports: [B]\n",
+    },
+    "an import twice": {"A.idsl.yaml": A + "imports: [B, B]\n", "B.idsl.yaml": "module: RoboCompB\n"},
+    "an import by its old name": {"A.idsl.yaml": A + "imports: [B.idsl]\n", "B.idsl.yaml": "module: RoboCompB\n"},
+    "an import by a path": {"A.idsl.yaml": A + "imports: [sub/B]\n", "sub/B.idsl.yaml": "module: RoboCompB\n"},
+    "two modules of one name": {
+        "A.idsl.yaml": A,
+        "B.idsl.yaml": A,
+        "c.cdsl.yaml": "component: C\nlanguage: python\nimports: [A, B]\n",
+    },
+    "an interface that is not there": {
+        "A.idsl.yaml": A + "interfaces: {Arm: {methods: {go: }}}\n",
+        "c.cdsl.yaml": "component: C\nlanguage: python\nimports: [A]\nimplements: [Amr]\n",
+    },
+    "an interface of two modules": {
+        "A.idsl.yaml": A + "interfaces: {Arm: {methods: {go: }}}\n",
+        "B.idsl.yaml": "module: RoboCompB\ninterfaces: {Arm: {methods: {go: }}}\n",
+        "c.cdsl.yaml": "component: C\nlanguage: python\nimports: [A, B]\nimplements: [Arm]\n",
+    },
+    "a topic that is an interface": {
+        "A.idsl.yaml": A + "interfaces: {Arm: {methods: {go: }}}\n",
+        "c.cdsl.yaml": "component: C\nlanguage: python\nimports: [A]\npublishes: [Arm]\n",
+    },
+    "an interface without its import": {
+        "A.idsl.yaml": A + "interfaces: {Arm: {methods: {go: }}}\n",
+        "c.cdsl.yaml": "component: C\nlanguage: python\nimplements: [Arm]\n",
+    },
+    "a broken import": {
+        "A.idsl.yaml": "module: [\n",
+        "c.cdsl.yaml": "component: C\nlanguage: python\nimports: [A]\nimplements: [Arm]\n",
+    },
+    "options that mean nothing": {"A.idsl.yaml": A, "rcyaml.yaml": "lnt: {}\n"},
+    "a lint of no code": {"A.idsl.yaml": A, "rcyaml.yaml": "lint: {RC9999: 'off', RC1001: loud}\n"},
+}
+
+
+def test_what_is_said(golden: Callable[[str, Mapping[str, str]], None]) -> None:
+    golden("named", {"said.txt": "\n".join(_shown(name, documents) for name, documents in CASES.items())})
+
+
+def _shown(name: str, documents: dict[str, str]) -> str:
+    lines = [f"{name}:"]
+    for one in said(documents):
+        lines += [f"  {one.code} in {one.file}, at `{one.at}`: {one.message}"]
+        lines += [f"    hint: {one.hint}"] if one.hint else []
+        lines += [f"    {text}: `{place}`" for text, place in one.related]
+    return "\n".join([*(lines if len(lines) > 1 else [f"{name}: nothing is wrong"]), ""])

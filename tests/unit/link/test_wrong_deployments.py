@@ -1,0 +1,134 @@
+"""What is wrong with a deployment, and where: groups, names, hosts, includes, components and their configurations."""
+
+from __future__ import annotations
+
+import pytest
+
+from deployments import deployed
+from in_memory import COMPONENT, Said, said
+
+NOT_BUILT = {"rcyaml.yaml": "lint: {RC4403: 'off', RC4201: 'off'}\n"}
+ARM = "deployment: Arm\ncomponents: {elbow: {component: mouth}}\n"
+TWO = "components: {speech: {component: speech}, mouth: {component: mouth}}\n"
+
+
+def wrong(text: str, others: dict[str, str]) -> list[Said]:
+    documents = {**deployed(text, **others), **NOT_BUILT}
+    return said({name: str(content) for name, content in documents.items()}, "robot.ddsl.yaml")
+
+
+@pytest.mark.parametrize(
+    ("text", "others"),
+    [
+        ('groups: {arm: {include: arm.ddsl.yaml, expose: {Mouth: elbow}}}\n', {'arm.ddsl.yaml': ARM}),
+        ('components: {speech: {component: speech, after: [speech]}, mouth: {component: mouth}}\n', {}),
+        (TWO + 'groups: {g: {components: [mouth]}}\n', {}),
+        ('hosts: {a: 10.0.0.1, b: 10.0.0.2}\ngroups: {g: {include: arm.ddsl.yaml, host: b}}\n', {'arm.ddsl.yaml': ARM}),
+        ('hosts: {a: 10.0.0.1}\ninclude: [arm.ddsl.yaml]\n', {'arm.ddsl.yaml': ARM}),
+        ('include: {l: arm.ddsl.yaml, r: arm.ddsl.yaml}\n', {'arm.ddsl.yaml': ARM}),
+    ],
+)  # fmt: skip
+def test_nothing_is_wrong(text: str, others: dict[str, str]) -> None:
+    assert wrong(text, others) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "others", "code", "at", "message", "hint"),
+    [
+        (TWO + 'groups: {g: {components: [mouth], as: speech}}\n', {}, 'RC4010', 'speech', "no member of the group 'g' serves 'Speech'", 'add the member that implements it'),
+        (TWO + 'groups: {g: {components: [speech], as: speech, expose: {Speach: speech}}}\n', {}, 'RC4007', 'Speach', "component SpeechComp has no interface 'Speach'", "did you mean 'Speech'?"),
+        (TWO + 'groups: {g: {components: [speech, mouth], as: speech, expose: {Speech: mouth}}}\n', {}, 'RC4010', 'mouth', "no member of the group 'g' serves 'Speech'", "'mouth' serves Mouth"),
+        (TWO + 'groups: {g: {components: [mouth], expose: {Mouth: speech}}}\n', {}, 'RC4005', 'speech', "the group 'g' names 'speech', which is not there", 'it is no member of the group'),
+        (TWO + 'groups: {g: {components: [mouth], expose: {Mouth: muoth}}}\n', {}, 'RC4005', 'muoth', "the group 'g' names 'muoth', which is not there", "did you mean 'mouth'?"),
+        (TWO + 'groups: {g: {components: [mouth], expose: {Speech: mouth}}}\n', {}, 'RC4010', 'mouth', "no member of the group 'g' serves 'Speech'", "'mouth' serves Mouth"),
+        (TWO + 'groups: {g: {components: [mouth], expose: {Lips: mouth.Mouth, Other: mouth.Nothing}}}\n', {}, 'RC4010', 'mouth.Nothing', "no member of the group 'g' serves 'Other'", "'mouth.Nothing' serves Mouth"),
+        (TWO + 'groups: {g: {components: [mouth], expose: {Mouth: {member: mouth, allow: [moveTo, moveto]}}}}\n', {}, 'RC4012', 'moveto', "interface 'Mouth' has no method 'moveto'", "'moveTo' is there already"),
+        (TWO + 'groups: {g: {components: [mouth], expose: {Mouth: {member: mouth, allow: [jump]}}}}\n', {}, 'RC4012', 'jump', "interface 'Mouth' has no method 'jump'", 'there are moveTo'),
+        (TWO + 'groups: {g: {components: [muoth]}}\n', {}, 'RC4005', 'muoth', "the group 'g' names 'muoth', which is not there", "did you mean 'mouth'?"),
+        (TWO + 'groups: {g: {components: [storm]}}\nservices: {storm: {icestorm: {}}}\n', {}, 'RC4005', 'storm', "the group 'g' names 'storm', which is not there", 'a service belongs to no group'),
+        (TWO + 'groups: {g: {components: [h]}, h: {components: [g]}}\n', {}, 'RC4013', 'g', "the group 'g' contains itself", ''),
+        (TWO + 'groups: {g: {components: [g]}}\n', {}, 'RC4013', 'g', "the group 'g' contains itself", ''),
+        (TWO + 'groups: {mouth: {components: [speech]}}\n', {}, 'RC4001', 'mouth', "'mouth' names two things of this deployment", ''),
+        ('components: {a: {component: speech}, b: {component: speech}}\ngroups: {g: {components: [a, b], as: speech}}\n', {}, 'RC4011', 'speech', "several members of the group 'g' serve 'Speech': a, b", 'add `expose: {Speech: a}`, or another'),
+        ('components: {p: {program: sh}}\ngroups: {g: {components: [p], expose: {Laser: p}}}\n', {}, 'RC4010', 'p', "no member of the group 'g' serves 'Laser'", "'p' serves nothing"),
+        ('groups: {arm: {include: arm.ddsl.yaml, expose: {Mouth: elbw}}}\n', {'arm.ddsl.yaml': ARM}, 'RC4005', 'elbw', "the group 'arm' names 'elbw', which is not there", "did you mean 'arm.elbow'?"),
+        ('groups: {arm: {include: amr.ddsl.yaml}}\n', {'arm.ddsl.yaml': ARM}, 'RC4105', 'amr.ddsl.yaml', "there is no deployment 'amr.ddsl.yaml' to include", "did you mean 'arm.ddsl.yaml'?"),
+        ('components: {speech: {component: speech, after: [muoth]}, mouth: {component: mouth}}\n', {}, 'RC4005', 'muoth', "`after:` names 'muoth', which is not there", "did you mean 'mouth'?"),
+        ("components: {speech: {component: speech, after: ['mouth{i}']}, mouth: {component: mouth}}\n", {}, 'RC4005', "'mouth{i}'", "`after:` names 'mouth{i}', which is not there", '{i} counts in an entry that has `instances:` itself'),
+        ('components: {speech: {component: speech, after: [mouth.Mouth]}, mouth: {component: mouth}}\n', {}, 'RC4005', 'mouth.Mouth', "`after:` names 'mouth.Mouth', which is not there", "did you mean 'mouth'?"),
+        ('components: {mouth: {component: mouth}, m: {process: muoth}}\n', {}, 'RC4005', 'muoth', "`process:` names 'muoth', which is not there", "did you mean 'mouth'?"),
+        ('components: {mouth: {component: mouth}, m: {process: mouth}, n: {process: m}}\n', {}, 'RC4006', 'm', "'m' is itself a second name, and no process that could have a second name", ''),
+        ("components: {'m{i}': {component: mouth, instances: 2}, n: {process: 'm{i}'}}\n", {}, 'RC4006', "'m{i}'", "'m{i}' is an entry with instances, and no process that could have a second name", ''),
+        ('components: {mouth: {component: mouth}, n: {process: g}}\ngroups: {g: {components: [mouth]}}\n', {}, 'RC4006', 'g', "'g' is a group, and no process that could have a second name", ''),
+        ('components: {n: {process: storm}}\nservices: {storm: {icestorm: {}}}\n', {}, 'RC4006', 'storm', "'storm' is a service, and no process that could have a second name", ''),
+        ('components: {mouth: {component: mouth, connect: {Speech: mouth}}}\n', {}, 'RC4007', 'Speech', "component MouthComp has no proxy 'Speech'", ''),
+        ('components: {mouth: {component: mouth, ports: {Muoth: 1}}}\n', {}, 'RC4007', 'Muoth', "component MouthComp has no interface 'Muoth'", "did you mean 'Mouth'?"),
+        ('components: {mouth: {component: mouth, endpoints: {Muoth: tcp -p 1}}}\n', {}, 'RC4007', 'Muoth', "component MouthComp has no interface 'Muoth'", "did you mean 'Mouth'?"),
+        ('components: {mouth: {component: mouth, topics: {Heard: x}}}\n', {}, 'RC4007', 'Heard', "component MouthComp has no topic 'Heard'", ''),
+        ("components: {mouth: {component: mouth, ready: {log: '('}}}\n", {}, 'RC4014', "'('", "'(' is no regular expression: missing ), unterminated subpattern at position 0", ''),
+        ("components: {mouth: {component: mouth, executable: '{config}'}}\n", {}, 'RC4017', "'{config}'", "'{config}' cannot be what is started: {config} is a configuration's path, which only arguments can have", 'name what reads it, such as `program: python3, args: ["{config}"]`'),
+        ("components: {p: {program: '{config}'}}\n", {}, 'RC4017', "'{config}'", "'{config}' cannot be what is started: {config} is a configuration's path, which only arguments can have", 'name what reads it, such as `program: python3, args: ["{config}"]`'),
+        ('components: {mouth: {component: mouth, instances: 2}}\n', {}, 'RC4008', '2', "'mouth' has instances, and no {i} in its name to tell them by", "call it 'mouth{i}'"),
+        ("components: {'m{i}': {component: mouth}}\n", {}, 'RC4009', "'m{i}'", "'m{i}' counts with {i}, but does not say how many instances there are", 'add `instances:`'),
+        ('components: {storm: {component: mouth}}\nservices: {storm: {icestorm: {}}}\n', {}, 'RC4001', 'storm', "'storm' names two things of this deployment", ''),
+        ("components: {'m{i}': {component: mouth, instances: 2}, m1: {component: mouth}}\n", {}, 'RC4001', 'm1', "'m1' names two things of this deployment", ''),
+        ('hosts: {a: 10.0.0.1, b: 10.0.0.2}\ncomponents: {mouth: {component: mouth}}\n', {}, 'RC4003', 'mouth', "'mouth' does not say on which host it runs", 'add `host: a`, or another'),
+        ('hosts: {a: 10.0.0.1, b: 10.0.0.2}\ncomponents: {mouth: {component: mouth, host: c}}\n', {}, 'RC4002', 'c', "there is no host 'c'", 'there are a, b'),
+        ('hosts: {onboard: 10.0.0.1, b: 10.0.0.2}\ncomponents: {mouth: {component: mouth, host: onbord}}\n', {}, 'RC4002', 'onbord', "there is no host 'onbord'", "did you mean 'onboard'?"),
+        ('components: {mouth: {component: mouth, host: here}}\n', {}, 'RC4002', 'here', "there is no host 'here'", '`hosts:` names machines; without it all run on this one'),
+        ('hosts: {a: 10.0.0.1, b: 10.0.0.2}\nservices: {storm: {icestorm: {}}}\n', {}, 'RC4003', 'storm', "'storm' does not say on which host it runs", 'add `host: a`, or another'),
+        ('hosts: {a: 10.0.0.1, b: 10.0.0.2}\ngroups: {g: {include: arm.ddsl.yaml}}\n', {'arm.ddsl.yaml': ARM}, 'RC4003', 'arm.ddsl.yaml', "'g' does not say on which host it runs", 'write `groups: {g: {include: arm.ddsl.yaml, host: a}}`, or `hosts:` in arm.ddsl.yaml'),
+        ('hosts: {a: 10.0.0.1, b: 10.0.0.2}\ninclude: [arm.ddsl.yaml]\n', {'arm.ddsl.yaml': ARM}, 'RC4003', 'arm.ddsl.yaml', "'arm.ddsl.yaml' does not say on which host it runs", 'write `groups: {arm: {include: arm.ddsl.yaml, host: a}}`, or `hosts:` in arm.ddsl.yaml'),
+        ('hosts: {a: 10.0.0.1, b: 10.0.0.2}\ngroups: {g: {include: arm.ddsl.yaml, host: c}}\n', {'arm.ddsl.yaml': ARM}, 'RC4002', 'c', "there is no host 'c'", 'there are a, b'),
+        ('hosts: {a: 10.0.0.1}\ninclude: [arm.ddsl.yaml]\n', {'arm.ddsl.yaml': ARM + 'hosts: {a: 10.0.0.2}\n'}, 'RC4004', '10.0.0.2', "host 'a' is 10.0.0.2 in arm.ddsl.yaml, and 10.0.0.1 elsewhere in this deployment", 'one of the two needs another name'),
+        ('hosts: {a: {address: 10.0.0.1, user: x}}\ninclude: [arm.ddsl.yaml]\n', {'arm.ddsl.yaml': ARM + 'hosts: {a: 10.0.0.1}\n'}, 'RC4004', '10.0.0.1', "host 'a' is 10.0.0.1 in arm.ddsl.yaml, and x@10.0.0.1 elsewhere in this deployment", 'one of the two needs another name'),
+        ('include: [arm.ddsl.yaml, arm.ddsl.yaml]\n', {'arm.ddsl.yaml': ARM}, 'RC4107', 'arm.ddsl.yaml', "'arm.ddsl.yaml' is included twice in one name space", ''),
+        ('include: [robot.ddsl.yaml]\n', {}, 'RC4106', 'robot.ddsl.yaml', "'robot.ddsl.yaml' includes this document: robot.ddsl.yaml → robot.ddsl.yaml", 'leave one of these includes out'),
+        ('include: [arm.ddsl.yaml]\n', {'arm.ddsl.yaml': ARM + 'include: [robot.ddsl.yaml]\n'}, 'RC4106', 'arm.ddsl.yaml', "'arm.ddsl.yaml' includes this document: arm.ddsl.yaml → robot.ddsl.yaml → arm.ddsl.yaml", 'leave one of these includes out'),
+        ('include: [arm.ddsl.yaml]\ncomponents: {elbow: {component: mouth}}\n', {'arm.ddsl.yaml': ARM}, 'RC4001', 'elbow', "'elbow' names two things of this deployment", ''),
+        ('include: [arm]\n', {'arm.ddsl.yaml': ARM}, 'RC4105', 'arm', "there is no deployment 'arm' to include", ''),
+        ('include: [speech/speech.cdsl.yaml]\n', {}, 'RC4105', 'speech/speech.cdsl.yaml', "there is no deployment 'speech/speech.cdsl.yaml' to include", ''),
+        ('include: [nothing]\n', {}, 'RC4105', 'nothing', "there is no deployment 'nothing' to include", ''),
+        ('components: {m: {component: muoth}}\n', {}, 'RC4101', 'muoth', "there is no component at 'muoth'", "did you mean 'mouth'?"),
+        ('components: {m: {component: mouth/muoth.cdsl.yaml}}\n', {}, 'RC4101', 'mouth/muoth.cdsl.yaml', "there is no component at 'mouth/muoth.cdsl.yaml'", "did you mean 'mouth.cdsl.yaml'?"),
+        ('components: {m: {component: Face.idsl.yaml}}\n', {}, 'RC4101', 'Face.idsl.yaml', "there is no component at 'Face.idsl.yaml'", ''),
+        ('components: {m: {component: arm.ddsl.yaml}}\n', {'arm.ddsl.yaml': ARM}, 'RC4101', 'arm.ddsl.yaml', "there is no component at 'arm.ddsl.yaml'", ''),
+        ('components: {m: {component: nowhere/x}}\n', {}, 'RC4101', 'nowhere/x', "there is no component at 'nowhere/x'", "there is no folder 'nowhere'"),
+        ('components: {m: {component: both}}\n', {'both/a.cdsl.yaml': 'component: C\nlanguage: python\n', 'both/b.cdsl.yaml': 'component: C\nlanguage: python\n'}, 'RC4102', 'both', "there are several components in 'both'", 'name both/a.cdsl.yaml or both/b.cdsl.yaml'),
+        ('components: {m: {component: empty}}\n', {'empty/x.txt': ''}, 'RC4101', 'empty', "there is no component at 'empty'", ''),
+        ('components: {m: {component: mouth, config: my.config.yaml}}\n', {}, 'RC4103', 'my.config.yaml', "there is no configuration 'my.config.yaml': no mouth/my.config.yaml and no my.config.yaml", ''),
+        ('components: {m: {component: mouth, config: my.config.yaml}}\n', {'mouth/my.confg.yaml': '', 'mouth/your.config.yaml': 'component: mouth.cdsl.yaml\n'}, 'RC4103', 'my.config.yaml', "there is no configuration 'my.config.yaml': no mouth/my.config.yaml and no my.config.yaml", "did you mean 'my.confg.yaml'?"),
+        ('components: {m: {component: mouth, config: etc/config}}\n', {}, 'RC4103', 'etc/config', "there is no configuration 'etc/config': no mouth/etc/config and no etc/config", "there is no folder 'mouth/etc'"),
+        ('components: {m: {component: mouth, config: ../speech/x.config.yaml}}\n', {'speech/x.config.yaml': 'component: speech.cdsl.yaml\n'}, 'RC4104', '../speech/x.config.yaml', 'these are the values of SpeechComp, and this is MouthComp', 'each component has values of its own: see `component:` in this document'),
+        ('components: {m: {component: mouth, set: {period.compute: 0}}}\n', {}, 'RC3303', '0', 'period.compute is 0 ms, and must be at least 1 ms', ''),
+        ('components: {m: {component: mouth, set: {nothing: 0}}}\n', {}, 'RC3301', 'nothing', "there is no parameter 'nothing'", 'there can be: period'),
+        ('components: {m: {component: mouth, set: {period.compute: x}}}\n', {}, 'RC3302', 'x', "period.compute must be a whole number (ms), and is the text 'x'", ''),
+    ],
+)  # fmt: skip
+def test_what_is_wrong(text: str, others: dict[str, str], code: str, at: str, message: str, hint: str) -> None:
+    assert [one[:4] for one in wrong(text, others)] == [(code, at, message, hint)]
+
+
+@pytest.mark.parametrize(
+    ("text", "others", "related"),
+    [
+        (TWO + "groups: {mouth: {components: [speech]}}\n", {}, [("it stands here first", "mouth")]),
+        ("components: {a: {component: speech}, b: {component: speech}}\ngroups: {g: {components: [a, b], as: speech}}\n", {},
+         [("'a' stands here", "a"), ("'b' stands here", "b")]),
+        (TWO + "groups: {g: {components: [mouth], expose: {Mouth: {member: mouth, allow: [jump]}}}}\n", {}, [("the interface", "Mouth")]),
+        (TWO + "groups: {g: {components: [mouth], as: speech}}\n", {}, [("it is to be offered", "Speech")]),
+        ("hosts: {a: 10.0.0.1}\ninclude: [arm.ddsl.yaml]\n", {"arm.ddsl.yaml": ARM + "hosts: {a: 10.0.0.2}\n"},
+         [("the other one", "10.0.0.1"), ("included here", "arm.ddsl.yaml")]),
+        ("components: {mouth: {component: mouth, ports: {Muoth: 1}}}\n", {}, [("the component", "MouthComp")]),
+    ],
+)  # fmt: skip
+def test_the_other_places_are_shown(text: str, others: dict[str, str], related: list[tuple[str, str]]) -> None:
+    (found,) = wrong(text, others)
+    assert list(found.related) == related
+
+
+def test_of_several_components_any_that_is_named_is_found() -> None:
+    others = {"both/a.cdsl.yaml": COMPONENT, "both/b.cdsl.yaml": COMPONENT}
+    (found,) = wrong("components: {m: {component: both}}\n", others)
+    for meant in found.hint.removeprefix("name ").split(" or "):
+        assert wrong(f"components: {{m: {{component: {meant}}}}}\n", others) == []

@@ -1,0 +1,41 @@
+"""A network as it may be shown: no secret of it is in what is left."""
+
+from __future__ import annotations
+
+import msgspec
+
+from engine_in_memory import network, process
+from robocomp_yaml.network.hidden import hidden
+from robocomp_yaml.network.network import ConfigFile, Readiness, Variable
+
+CANARY = "canary-hunter2"
+
+
+def test_no_secret_is_left_and_all_else_is() -> None:
+    one = process(
+        "camera",
+        env=(Variable("TOKEN", CANARY), Variable("LANG", "es"), Variable("WIFI", CANARY)),
+        config=ConfigFile(
+            "config/camera", f"# of it\nport=7\napi.password={CANARY}\nwifi={CANARY}\nlock={CANARY}\n", ("lock",)
+        ),
+        ready=Readiness(command=("ask", f"--api-key={CANARY}", "--name=x")),
+        secrets=("wifi", "WIFI"),
+        extra=(
+            ("password", CANARY),
+            ("x", {"token": CANARY, "y": ["z", {"secret": CANARY}], "n": 5}),
+            ("passwords", [CANARY]),
+        ),
+    )
+    one = msgspec.structs.replace(one, command=("run", "--password", CANARY, f"--wifi={CANARY}", "--name=camera"))
+    made = network(one)
+    made.extra = (("general", {"password": CANARY, "editor": "vim", "since": 2011}),)
+    shown = hidden(made)
+    assert CANARY not in str(shown)
+    camera = shown.processes["camera"]
+    assert camera.command == ("run", "--password", "***", "--wifi=***", "--name=camera")
+    assert [(each.name, each.value) for each in camera.env] == [("TOKEN", "***"), ("LANG", "es"), ("WIFI", "***")]
+    assert camera.config and camera.config.text == "# of it\nport=7\napi.password=***\nwifi=***\nlock=***\n"
+    assert camera.ready.command == ("ask", "--api-key=***", "--name=x")
+    assert camera.extra[1] == ("x", {"token": "***", "y": ["z", {"secret": "***"}], "n": 5})
+    assert shown.extra == (("general", {"password": "***", "editor": "vim", "since": 2011}),)
+    assert hidden(network(process("plain"))).processes["plain"].config is None
