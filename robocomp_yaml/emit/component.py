@@ -72,11 +72,9 @@ def of_language(linked: LinkedComponent, layout: Layout = ALONE) -> list[FilePla
         return list(part.plan(linked))
     files = list(part.plan(linked, layout))
     if layout.has_own_runtime:
-        needed = part.folders(linked)
+        needs = part.needs(linked)
         files += [
-            replace(file, path=f"{GENERATED}/{file.path}")
-            for file in runtime.files(target.name)
-            if file.path.partition("/")[0] in needed
+            replace(file, path=f"{GENERATED}/{file.path}") for file in runtime.files(target.name) if needs(file.path)
         ]
     return files
 

@@ -1,27 +1,17 @@
-"""What is the same in every component: folders that are copied as they stand."""
+"""What is the same in every component: a folder of a language's templates that is copied as it stands."""
 
 from __future__ import annotations
 
 import os
 from functools import cache
 
-from robocomp_yaml import resources, semantics
+from robocomp_yaml import resources
 from robocomp_yaml.languages import language
 from robocomp_yaml.transactions.plan import FilePlan
 
 
 @cache
-def copied(name: str, folder: str, without: frozenset[str] = frozenset()) -> tuple[FilePlan, ...]:
-    """The files of a folder of the language called `name`, below `generated/` and the folder's own name; but for those
-    called as in `without`."""
-    return _files(os.path.join(language(name).templates, folder), f"generated/{folder}", without)
-
-
-@cache
-def shared() -> tuple[FilePlan, ...]:
-    """The package that the compiler and components in Python have in common."""
-    return _files(os.path.dirname(semantics.__file__), "generated/runtime/semantics")
-
-
-def _files(source: str, target: str, without: frozenset[str] = frozenset()) -> tuple[FilePlan, ...]:
-    return tuple(FilePlan(f"{target}/{name}", text) for name, text in resources.files(source) if name not in without)
+def copied(name: str, folder: str) -> tuple[FilePlan, ...]:
+    """The files of a folder of the language called `name`, below `generated/` and the folder's own name."""
+    source = os.path.join(language(name).templates, folder)
+    return tuple(FilePlan(f"generated/{folder}/{file}", text) for file, text in resources.files(source))

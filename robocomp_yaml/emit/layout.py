@@ -13,6 +13,7 @@ from collections.abc import Mapping
 import msgspec
 
 from robocomp_yaml.emit import runtime
+from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.source.digest import digest
@@ -55,10 +56,15 @@ def layout(linked: LinkedComponent, workspace: Workspace, root: str, slices: str
     target = linked.component.language.target
     if not (workspace.declared and target.runtime and runtime.has_common(linked)):
         return ALONE
-    shared = os.path.join(workspace.runtime_folder, target.name)
+    shared = runtime_folder(workspace, target)
     if not slices:
         return Layout(SLICE, _from(root, shared))
     return Layout(_from(root, slices), _from(root, shared), made_for)
+
+
+def runtime_folder(workspace: Workspace, target: TargetLanguage) -> str:
+    """Where the run time of a language stands that the components of a workspace share."""
+    return os.path.normpath(os.path.join(workspace.runtime_folder, target.name, target.runtime_root))
 
 
 def fingerprint(texts: Mapping[str, str]) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 from functools import cache
+from importlib import import_module
 
 from robocomp_yaml import resources
 from robocomp_yaml.emit import slice as slice_target
@@ -40,13 +41,13 @@ def version(name: str) -> str:
 @cache
 def _texts(name: str) -> tuple[tuple[str, str], ...]:
     target = language(name)
-    texts = [
-        (f"{folder}/{file}", target.text(f"{folder}/{file}"))
-        for folder in target.runtime
-        for file in sorted(os.listdir(os.path.join(target.templates, folder)))
-        if file != "__pycache__"
-    ]
-    return (*texts, (f"slice/{COMMON}", resources.text(f"templates/slice/{COMMON}")))
+    texts = []
+    for folder in target.runtime:
+        package, _, last = folder.rpartition(".")
+        source = os.path.dirname(import_module(folder).__file__ or "") if package else f"{target.templates}/{folder}"
+        place = f"runtime/{last}" if package else folder
+        texts += [(f"{place}/{file}", text) for file, text in resources.files(source)]
+    return (*texts, (f"slice/{COMMON}", _common()))
 
 
 def has_common(linked: LinkedComponent) -> bool:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Set
 
 from robocomp_yaml.emit import runtime
-from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, layout
+from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, layout, runtime_folder
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.link.workspace import Workspace
@@ -47,7 +47,7 @@ class Shared:
             self._modules.update(dict.fromkeys(linked.modules(), workspace.slice_folder))
         name = component.language.name
         if not place.has_own_runtime and options.wants(name) and (workspace.root, name) not in self._runtimes:
-            root = os.path.join(workspace.runtime_folder, name)
+            root = runtime_folder(workspace, component.language.target)
             owner = _owner(os.path.join(workspace.root, WORKSPACE_FILE), root)
             self._runtimes[workspace.root, name] = RootPlan(root, owner, runtime.files(name))
 

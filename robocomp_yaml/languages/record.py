@@ -38,8 +38,10 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     `keywords` are the language's own words; `taken` are names that nothing of the user's can have there, `members` more
     that a parameter cannot have in code.
 
-    `runtime` are the folders of its templates that are its run time: the same for all of its components, copied as they
-    stand, and shared by those of a workspace. Where it has some, `plan` is told where they are.
+    `runtime` are the folders that are its run time: the same for all of its components, copied as they stand, and
+    shared by those of a workspace; of its templates, or packages of the compiler where they are named with a dot. Where
+    it has some, `plan` is told where they are, and `needs(component)` which files one needs that stands alone.
+    `runtime_root` is where they stand below the workspace's folder for the language.
 
     `states` is the generated file that says which Slice the component was made for, where it may share that.
 
@@ -61,6 +63,7 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     taken: frozenset[str] = frozenset()
     members: frozenset[str] = frozenset()
     runtime: tuple[str, ...] = ()
+    runtime_root: str = ""
     states: str = ""
     program: str = "bin/{name}"
     build: tuple[tuple[str, ...], ...] = ()

@@ -6,7 +6,7 @@ part, the user's skeleton and the files for CMake.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -91,11 +91,10 @@ def _machine() -> ModuleType:
     return statemachine
 
 
-def folders(component: LinkedComponent) -> frozenset[str]:
-    """The folders of the run time that a component needs which stands alone."""
-    found = {"cmake", "runtime", "slice", *(["machine"] if component.machine else [])}
-    found |= {"qt"} if component.component.gui or component.component.compatibility else set()
-    return frozenset(found | ({"machine", "robocomp"} if component.component.compatibility else set()))
+def needs(component: LinkedComponent) -> Callable[[str], bool]:
+    """Which files of the run time a component needs that stands alone."""
+    folders = {"cmake", "runtime", "slice", *windows.folders(component)}
+    return lambda path: path.partition("/")[0] in folders
 
 
 def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> list[FilePlan]:

@@ -25,6 +25,10 @@ WORKSPACE: Tree = {
     "components/arm/arm.cdsl.yaml": "component: ArmComp\nlanguage: cpp\nimports: [Motor, Hand]\nrequires: [Motor, Hand]\n",
 }
 Run = Callable[..., Result]
+LANGUAGES = {
+    "cpp": ("runtime/cpp", "generated/component.cmake", "generated/runtime/log.cpp"),
+    "python": ("runtime/python/generated", "generated/component.py", "generated/runtime/log.py"),
+}
 SHARED, STATES = "runtime/cpp", "generated/component.cmake"
 
 
@@ -42,15 +46,24 @@ def workspace(tmp_path: Path) -> Path:
     return write_tree(tmp_path, WORKSPACE)
 
 
-def test_the_run_time_and_slice_stand_once(rcyaml: Run, workspace: Path) -> None:
+def in_language(workspace: Path, language: str, more: str = "") -> None:
+    for document in workspace.glob("components/*/*.cdsl.yaml"):
+        document.write_text(document.read_text().replace("cpp", language) + more)
+
+
+@pytest.mark.parametrize("more", ["", "compatibility: robocomp\n"])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_run_time_and_slice_stand_once(rcyaml: Run, workspace: Path, language: str, more: str) -> None:
+    in_language(workspace, language, more)
+    shared = workspace / LANGUAGES[language][0]
     assert rcyaml("-q", "compile", ".").exit_code == 0
     for component in ("motor", "arm"):
         own = files(workspace / "components" / component)
-        assert len(generated(workspace, component)) <= 10
+        assert len(generated(workspace, component)) <= (12 if more else 10)
         assert not any(path.startswith(("slice/", "generated/runtime/")) for path in own)
     assert files(workspace / "slice") == {"Motor.ice", "Types.ice", "Hand.ice"}
-    assert files(workspace / SHARED) == {file.path for file in runtime.files("cpp")}
-    assert "slice/CommonBehavior.ice" in files(workspace / SHARED)
+    assert files(shared) == {file.path for file in runtime.files(language)}
+    assert "slice/CommonBehavior.ice" in files(shared)
 
 
 def test_a_component_alone_brings_what_it_shares(rcyaml: Run, workspace: Path) -> None:
@@ -86,18 +99,22 @@ def test_other_folders(rcyaml: Run, workspace: Path) -> None:
     assert "../../made/common/cpp" in states and "../../made/ice" in states
 
 
-def test_standalone_and_back(rcyaml: Run, workspace: Path) -> None:
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_standalone_and_back(rcyaml: Run, workspace: Path, language: str) -> None:
     """As a workspace is carried over that an earlier version made, where each component had its own."""
+    in_language(workspace, language)
+    code = {"cpp": "src/specificworker.cpp", "python": "src/specificworker.py"}[language]
+    yours = {"cpp": "CMakeLists.txt", "python": "bin/MotorComp"}[language]
     assert rcyaml("-q", "compile", "--standalone", ".").exit_code == 0
     assert not (workspace / "runtime").exists()
     motor = workspace / "components/motor"
-    assert {"slice/Motor.ice", "generated/runtime/log.cpp", "generated/slice/CommonBehavior.ice"} <= files(motor)
-    (motor / "src/specificworker.cpp").write_text("// mine\n")
-    (motor / "CMakeLists.txt").write_text("# mine\n")
+    assert {"slice/Motor.ice", LANGUAGES[language][2], "generated/slice/CommonBehavior.ice"} <= files(motor)
+    (motor / code).write_text("# mine\n")
+    (motor / yours).write_text("# mine, too\n")
     assert rcyaml("-q", "compile", ".").exit_code == 0
     assert len(generated(workspace, "motor")) <= 10 and not (motor / "slice").exists()
-    assert (motor / "src/specificworker.cpp").read_text() == "// mine\n"
-    assert (motor / "CMakeLists.txt").read_text() == "# mine\n"
+    assert (motor / code).read_text() == "# mine\n"
+    assert (motor / yours).read_text() == "# mine, too\n"
     assert rcyaml("-q", "compile", "--check", ".").exit_code == 0
     assert rcyaml("-q", "compile", "--check", "--standalone", ".").exit_code == 1
 
@@ -152,8 +169,10 @@ def test_an_edited_file_of_the_run_time_is_kept(rcyaml: Run, workspace: Path) ->
     assert not log.read_text().endswith("// mine\n")
 
 
-def test_only_the_component_that_is_compiled_knows_of_a_change(rcyaml: Run, workspace: Path) -> None:
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_only_the_component_that_is_compiled_knows_of_a_change(rcyaml: Run, workspace: Path, language: str) -> None:
     """The other shares the Slice that has changed under it, and is told to be compiled."""
+    in_language(workspace, language)
     (workspace / "lab.ddsl.yaml").write_text(
         "deployment: Lab\ncomponents:\n  motor: {component: components/motor/motor.cdsl.yaml}\n"
         "  arm: {component: components/arm/arm.cdsl.yaml, enabled: true, connect: {Hand: 'hand:tcp -p 10099'}}\n"
