@@ -295,7 +295,7 @@ def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str
 @settings(deadline=None, max_examples=300)
 @given(st.text(st.characters(exclude_categories=["Cs"])) | WORDS | st.from_regex(r"[-+.0-9xo_:~nultrefas]+\Z"))
 def test_a_text_is_read_back_as_it_was(text: str) -> None:
-    for wrapped in (f"a: {scalar(text)}\n", f"a: {{b: {scalar(text, flow=True)}, c: d}}\n", f"{scalar(text)}: 1\n"):
+    for wrapped in (f"a: {scalar(text)}\n", f"a: {{b: {scalar(text, in_flow=True)}, c: d}}\n", f"{scalar(text)}: 1\n"):
         tree, diagnostics = parse("X.yaml", wrapped)
         assert isinstance(tree, Mapping), (wrapped, diagnostics)
         values = [key for key, _ in tree.items()] if wrapped.endswith(": 1\n") else [tree.get("a")]
