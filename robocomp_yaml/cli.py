@@ -71,7 +71,7 @@ class LazyGroup(Group):
                 return 1
             return _signals.code_of(cause)
         except _ReaderGone:
-            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # for what is not written yet
+            _forget_output()
             return _signals.READER_GONE
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -158,7 +158,14 @@ def main() -> None:
     sys.exit(end.code)
 
 
+def _forget_output() -> None:
+    """What is not written yet goes nowhere, where nobody reads it or it cannot be written: Python tries again at the
+    end of the process, and would give that an exit code of its own."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+
+
 def _output_failed(error: OSError) -> int:
+    _forget_output()
     reason = (error.strerror or str(error)).lower()
     with suppress(OSError):
         terminal.say(f"Error: cannot write what there is to say: {reason}", err=True)

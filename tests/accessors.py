@@ -11,13 +11,12 @@ from unittest import mock
 from robocomp_yaml import semantics
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.python import parameters as python_parameters
-from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.parameters.kinds import as_data, recording
+from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.semantics import composite
 from robocomp_yaml.semantics.plain import Taking
 from robocomp_yaml.semantics.reading import Reader
 from robocomp_yaml.semantics.references import unresolved
-from robocomp_yaml.values.kinds import recording
-from robocomp_yaml.values.normalize import as_data
 
 _LAST: list[Any] = []  # the parameters and the module that were asked for last
 

@@ -13,7 +13,7 @@ from conftest import ROOT
 from parameters import Data
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.cpp import parameters as cpp_parameters
-from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.parameters.types import Parameters
 
 DRIVER = ROOT / "tests" / "cpp_driver" / "main.cpp"
 RUNTIME = ("secrecy", "texts", "references", "kinds", "reading", "editing", "store", "expressions", "pattern")

@@ -9,7 +9,7 @@ from conftest import ROOT
 from cpp_accessors import Program as CppProgram
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.java import parameters as java_parameters
-from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.parameters.types import Parameters
 
 DRIVER = ROOT / "tests" / "java_driver" / "Driver.java"
 

@@ -8,13 +8,13 @@ from typing import Any
 from hypothesis import strategies as st
 
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.link.parameters import resolve
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
-from robocomp_yaml.model import build_parameters
-from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.parameters.resolution.resolve import resolve
+from robocomp_yaml.parameters.specification import build as build_parameters
+from robocomp_yaml.parameters.spelling.yaml import flow
+from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.tree import Mapping, Node, parse
-from robocomp_yaml.values.spell_yaml import flow
 
 Data = dict[str, Any]
 

@@ -16,12 +16,12 @@ import jsonschema
 import jsonschema_rs
 
 import accessors
+from by_cerberus import cerberus_verdict
 from parameters import tree
-from robocomp_yaml.model.parameters import Parameters
-from robocomp_yaml.values.json_schema import EFFECTIVE, values_schema
-from robocomp_yaml.values.judge import judge
-from robocomp_yaml.values.normalize import cerberus_verdict
-from robocomp_yaml.values.spell_yaml import flow
+from robocomp_yaml.parameters.schema.json_schema import EFFECTIVE, values_schema
+from robocomp_yaml.parameters.spelling.yaml import flow
+from robocomp_yaml.parameters.types import Parameters
+from robocomp_yaml.parameters.verdict.judge import judge
 
 Judge = Callable[[Parameters, Any], bool]
 CASES = int(os.environ.get("RCYAML_CASES", "200"))

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.values import Change, Values
     from robocomp_yaml.api.workspace import Workspace
     from robocomp_yaml.network.network import Network
-    from robocomp_yaml.values.show import Value
+    from robocomp_yaml.parameters.editing.show import Value
 
 __all__ = [
     "ERROR", "NOTE", "WARNING", "Change", "Compilation", "Diagnostic", "Faulty", "File", "Fixing", "Migration",
@@ -39,8 +39,8 @@ __all__ = [
 
 _HOMES = {
     "Change": "api.values", "Compilation": "api.compiling", "File": "api.outcome", "Fixing": "api.fixing",
-    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Value": "values.show",
-    "Values": "api.values", "Workspace": "api.workspace",
+    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome",
+    "Value": "parameters.editing.show", "Values": "api.values", "Workspace": "api.workspace",
 }  # fmt: skip
 
 

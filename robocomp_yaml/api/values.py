@@ -21,7 +21,15 @@ from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
-from robocomp_yaml.model.parameters import BasicType, EnumType, RecordType, Type, is_secret, leaves
+from robocomp_yaml.parameters.editing import show
+from robocomp_yaml.parameters.editing.edit import NotEditable
+from robocomp_yaml.parameters.editing.edit import set_value as edit
+from robocomp_yaml.parameters.editing.show import Value
+from robocomp_yaml.parameters.examples.new import lines_above
+from robocomp_yaml.parameters.hidden import hidden
+from robocomp_yaml.parameters.layers.effective import Effective, effective
+from robocomp_yaml.parameters.types import BasicType, EnumType, RecordType, Type, is_secret, leaves
+from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
 from robocomp_yaml.semantics import paths
@@ -34,14 +42,6 @@ from robocomp_yaml.source.tree import Node, Scalar, parse
 from robocomp_yaml.source.tree import Sequence as List
 from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
-from robocomp_yaml.values import show
-from robocomp_yaml.values.edit import NotEditable
-from robocomp_yaml.values.edit import set_value as edit
-from robocomp_yaml.values.effective import Effective, effective
-from robocomp_yaml.values.hidden import hidden
-from robocomp_yaml.values.judge import judge
-from robocomp_yaml.values.new import lines_above
-from robocomp_yaml.values.show import Value
 
 # As `rcyaml config get` prints them; one that cannot be followed is refused, and no text that happens to look so.
 _REFERENCE = re.compile(r"\{ *(?:env|file) *:.*\}", re.DOTALL)
@@ -148,14 +148,14 @@ class Values:
         values = self._effective
         assert self._linked is not None
         if form == "toml":
-            from robocomp_yaml.emit.toml_text import toml_text
+            from robocomp_yaml.parameters.writing.toml_text import toml_text
 
             if reveal:
                 return toml_text(self._linked, values)
             shown = replace(values, data=hidden(values.parameters.root, values.data))
             return "".join(hidden_lines(toml_text(self._linked, shown)))
-        from robocomp_yaml.values.properties import properties
-        from robocomp_yaml.values.property_text import property_text
+        from robocomp_yaml.parameters.writing.properties import properties
+        from robocomp_yaml.parameters.writing.property_text import property_text
 
         sections, _ = properties(self._linked, values)
         component = self._parameters.component

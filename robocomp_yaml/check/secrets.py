@@ -21,12 +21,12 @@ from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.documents import Document
 from robocomp_yaml.link.program import LinkedParameters, Program
-from robocomp_yaml.model.parameters import RecordType
+from robocomp_yaml.parameters.hidden import declared, named_nodes, nodes, plain_below
+from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
-from robocomp_yaml.values.hidden import declared, named_nodes, nodes, plain_below
 
 _PROPERTIES = ("properties", "ice", "endpoints", "proxies", "topics")
 

@@ -11,9 +11,9 @@ from robocomp_yaml.api.values import Values, write_new
 from robocomp_yaml.commands import _options
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.render.json import dumps
+from robocomp_yaml.parameters.editing.show import Value
+from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.source.tree import Node, Scalar
-from robocomp_yaml.values.show import Value
-from robocomp_yaml.values.spell_yaml import flow
 
 
 def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:

@@ -12,7 +12,9 @@ from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
-from robocomp_yaml.model.parameters import Parameters, RecordType
+from robocomp_yaml.parameters.examples.new import Sections, new_document
+from robocomp_yaml.parameters.kinds import as_data, recording
+from robocomp_yaml.parameters.types import Parameters, RecordType
 from robocomp_yaml.semantics import composite, connections
 from robocomp_yaml.semantics.plain import Taking
 from robocomp_yaml.semantics.reading import Reader
@@ -21,9 +23,6 @@ from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.properties import read
 from robocomp_yaml.source.regular import regular
 from robocomp_yaml.transactions.manifest import BASE
-from robocomp_yaml.values.kinds import recording
-from robocomp_yaml.values.new import Sections, new_document
-from robocomp_yaml.values.normalize import as_data
 
 
 def first_values(

@@ -6,10 +6,8 @@ import re
 from collections.abc import Iterator
 
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import EnumType, ListType, MapType, Member, RecordType, Type, is_secret
-from robocomp_yaml.values.hidden import hidden
-from robocomp_yaml.values.json_schema import in_words, shortened
-from robocomp_yaml.values.prose import prose
+from robocomp_yaml.parameters.types import EnumType, Member, RecordType, Type, innermost, is_secret
+from robocomp_yaml.parameters.words import default_in_words, in_words, prose
 
 
 def parameter_docs(linked: LinkedComponent) -> str:
@@ -77,9 +75,7 @@ def _rows(record: RecordType, prefix: str) -> Iterator[str]:
 
 def _linked(type_: Type) -> str:
     """The type in words, with a link to where a named one is described."""
-    named = type_
-    while isinstance(named, ListType | MapType):
-        named = named.element
+    named = innermost(type_)
     if not isinstance(named, RecordType | EnumType):
         return in_words(type_)
     inner = in_words(named)
@@ -91,13 +87,12 @@ def _linked(type_: Type) -> str:
 def _default(member: Member) -> str:
     if member.default is None:
         return "may be left out" if member.optional else "**required**"
-    return _code(shortened(hidden(member.type, member.default.data))).replace("|", "\\|")
+    return _code(default_in_words(member)).replace("|", "\\|")
 
 
 def _meaning(member: Member) -> str:
-    doc = member.doc or (member.type.doc if isinstance(member.type, RecordType | EnumType) else "")
     facts = ("May change while running.", member.editable), ("Secret.", is_secret(member.type))
-    return " ".join(part for part in (doc, *(fact for fact, holds in facts if holds)) if part)
+    return " ".join(part for part in (member.documentation, *(fact for fact, holds in facts if holds)) if part)
 
 
 def _cell(text: str) -> str:

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import msgspec
 
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE, document_schema
 from robocomp_yaml.transactions.plan import FilePlan
-from robocomp_yaml.values.json_schema import DOCUMENT, EFFECTIVE, document_schemas
 
 SCHEMA, EFFECTIVE_SCHEMA = "generated/config.schema.json", "generated/effective.schema.json"
 DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
@@ -17,9 +17,10 @@ DOCS, EXAMPLE = "generated/parameters.md", "generated/example.config.yaml"
 
 def schemas(linked: LinkedComponent) -> Iterator[FilePlan]:
     """The JSON Schemas of a component's values."""
-    made = document_schemas(linked, (DOCUMENT, EFFECTIVE))
-    for path, schema in zip((SCHEMA, EFFECTIVE_SCHEMA), made, strict=True):
-        yield FilePlan(path, _lines(schema))
+    served = [port.name for port in linked.implements] + [f"{port.name}Topic" for port in linked.subscribes]
+    ports = {"endpoints": [*served, "CommonBehavior"], "proxies": [port.name for port in linked.requires]}
+    for path, mode in ((SCHEMA, DOCUMENT), (EFFECTIVE_SCHEMA, EFFECTIVE)):
+        yield FilePlan(path, _lines(document_schema(linked.parameters.parameters, linked.component.name, ports, mode)))
 
 
 def _lines(schema: dict[str, object]) -> str:
@@ -33,7 +34,7 @@ def docs(linked: LinkedComponent) -> Iterator[FilePlan]:
     if linked.parameters.document is None:
         return
     from robocomp_yaml.emit.parameter_docs import parameter_docs
-    from robocomp_yaml.values.new import new_document
+    from robocomp_yaml.parameters.examples.new import new_document
 
     where = os.path.basename(linked.component.path)
     example = new_document(

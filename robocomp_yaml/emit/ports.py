@@ -121,8 +121,8 @@ def is_own(values: LinkedValues) -> bool:
 
 
 def _given(values: LinkedValues) -> dict[str, str]:
+    from robocomp_yaml.parameters.writing.properties import given  # most components have no values
     from robocomp_yaml.source.tree import Scalar
-    from robocomp_yaml.values.properties import given  # most components have no values
 
     return {name: node.lexeme for name, node in given(values, "endpoints") if isinstance(node, Scalar)}
 

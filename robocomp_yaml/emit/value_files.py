@@ -9,11 +9,11 @@ from robocomp_yaml.emit import config
 from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Program
+from robocomp_yaml.parameters.layers.effective import effective
+from robocomp_yaml.parameters.writing.properties import CLASSIC, Section, dialect, legacy_file, properties, secret_keys
+from robocomp_yaml.parameters.writing.property_text import property_text
+from robocomp_yaml.parameters.writing.write import Property
 from robocomp_yaml.transactions.plan import FilePlan
-from robocomp_yaml.values.effective import effective
-from robocomp_yaml.values.properties import CLASSIC, Section, dialect, legacy_file, properties, secret_keys
-from robocomp_yaml.values.property_text import property_text
-from robocomp_yaml.values.write import Property
 
 
 def documents_of(linked: LinkedComponent, program: Program) -> list[LinkedValues]:

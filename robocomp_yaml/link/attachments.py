@@ -15,11 +15,11 @@ from robocomp_yaml.link import component_references as references
 from robocomp_yaml.link.component_references import References
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.knot import grow, tie
-from robocomp_yaml.link.parameters import of_no_document, resolve
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Tables
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
-from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
+from robocomp_yaml.parameters.resolution.resolve import of_no_document, resolve
+from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
 
@@ -250,12 +250,12 @@ class Attachments(msgspec.Struct):
             parameters, found = resolve(document, period)
             self.diagnostics += found
             broken = _hides_types(found)
-            own = LinkedParameters(parameters, document, component, broken)
+            own = LinkedParameters(parameters, document, broken, component=component)
             tie(component, parameters=own, broken=component.broken or broken)
             self.tables.parameters.setdefault(reals[0], component.parameters)
         else:
             broken = component.parameters.broken
-            tie(component, parameters=LinkedParameters(of_no_document(period), None, component, broken))
+            tie(component, parameters=LinkedParameters(of_no_document(period), None, broken, component=component))
 
     def _join_layers(self) -> None:
         values = self.tables.values

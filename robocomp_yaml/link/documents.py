@@ -26,24 +26,24 @@ if TYPE_CHECKING:
     from robocomp_yaml.model.component import Component
     from robocomp_yaml.model.deployment import Deployment
     from robocomp_yaml.model.interface import Module
-    from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
+    from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
 
     Model = Module | Component | ParameterDocument | ValuesDocument | Deployment
 
 _BUILDERS = {
-    "idsl": "build_interface.build",
-    "cdsl": "build_component.build",
-    "pdsl": "build_parameters.build",
-    "ddsl": "build_deployment.build",
-    "config": "build_parameters.build_values",
+    "idsl": "model.build_interface.build",
+    "cdsl": "model.build_component.build",
+    "pdsl": "parameters.specification.build.build",
+    "ddsl": "model.build_deployment.build",
+    "config": "parameters.specification.build.build_values",
 }
 
 
 @cache
 def builder(kind: str) -> Callable[[Mapping, str], Model]:
     """What makes the model of a document that has the shape of its kind."""
-    module, _, function = _BUILDERS[kind].partition(".")
-    build: Callable[[Mapping, str], Model] = getattr(importlib.import_module(f"robocomp_yaml.model.{module}"), function)
+    module, _, function = _BUILDERS[kind].rpartition(".")
+    build: Callable[[Mapping, str], Model] = getattr(importlib.import_module(f"robocomp_yaml.{module}"), function)
     return build
 
 

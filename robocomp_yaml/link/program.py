@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Set
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -15,14 +15,13 @@ from robocomp_yaml.model.interface import (
     TypeDefinition,
     TypeRef,
 )
+from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
 from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source.disk import Disk
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.deployments import LinkedDeployment
     from robocomp_yaml.model.component import Component, Use
-    from robocomp_yaml.model.parameters import Parameters
-    from robocomp_yaml.model.pdsl import ParameterDocument, ValuesDocument
     from robocomp_yaml.model.statemachine import StateMachine
 
 Definition = Constant | TypeDefinition | ExceptionType | Interface
@@ -98,39 +97,22 @@ class Port(msgspec.Struct, frozen=True):
         return self.use.name
 
 
-class LinkedParameters(msgspec.Struct, frozen=True, eq=False):
-    """A component's parameters with their document, if there is one; `broken` when some have no usable type (then
-    values are not judged). `component` is None for a document that no component was found for. `compiled` is for what
-    is made of them once and used often (validators)."""
+class LinkedParameters(ResolvedParameters, frozen=True, eq=False):
+    """A component's parameters. `component` is None for a document that no component was found for."""
 
-    parameters: Parameters
-    document: ParameterDocument | None = None
     component: LinkedComponent | None = None
-    broken: bool = False
-    compiled: dict[object, Any] = {}
 
 
 def _only_the_period() -> LinkedParameters:
-    from robocomp_yaml.link.parameters import of_no_document
+    from robocomp_yaml.parameters.resolution.resolve import of_no_document
 
     return LinkedParameters(of_no_document(None))
 
 
-class LinkedValues(msgspec.Struct, frozen=True, eq=False):
-    """A values document with the documents that it extends, the most general first. `parameters` is None where the
-    component is not known; `is_extended` when another document builds on this one, so that it need not be complete;
-    `broken` when a layer is missing."""
+class LinkedValues(LayeredValues, frozen=True, eq=False):
+    """A values document with its layers, and the parameters of the component that it belongs to."""
 
-    document: ValuesDocument
-    extends: tuple[LinkedValues, ...] = ()
     parameters: LinkedParameters | None = None
-    is_extended: bool = False
-    broken: bool = False
-
-    def layers(self) -> list[LinkedValues]:
-        """This document and all that it builds on: the most general first, each once, this one last."""
-        below = [layer for base in self.extends for layer in base.layers()]
-        return list(dict.fromkeys([*below, self]))
 
 
 class LinkedComponent(msgspec.Struct, frozen=True, eq=False):

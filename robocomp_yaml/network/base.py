@@ -6,12 +6,12 @@ import msgspec
 
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import LinkedValues
+from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, given
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
-from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, dialect, given
 
 _DIALECT_B = ("Endpoints.", "Proxies.", "Period.", "Agent.")
 

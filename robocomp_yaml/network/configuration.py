@@ -15,17 +15,17 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
-from robocomp_yaml.model.pdsl import ValuesDocument
 from robocomp_yaml.network.base import Base
 from robocomp_yaml.network.draft import Draft, Given, listening
+from robocomp_yaml.parameters.layers.effective import document_faults, effective
+from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
+from robocomp_yaml.parameters.layers.overlay import overlay
+from robocomp_yaml.parameters.specification.document import ValuesDocument
+from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, Section, properties, secret_keys
+from robocomp_yaml.parameters.writing.property_text import section_text
+from robocomp_yaml.parameters.writing.write import Property, Writer
 from robocomp_yaml.semantics import connections
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
-from robocomp_yaml.values.effective import document_faults, effective
-from robocomp_yaml.values.layers import Place, data_of, merged
-from robocomp_yaml.values.overlay import overlay
-from robocomp_yaml.values.properties import CLASSIC, FLAT_TOML, Section, properties, secret_keys
-from robocomp_yaml.values.property_text import section_text
-from robocomp_yaml.values.write import Property, Writer
 
 _PARAMETERS = "What the deployment sets"
 _TITLE = "Where this component and the others are"

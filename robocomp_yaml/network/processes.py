@@ -20,8 +20,8 @@ from robocomp_yaml.network.network import (
     Restart,
     Variable,
 )
+from robocomp_yaml.parameters.hidden import declared
 from robocomp_yaml.source.properties import entry_line
-from robocomp_yaml.values.hidden import declared
 
 _DEFAULTS = Restart()
 

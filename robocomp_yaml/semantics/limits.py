@@ -24,15 +24,20 @@ def record_in_words(names: Collection[str]) -> str:
     return f"a mapping of {', '.join(names)}"
 
 
-def one_of(values: Collection[str], secret: bool) -> str:
+def one_of(values: Collection[str], secret: bool = False) -> str:
     """Which values something may have, for messages: of a secret, only how many."""
     return f"one of the {len(values)} values allowed" if secret else f"one of {', '.join(values)}"
+
+
+def bounds(type_: str) -> str:
+    """What numbers a type can hold: `from -2147483648 to 2147483647 (int)`."""
+    return "from {} to {} ({})".format(*LIMITS[type_], type_)
 
 
 def beyond(type_: str, value: Number) -> str:
     """What a number that its type cannot hold must be, or ''."""
     least, most = LIMITS[type_]
-    return "" if least <= value <= most else f"from {least} to {most} ({type_})"
+    return "" if least <= value <= most else bounds(type_)
 
 
 def holds(

@@ -17,11 +17,11 @@ from click.testing import CliRunner
 
 from conftest import CORPUS, needs_corpus
 from robocomp_yaml.cli import group
-from robocomp_yaml.emit.toml_text import toml_text
+from robocomp_yaml.parameters.layers.effective import Effective, effective
+from robocomp_yaml.parameters.writing.properties import properties
+from robocomp_yaml.parameters.writing.property_text import property_text
+from robocomp_yaml.parameters.writing.toml_text import toml_text
 from robocomp_yaml.pipeline import analyse
-from robocomp_yaml.values.effective import Effective, effective
-from robocomp_yaml.values.properties import properties
-from robocomp_yaml.values.property_text import property_text
 
 pytestmark = needs_corpus
 KINDS = ("config", "toml", "cdsl", "idsl", "jcdsl", "pdsl")

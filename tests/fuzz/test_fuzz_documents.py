@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from conftest import Tree
 from documents_of_rows import DOCUMENTS
 from fuzzing import as_bytes, changed, examples, run, standing_in, told
+from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.source.tree import parse
-from robocomp_yaml.values.spell_yaml import flow
 
 GRAPHS = ("dot", "json", "mermaid", "svg", "text")
 EXPORTS = ("icegrid", "rcmanager", "systemd", "compose")

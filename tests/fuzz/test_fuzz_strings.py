@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from conftest import read_tree
 from fuzzing import as_bytes, examples, run, standing_in, told
 from hostile import STRINGS
+from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, parse
-from robocomp_yaml.values.spell_yaml import flow
 from robot import TREE
 from skeletons import structure
 

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 import accessors
 from parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
 from robocomp_yaml.link.program import LinkedParameters
-from robocomp_yaml.values.effective import effective
-from robocomp_yaml.values.properties import as_dict, properties
-from robocomp_yaml.values.property_text import property_text
+from robocomp_yaml.parameters.layers.effective import effective
+from robocomp_yaml.parameters.writing.properties import as_dict, properties
+from robocomp_yaml.parameters.writing.property_text import property_text
 from verdicts import CASES
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")

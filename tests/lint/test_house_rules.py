@@ -62,7 +62,7 @@ READING_OTHERWISE = {"legacy/settings/corrections.py", "link/options.py"}
 
 def test_only_what_has_an_end_is_opened() -> None:
     """A pipe in somebody's folder, or a link to /dev/zero, would be waited for."""
-    for layer in ("source", "transactions", "link", "values", "network", "check", "emit", "legacy"):
+    for layer in ("source", "transactions", "parameters", "link", "network", "check", "emit", "legacy"):
         for path in sorted((ROOT / "robocomp_yaml" / layer).rglob("*.py")):
             if str(path.relative_to(ROOT / "robocomp_yaml")) in READING_OTHERWISE:
                 continue

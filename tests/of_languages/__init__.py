@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from robocomp_yaml import languages
-from robocomp_yaml.model.parameters import Parameters
+from robocomp_yaml.parameters.types import Parameters
 
 
 @dataclass(frozen=True)

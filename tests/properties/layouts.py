@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from random import Random
 from typing import Any
 
-from robocomp_yaml.values.spell_yaml import flow, scalar, single_quoted
+from robocomp_yaml.parameters.spelling.yaml import flow, scalar, single_quoted
 
 
 def laid_out(data: dict[str, Any], random: Random) -> bytes:

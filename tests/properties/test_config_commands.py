@@ -22,11 +22,11 @@ from layouts import laid_out
 from parameters import HARD_TEXTS, JUNK, NAMES, Data, documents, linked, mutated
 from robocomp_yaml.cli import group
 from robocomp_yaml.link.program import LinkedParameters
-from robocomp_yaml.model.parameters import ListType, MapType, RecordType, Type
+from robocomp_yaml.parameters.spelling.yaml import flow
+from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.source.properties import read
 from robocomp_yaml.source.tree import parse
-from robocomp_yaml.values.spell_yaml import flow
 from verdicts import CASES
 
 RELAXED = settings(

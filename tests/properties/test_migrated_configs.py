@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from robocomp_yaml.legacy.migration import migrate
 from robocomp_yaml.legacy.settings.plan import Guesses
+from robocomp_yaml.parameters.layers.effective import effective
+from robocomp_yaml.parameters.writing.properties import as_dict, properties
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.source import properties as ice
-from robocomp_yaml.values.effective import effective
-from robocomp_yaml.values.properties import as_dict, properties
 
 WORD = st.sampled_from(["Laser", "a", "x", "2d", "Motor", "Params_", "rx_", "Period", "period", "Compute", "num", "ID:",
                         "Ice", "Endpoints", "Proxies", "Proxy", "TopicManager", "Prefix", "IceStorm", "é", "null", "x-y",

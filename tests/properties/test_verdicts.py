@@ -7,10 +7,11 @@ from typing import Any
 from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 
+from by_cerberus import cerberus_verdict
 from parameters import Data, documents, linked, mutated, values
-from robocomp_yaml.values.defaults import with_defaults
-from robocomp_yaml.values.effective import effective
-from robocomp_yaml.values.normalize import cerberus_verdict, normalized
+from robocomp_yaml.parameters.defaults import with_defaults
+from robocomp_yaml.parameters.layers.completion import completed
+from robocomp_yaml.parameters.layers.effective import effective
 from verdicts import CASES, verdicts
 
 RELAXED = settings(
@@ -57,4 +58,4 @@ def test_what_fits_is_made_complete(case: tuple[Data, Data]) -> None:
     found, faults = effective(values(of, data))
     assert found is not None, faults
     root = of.parameters.root
-    assert found.data == normalized(of, data) == cerberus_verdict(root, data)[1] == with_defaults(root, data)
+    assert found.data == completed(of, data) == cerberus_verdict(root, data)[1] == with_defaults(root, data)

@@ -11,7 +11,7 @@ import msgspec
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.program import LinkedComponent, Port
-    from robocomp_yaml.model.parameters import Parameters
+    from robocomp_yaml.parameters.types import Parameters
 
 _SUFFIX = "comp"
 
@@ -71,7 +71,7 @@ def _entry(
     yield f"    component: {document}"
     missing = {} if _has_values(linked) else _required(linked.parameters.parameters)
     if missing:
-        from robocomp_yaml.values.spell_yaml import flow
+        from robocomp_yaml.parameters.spelling.yaml import flow
 
         yield f"    set: {flow(missing)}  # examples: these have no default"
     connect = list(_connections(linked, names, components))
@@ -86,7 +86,7 @@ def _has_values(linked: LinkedComponent) -> bool:
 
 def _required(parameters: Parameters) -> dict[str, Any]:
     """A value, for example, of each parameter that needs one."""
-    from robocomp_yaml.values.fitting import fitted
+    from robocomp_yaml.parameters.examples.fitting import fitted
 
     found: dict[str, Any] = {}
     for path, value in fitted(parameters).given.items():

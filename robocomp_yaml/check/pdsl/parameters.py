@@ -1,4 +1,4 @@
-"""Parameters: defaults, alone and together, and names in code."""
+"""Parameters: defaults, alone and together, names in code, constraints, and the legacy table."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from collections.abc import Iterator
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.codes import pdsl as codes
-from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.expression_types import is_sound
 from robocomp_yaml.model.names import is_identifier
-from robocomp_yaml.model.parameters import Member, Parameters, RecordType
-from robocomp_yaml.semantics.references import is_reference
-from robocomp_yaml.source.tree import Mapping, Node, Sequence
-from robocomp_yaml.values import evaluate
-from robocomp_yaml.values.defaults import defaults
-from robocomp_yaml.values.judge import Path, judge
+from robocomp_yaml.parameters.defaults import defaults
+from robocomp_yaml.parameters.expressions import evaluate
+from robocomp_yaml.parameters.expressions.expression import NotInLanguage
+from robocomp_yaml.parameters.expressions.types import check_constraint, is_sound
+from robocomp_yaml.parameters.resolution.limits import inside
+from robocomp_yaml.parameters.types import Constraint, Member, Parameters, RecordType
+from robocomp_yaml.parameters.verdict.specification import default_faults, spelling_faults
+from robocomp_yaml.source.tree import Scalar
 
 Languages = tuple[TargetLanguage, ...]
 
@@ -26,57 +26,26 @@ Languages = tuple[TargetLanguage, ...]
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.parameter_documents():
         assert linked.document is not None
+        parameters = linked.parameters
         more = program.plugins_of(linked.document.path).languages
-        faults = list(_records(linked.parameters, (*languages.table().values(), *more)))
+        known = (*languages.table().values(), *more)
+        records = [parameters.root, *(type_ for type_ in parameters.types if isinstance(type_, RecordType))]
+        faults = [*default_faults(linked), *(fault for record in records for fault in _names(record, known))]
         yield from faults
-        if not faults and not linked.broken:
-            yield from _defaults_together(linked.parameters)
-
-
-def _records(parameters: Parameters, known: Languages) -> Iterator[Diagnostic]:
-    """Each struct once, and the groups of the parameters."""
-    yield from _members(parameters.root, (), known)
-    for type_ in parameters.types:
-        if isinstance(type_, RecordType):
-            yield from _members(type_, (type_.name,), known)
-
-
-def _members(record: RecordType, path: Path, known: Languages) -> Iterator[Diagnostic]:
-    yield from _names(record, known)
-    for member in record.members:
-        if member.is_group and isinstance(member.type, RecordType):
-            yield from _members(member.type, (*path, member.name), known)
-        elif member.default is not None and member.default.node is not None:
-            yield from _default(member, member.default.node, (*path, member.name))
-
-
-def _default(member: Member, node: Node, path: Path) -> Iterator[Diagnostic]:
-    for fault in judge(member.type, node, path, complete=True):
-        problem = fault.message
-        if fault.code == value_codes.UNKNOWN_PARAMETER.id:
-            problem = f"{member.name} gives a value to something else: {problem}"
-        yield codes.BAD_DEFAULT.at(fault.span, problem=problem, hint=fault.hint, fixes=fault.fixes)
-    for reference in _references(node):
-        source = "a file" if "file" in reference.entries else "the environment"
-        yield codes.BAD_DEFAULT.at(
-            reference.span, problem=f"{member.name} comes from {source}", hint="references stand in values documents"
-        )
-
-
-def _references(node: Node) -> Iterator[Mapping]:
-    if isinstance(node, Mapping):
-        if is_reference(node.data):
-            yield node
-        for _, value in node.items():
-            yield from _references(value)
-    elif isinstance(node, Sequence):
-        for item in node.items:
-            yield from _references(item)
+        if linked.broken:
+            continue
+        if not faults:
+            yield from _defaults_together(parameters)
+        yield from _constraints(parameters)
+        yield from spelling_faults(parameters)
 
 
 def _names(record: RecordType, known: Languages) -> Iterator[Diagnostic]:
+    """Of a record, and of the groups in it."""
     names: dict[tuple[str, str], Member] = {}
     for member in record.members:
+        if member.is_group and isinstance(member.type, RecordType):
+            yield from _names(member.type, known)
         if not is_identifier(member.code_name):
             yield codes.NO_IDENTIFIER.at(member.span, name=member.name, hint=f"for instance as: {_free(member.name)}")
             continue
@@ -108,3 +77,18 @@ def _defaults_together(parameters: Parameters) -> Iterator[Diagnostic]:
     for constraint in parameters.constraints:
         if is_sound(constraint.expression, parameters.root) and not evaluate.holds(constraint.expression, data):
             yield codes.DEFAULTS_BREAK.at(constraint.span, message=constraint.message)
+
+
+def _constraints(parameters: Parameters) -> Iterator[Diagnostic]:
+    """They are true or false, and say only what has a meaning."""
+    for constraint in parameters.constraints:
+        try:
+            check_constraint(constraint.expression, parameters.root)
+        except NotInLanguage as refused:
+            yield _in_expression(constraint, refused)
+
+
+def _in_expression(constraint: Constraint, refused: NotInLanguage) -> Diagnostic:
+    assert isinstance(constraint.node, Scalar)
+    place = inside(constraint.node, refused.index)
+    return codes.BAD_EXPRESSION.at(place, problem=str(refused), hint=refused.hint)

@@ -8,10 +8,10 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Program
-from robocomp_yaml.model.parameters import BasicType, EnumType, leaves
+from robocomp_yaml.parameters.spelling.templates import exact_keys, row_keys
+from robocomp_yaml.parameters.types import BasicType, EnumType, leaves
 from robocomp_yaml.semantics.connections import endpoints, proxy
 from robocomp_yaml.semantics.spellings import pattern
-from robocomp_yaml.values.spelling import exact_keys, row_keys
 
 _ICE = (
     "Ice",

@@ -12,14 +12,14 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.attachments import leads_to
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
+from robocomp_yaml.parameters.layers.effective import Effective, document_faults, effective
+from robocomp_yaml.parameters.writing.harmless import is_harmless
+from robocomp_yaml.parameters.writing.properties import properties
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import parse_endpoints
 from robocomp_yaml.source.ice_options import Refused
 from robocomp_yaml.source.ice_proxy import parse_proxy
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
-from robocomp_yaml.values.effective import Effective, document_faults, effective
-from robocomp_yaml.values.harmless import is_harmless
-from robocomp_yaml.values.properties import properties
 
 _SUCH_AS = {"endpoint": "tcp -p 10001", "proxy": '"mouth:tcp -h localhost -p 10002"'}
 

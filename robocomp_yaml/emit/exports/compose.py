@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
 from robocomp_yaml.network.network import ALWAYS, COMPONENT, ICESTORM, NEVER, Network, Process
-from robocomp_yaml.values.spell_yaml import quoted
+from robocomp_yaml.parameters.spelling.yaml import quoted
 
 _IMAGE = "${RCYAML_IMAGE:-debian:bookworm}"
 _INSIDE = "/run/rcyaml"

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
-from robocomp_yaml.model.expression import (
+from robocomp_yaml.parameters.expressions.expression import (
     Attribute,
     Binary,
     Call,
@@ -20,8 +20,8 @@ from robocomp_yaml.model.expression import (
     Name,
     Unary,
 )
-from robocomp_yaml.model.expression_types import Scope, type_of
-from robocomp_yaml.model.parameters import ListType, MapType, RecordType
+from robocomp_yaml.parameters.expressions.types import Scope, type_of
+from robocomp_yaml.parameters.types import ListType, MapType, RecordType
 
 _FUNCTIONS = {"len": "size", "abs": "absolute", "min": "least", "max": "most"}
 

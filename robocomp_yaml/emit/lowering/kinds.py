@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, RecordType, Size, Type
-from robocomp_yaml.model.pdsl import Spelling
+from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Size, Type
 
 _LIMITS = {"at_least": "atLeast", "above": "above", "at_most": "atMost", "below": "below"}
 

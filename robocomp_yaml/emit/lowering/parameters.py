@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import msgspec
 
 from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.emit.parameter_facts import facts, inside, records
-from robocomp_yaml.model.parameters import BasicType, EnumType, ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.parameters.words import for_code
 
 ROOT = "."
 """The path of the record that holds all parameters."""
@@ -68,7 +68,7 @@ def about_enum(enum: EnumType) -> list[str]:
 
 
 def about_member(member: Member, between: str) -> str:
-    return between.join(part for part in (member.doc.strip(), facts(member)) if part) or f"{member.name}."
+    return between.join(part for part in (member.doc.strip(), for_code(member)) if part) or f"{member.name}."
 
 
 def path_of(member: Member, group: str | None) -> str | None:
@@ -83,3 +83,31 @@ def group_of(path: str, record: RecordType) -> str | None:
 def capitals(path: str) -> str:
     """`period.compute` makes `PeriodCompute`."""
     return "".join(part[:1].upper() + part[1:] for part in path.split("."))
+
+
+def records(root: RecordType) -> tuple[list[tuple[str, RecordType]], list[EnumType]]:
+    """The records that parameters use, those inside first, by name (a group by its path in code behind a dot, the root
+    by a dot); and the enums."""
+    found: dict[str, RecordType] = {}
+    enums: dict[str, EnumType] = {}
+
+    def visit(type_: Type, path: str) -> None:
+        match type_:
+            case EnumType(name=name):
+                enums.setdefault(name, type_)
+            case ListType(element=element) | MapType(element=element):
+                visit(element, "")
+            case RecordType(name=name, members=members):
+                if (name or path) in found:
+                    return
+                for member in members:
+                    visit(member.type, "" if name else inside(path, member.code_name))
+                found[name or path] = type_
+
+    visit(root, ".")
+    return list(found.items()), list(enums.values())
+
+
+def inside(group: str, name: str) -> str:
+    """The path of a group in a group."""
+    return f".{name}" if group == "." else f"{group}.{name}"

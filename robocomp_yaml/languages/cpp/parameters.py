@@ -15,9 +15,9 @@ from robocomp_yaml.emit.lowering.parameters import (
     about_member,
     capitals,
     group_of,
+    inside,
     path_of,
 )
-from robocomp_yaml.emit.parameter_facts import inside
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.cpp import LANGUAGE
 from robocomp_yaml.languages.cpp.literals import number, string, value
@@ -25,7 +25,7 @@ from robocomp_yaml.languages.cpp.literals import text as quoted
 from robocomp_yaml.languages.cpp.names import names
 from robocomp_yaml.languages.cpp.text import IN, comment, folded, one_line
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import (
+from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     Member,

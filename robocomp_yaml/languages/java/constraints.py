@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from robocomp_yaml.emit.lowering.constraints import Calls
 from robocomp_yaml.languages.java.text import literal, value
-from robocomp_yaml.model.expression import Expression
-from robocomp_yaml.model.parameters import RecordType
+from robocomp_yaml.parameters.expressions.expression import Expression
+from robocomp_yaml.parameters.types import RecordType
 
 
 def lambda_of(expression: Expression, root: RecordType) -> str:

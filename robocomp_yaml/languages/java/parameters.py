@@ -15,15 +15,15 @@ from robocomp_yaml.emit.lowering.parameters import (
     about_member,
     capitals,
     group_of,
+    inside,
     path_of,
 )
-from robocomp_yaml.emit.parameter_facts import inside
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import METHODS, TYPES
 from robocomp_yaml.languages.java.text import IN, comment, listed, literal, one_line, value
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import (
+from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,

@@ -9,7 +9,7 @@ import msgspec
 
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import literal
-from robocomp_yaml.model.expression import (
+from robocomp_yaml.parameters.expressions.expression import (
     Attribute,
     Binary,
     Call,
@@ -23,8 +23,8 @@ from robocomp_yaml.model.expression import (
     Name,
     Unary,
 )
-from robocomp_yaml.model.expression_types import Scope, find_member, type_of
-from robocomp_yaml.model.parameters import ListType, MapType, RecordType
+from robocomp_yaml.parameters.expressions.types import Scope, find_member, type_of
+from robocomp_yaml.parameters.types import ListType, MapType, RecordType
 
 _OURS = ("unique", "keys", "values")  # the functions that are not Python's
 _TAKEN = frozenset(("p", "constraints", "all", "any", "len", "min", "max", "abs", "sum"))

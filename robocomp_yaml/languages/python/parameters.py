@@ -7,13 +7,13 @@ from collections.abc import Iterable, Iterator
 import msgspec
 
 from robocomp_yaml.emit.lowering.names import Names
-from robocomp_yaml.emit.lowering.parameters import Spelling, Types, about_enum, about_member, group_of, path_of
-from robocomp_yaml.emit.parameter_facts import records
+from robocomp_yaml.emit.lowering.parameters import Spelling, Types, about_enum, about_member, group_of, path_of, records
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import docstring, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.model.parameters import (
+from robocomp_yaml.parameters.specification.document import Spelling as PropertySpelling
+from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
     ListType,
@@ -24,7 +24,6 @@ from robocomp_yaml.model.parameters import (
     Size,
     Type,
 )
-from robocomp_yaml.model.pdsl import Spelling as PropertySpelling
 from robocomp_yaml.transactions.plan import FilePlan
 
 WIDTH = 112

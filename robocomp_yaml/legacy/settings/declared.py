@@ -9,7 +9,7 @@ from robocomp_yaml.legacy.document import Map
 from robocomp_yaml.legacy.settings.plan import Config, Plan
 from robocomp_yaml.legacy.settings.planning import give_back
 from robocomp_yaml.legacy.settings.shapes import Scalar
-from robocomp_yaml.model.parameters import BASIC_TYPES
+from robocomp_yaml.parameters.types import BASIC_TYPES
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.heading import component_in, root_of
 

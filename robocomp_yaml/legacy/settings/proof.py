@@ -20,10 +20,10 @@ from robocomp_yaml.legacy.settings.plan import Config, Plan
 from robocomp_yaml.legacy.settings.planning import give_back
 from robocomp_yaml.legacy.settings.sorting import Sorted
 from robocomp_yaml.legacy.settings.values_document import Links, values_document
-from robocomp_yaml.link.parameters import resolve
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
-from robocomp_yaml.model import build_parameters
-from robocomp_yaml.model.pdsl import ValuesDocument
+from robocomp_yaml.parameters.resolution.resolve import resolve
+from robocomp_yaml.parameters.specification import build as build_parameters
+from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.semantics.paths import in_words
 from robocomp_yaml.source import schema, tree
 from robocomp_yaml.source.text import decode

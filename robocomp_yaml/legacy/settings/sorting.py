@@ -11,7 +11,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import CLASSIC, TOML, Leaf, Setting, Settings
 from robocomp_yaml.legacy.settings.headers import free
-from robocomp_yaml.values import references
+from robocomp_yaml.parameters.spelling import references
 
 MAX_DEPTH = 20
 """So many parts may a parameter's key have; nobody writes half as many."""

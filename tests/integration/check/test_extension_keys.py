@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from conftest import write_tree
+from robocomp_yaml.parameters.layers.effective import effective
+from robocomp_yaml.parameters.spelling.yaml import flow
+from robocomp_yaml.parameters.writing.properties import as_dict, properties
 from robocomp_yaml.pipeline import analyse
-from robocomp_yaml.values.effective import effective
-from robocomp_yaml.values.properties import as_dict, properties
-from robocomp_yaml.values.spell_yaml import flow
 
 DOCUMENTS: dict[str, dict[str, Any]] = {
     "rcyaml.yaml": {"interfaces": ["."], "lint": {"RC2003": "warning"}},

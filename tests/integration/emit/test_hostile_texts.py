@@ -25,9 +25,9 @@ from robocomp_yaml.emit.exports._xml import _name
 from robocomp_yaml.emit.graphs import of_network
 from robocomp_yaml.emit.graphs.forms import draw
 from robocomp_yaml.network.network import Network
+from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.source import properties
-from robocomp_yaml.values.spell_yaml import flow
 
 HOSTILE = (
     "a\nExecStartPre=/bin/false", "a\n[Service]\nUser=root", "a\n\n", "a\rb", "a\0b", "a\vb\fc", "a\x1b[31mb", "a\x7fb",

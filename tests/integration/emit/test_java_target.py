@@ -12,9 +12,9 @@ from conftest import write_tree
 from fuzz.hostile import STRINGS
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.java.text import literal
+from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.transactions.plan import FilePlan
-from robocomp_yaml.values.spell_yaml import flow
 
 SHARE = 1 if "RCYAML_CASES" in os.environ else 8
 """Every so many texts are tried."""

@@ -13,7 +13,7 @@ import accessors
 from constraints import CASES, CONSTRAINTS, subject
 from parameters import parameters
 from robocomp_yaml.languages.python import parameters as python_parameters
-from robocomp_yaml.values import evaluate
+from robocomp_yaml.parameters.expressions import evaluate
 
 ARM = """\
 doc: What the arm needs.

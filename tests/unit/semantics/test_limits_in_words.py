@@ -45,5 +45,5 @@ def test_what_a_type_cannot_hold() -> None:
 
 
 def test_which_values_there_are() -> None:
-    assert limits.one_of(("a", "b"), secret=False) == "one of a, b"
+    assert limits.one_of(("a", "b")) == "one of a, b"
     assert limits.one_of(("a", "b"), secret=True) == "one of the 2 values allowed"

@@ -1,0 +1,1 @@
+"""Values looked at and changed in their documents."""

@@ -1,0 +1,177 @@
+"""Every effective value with where it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+from msgspec.structs import replace
+
+from robocomp_yaml import secrets
+from robocomp_yaml.parameters.hidden import hidden, holds_secret
+from robocomp_yaml.parameters.layers.effective import Effective
+from robocomp_yaml.parameters.layers.merge import Place, child
+from robocomp_yaml.parameters.spelling.yaml import flow
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    ListType,
+    MapType,
+    Member,
+    RecordType,
+    Type,
+    unit_of,
+)
+from robocomp_yaml.parameters.writing.write import Path, Where, node_of, step
+from robocomp_yaml.secrets import HIDDEN
+from robocomp_yaml.semantics.paths import Step, in_words
+from robocomp_yaml.source.tree import Node, Scalar, parse
+
+
+class Value(msgspec.Struct, frozen=True):
+    """A plain value, or an empty list or map. `node` is where it is given; None for a default, whose node (if a
+    document wrote it) is `default`. `overrode` are the nodes of earlier layers, the latest first."""
+
+    path: str
+    data: Any
+    text: str
+    unit: str
+    editable: bool
+    node: Node | None
+    default: Node | None
+    overrode: tuple[Node, ...]
+    type: Type = RecordType("", ())
+    steps: Path = ()
+    reveal: bool = True
+
+    def hide(self, data: Any) -> Any:
+        """What was given in another layer, as it may be shown."""
+        return data if self.reveal else _hidden(self.type, self.steps, data)
+
+
+def shown(effective: Effective, *, reveal: bool) -> Iterator[Value]:
+    """Secrets are hidden unless `reveal` says otherwise."""
+    for row in _record(effective.parameters.root, effective.data, effective.place, None, (), False):
+        data = row.data if reveal else _hidden(row.type, row.steps, row.data)
+        text = row.text if data == row.data else flow(data) if data != HIDDEN else HIDDEN
+        yield replace(row, data=data, text=text, reveal=reveal)
+
+
+def _hidden(type_: Type, steps: Path, data: Any) -> Any:
+    """Data at a path, as it may be shown: what stands in a map can be secret by its name."""
+    name = steps[-1] if steps else 0
+    named = isinstance(data, str) and data != "" and isinstance(name, str) and secrets.is_secret(name)
+    return HIDDEN if named and isinstance(type_, BasicType) else hidden(type_, data)
+
+
+def hidden_at(root: RecordType, steps: list[str], data: Any) -> Any:
+    type_ = type_at(root, steps)
+    return data if type_ is None else _hidden(type_, tuple(steps), data)
+
+
+def hidden_text(root: RecordType, steps: list[str], text: str) -> str:
+    """A value as it is written in a document, as it may be shown."""
+    type_ = type_at(root, steps)
+    if type_ is None or not text or text == "null":
+        return text
+    node = parse("", text)[0] if text.isprintable() else None
+    if node is None:
+        return HIDDEN if holds_secret(type_) or secrets.is_secret(steps[-1]) else secrets.url(text)
+    data = hidden_at(root, steps, node.data)
+    if data == node.data:
+        return text
+    return HIDDEN if data == HIDDEN else flow(data)
+
+
+def _record(
+    type_: RecordType, data: dict[str, Any], where: Where, default: Node | None, path: Path, editable: bool
+) -> Iterator[Value]:
+    for member in type_.members:
+        if member.name in data:
+            given = step(where, member.name)
+            own = step(default, member.name) if default is not None else None
+            fallback = own if own is not None else member.default.node if member.default else None
+            yield from _value(
+                member.type,
+                data[member.name],
+                given,
+                node_of(fallback),
+                (*path, member.name),
+                editable or member.editable,
+            )
+
+
+def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Path, editable: bool) -> Iterator[Value]:
+    if isinstance(type_, RecordType) and isinstance(data, dict):
+        yield from _record(type_, data, where, default, path, editable)
+    elif isinstance(type_, ListType | MapType) and data:
+        entries: list[tuple[Step, Any]] = list(data.items() if isinstance(type_, MapType) else enumerate(data))
+        for name, item in entries:
+            below = step(default, name) if default is not None and where is None else None
+            yield from _value(type_.element, item, _below(where, name), node_of(below), (*path, name), editable)
+    else:
+        node = node_of(where)
+        spelled = default if node is None else node
+        as_spelled = isinstance(spelled, Scalar) and spelled.data == data and not isinstance(data, str)
+        text = spelled.lexeme if as_spelled else flow(data)  # type: ignore[union-attr]
+        overrode = tuple(where.overrode) if isinstance(where, Place) else ()
+        yield Value(in_words(path), data, text, unit_of(type_), editable, node, default, overrode, type_, path)
+
+
+def _below(where: Where, name: Step) -> Where:
+    """One step down, with what the same place of the overridden lists was."""
+    below = step(where, name)
+    if isinstance(where, Place) and below is not None and not isinstance(below, Place) and where.overrode:
+        earlier = [found[1] for node in where.overrode if (found := child(node, name)) is not None]
+        return Place(below, None, None, earlier)
+    return below
+
+
+def find(effective: Effective, steps: list[str]) -> tuple[Any, Type, Member | None] | None:
+    """The value at a path with its type, and the parameter or member that it is."""
+    data: Any = effective.data
+    type_: Type = effective.parameters.root
+    member: Member | None = None
+    for name in steps:
+        if isinstance(type_, RecordType):
+            member = type_.member(name)
+            if member is None or name not in data:
+                return None
+            data, type_ = data[name], member.type
+        elif isinstance(type_, ListType):
+            if not (name.isascii() and name.isdigit() and int(name) < len(data)):
+                return None
+            data, type_ = data[int(name)], type_.element
+        elif isinstance(type_, MapType):
+            if name not in data:
+                return None
+            data, type_ = data[name], type_.element
+        else:
+            return None
+    return data, type_, member
+
+
+def type_at(root: RecordType, steps: list[str]) -> Type | None:
+    """The type of what a path names, whether or not it has a value; None where the path names nothing."""
+    type_: Type = root
+    for name in steps:
+        match type_:
+            case RecordType():
+                member = type_.member(name)
+                if member is None:
+                    return None
+                type_ = member.type
+            case ListType(element=element) if name.isascii() and name.isdigit():
+                type_ = element
+            case MapType(element=element):
+                type_ = element
+            case _:
+                return None
+    return type_
+
+
+def typed(root: RecordType, steps: list[str]) -> list[Step]:
+    """The steps of a path that names something, with numbers for places in lists."""
+    return [
+        int(step) if isinstance(type_at(root, steps[:depth]), ListType) else step for depth, step in enumerate(steps)
+    ]

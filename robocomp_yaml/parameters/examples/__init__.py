@@ -1,0 +1,1 @@
+"""Values that a document may have, and first documents made of them."""

@@ -1,0 +1,394 @@
+"""Example values that fit together: a document's constraints hold for them, and what is to differ does.
+
+A search over few values for each: the simplest ones, and those that the constraints speak of. It gives up after a
+number of steps; then there is no example, and a person has to find one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+from typing import Any
+
+import msgspec
+
+from robocomp_yaml.parameters.expressions import expression
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    Constraint,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    Parameters,
+    RecordType,
+    ScalarType,
+    Type,
+)
+from robocomp_yaml.parameters.expressions import evaluate
+from robocomp_yaml.parameters.defaults import defaults, with_defaults
+from robocomp_yaml.parameters.examples.example import count_of, example, reference, simplest
+from robocomp_yaml.parameters.verdict.plain import wrong
+
+_STEPS = 3000  # of one search
+_MOST_STEPS = 12_000  # of all, with up to ten parameters; with more, each step takes longer
+_PLACES = 200
+_VALUES = 14  # tried for one place
+_UNKNOWN = {"env": "UNKNOWN"}  # what a reference is before the component starts
+_COUNTS = (None, 2, 3, 0, 1, 4, 6)  # of the entries of lists and maps, where they may be so many; None: the usual
+
+Path = tuple[str, ...]
+
+
+class Fitted(msgspec.Struct):
+    """Examples by path. `given` stand in the document, so that it is right as it is; `possible` may be added to it,
+    alone or together. `unknown` are those for which no example was found."""
+
+    given: dict[Path, Any] = {}
+    possible: dict[Path, Any] = {}
+    unknown: set[Path] = set()
+
+
+def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> Fitted:
+    """Examples of all parameters; `carried` are values that are given already."""
+    found = Fitted()
+    members = dict(_leaves(parameters.root))
+    carried_ = {path: value for path in members if (value := _at(carried or {}, path)) is not None}
+    required = [path for path, member in members.items() if member.required and path not in carried_]
+    optional = [path for path, member in members.items() if not member.required and path not in carried_]
+    search = _Search(parameters, members, {**carried_})
+    # First what must be given; then with some that may be given, where the others alone cannot fit.
+    some = [path for path in optional if search.concerns(path)]
+    chosen = search.solve(required) or (search.solve([*required, *some], some) if some else None)
+    if chosen is None:
+        found.given = dict(carried_)
+        for path in required:
+            alone = search.solve([path], others=False)
+            if alone is None or search.concerns(path):
+                found.unknown.add(path)
+            else:
+                found.given[path] = alone[path]
+        chosen = {}
+    else:
+        found.given = {**carried_, **chosen}
+    together = dict(found.given)
+    for path in (path for path in optional if path not in found.given):
+        if members[path].default is not None:
+            found.possible[path] = example(members[path])
+            continue
+        search.base = together
+        fit = search.solve([path], both=found.given)
+        if fit is None:
+            found.unknown.add(path)
+        else:
+            found.possible[path] = together[path] = fit[path]
+    return found
+
+
+def _leaves(record: RecordType, above: Path = ()) -> Iterator[tuple[Path, Member]]:
+    """Every parameter by its path, groups opened."""
+    for member in record.members:
+        path = (*above, member.name)
+        if member.is_group and isinstance(member.type, RecordType):
+            yield from _leaves(member.type, path)
+        else:
+            yield path, member
+
+
+class _Form(msgspec.Struct, frozen=True):
+    """What lists, maps and records look like: their number of entries, whether optional members are there, and names
+    that maps have."""
+
+    count: int | None = None
+    is_full: bool = False
+    keys: tuple[str, ...] = ()
+
+
+class _Place(msgspec.Struct):
+    """A plain value inside of an example, by its way from the top."""
+
+    steps: tuple[str | int, ...]
+    type: ScalarType
+    first: list[Any] = []
+    is_optional: bool = False
+
+    @property
+    def column(self) -> tuple[str, ...]:
+        """What it shares with its like in other entries of a list."""
+        return tuple("" if isinstance(step, int) else step for step in self.steps)
+
+
+class _Search:
+    """`base` are the values that stand already, by path."""
+
+    def __init__(self, parameters: Parameters, members: Mapping[Path, Member], base: dict[Path, Any]) -> None:
+        self.parameters, self.members, self.base = parameters, members, base
+        said = [literal for each in parameters.constraints for literal in _literals(each.expression)]
+        said += [member.default.data for member in members.values() if member.default is not None]
+        self.texts = list(dict.fromkeys(each for each in said if isinstance(each, str)))
+        numbers = [each for each in said if isinstance(each, int | float) and not isinstance(each, bool)]
+        self.numbers = list(dict.fromkeys(numbers))
+        named = [code for each in parameters.constraints for code in evaluate.paths(each.expression)]
+        self.named = {path for path in members if _is_named(_code_path(parameters.root, path), named)}
+        self.steps = 0
+        self.left = _MOST_STEPS // max(1, len(members) // 10)
+        self.is_careful = False
+
+    def concerns(self, path: Path) -> bool:
+        """Whether a constraint speaks of a parameter."""
+        return path in self.named
+
+    def solve(
+        self,
+        paths: Sequence[Path],
+        optional: Sequence[Path] = (),
+        *,
+        both: Mapping[Path, Any] | None = None,
+        others: bool = True,
+    ) -> dict[Path, Any] | None:
+        """Values for these parameters with which the constraints hold, beside those that stand, and beside `both`
+        alone; those that are `optional` only where they are needed. Without `others`, for each by itself."""
+        constraints = self.parameters.constraints if others else ()
+        self.steps = 0
+        for self.is_careful in (False, True):
+            for form in self._forms():
+                shapes = {path: _shape(self.members[path].type, form) for path in paths}
+                found = self._fill(shapes, optional, constraints, both)
+                if found is not None:
+                    return found
+                if not constraints or self.steps >= _STEPS or self.left <= 0:
+                    break
+            self.steps = 0
+        return None
+
+    def _forms(self) -> Iterator[_Form]:
+        for count in _COUNTS:
+            for is_full in (False, True):
+                yield _Form(count, is_full)
+                if self.texts:
+                    yield _Form(count, is_full, tuple(self.texts))
+
+    def _fill(
+        self,
+        shapes: dict[Path, Any],
+        optional: Sequence[Path],
+        constraints: Sequence[Constraint],
+        both: Mapping[Path, Any] | None,
+    ) -> dict[Path, Any] | None:
+        data = {path: shape for path, shape in shapes.items() if path not in optional}
+        places = []
+        for path, shape in shapes.items():
+            member = self.members[path]
+            found = list(_places(member.type, shape, path, path in optional))
+            if (constraints and self.concerns(path)) or _is_unique(member.type):
+                places += found
+                continue
+            for place in found:
+                value = next(iter(self._values(place)), None)
+                if value is None:
+                    return None
+                if len(place.steps) > len(path):
+                    _put(shape, place.steps[len(path) :], value)
+                else:
+                    data[path] = value
+        if len(places) > _PLACES:
+            return None
+        columns = list(dict.fromkeys(place.column for place in places))
+        # Whether something is there decides most; what is compared with each other is chosen in a row.
+        places.sort(key=lambda place: (not place.is_optional, columns.index(place.column)))
+
+        def goes_well() -> bool:
+            self.steps += 1
+            self.left -= 1
+            return all(
+                self._hold(constraints, base, data) for base in ([self.base] if both is None else [self.base, both])
+            ) and all(_differs(self.members[path].type, value) for path, value in data.items())
+
+        def search(at: int) -> bool:
+            if at == len(places):
+                return goes_well()
+            place = places[at]
+            path = tuple(str(step) for step in place.steps[: _depth(place, self.members)])
+            inside = place.steps[len(path) :]
+            if place.is_optional and not inside:
+                data.pop(path, None)
+                if search(at + 1):
+                    return True
+            for value in self._values(place):
+                if self.steps >= _STEPS or (constraints and self.left <= 0):
+                    return False
+                if inside:
+                    if path not in data:
+                        data[path] = shapes[path]
+                    _put(data[path], inside, value)
+                else:
+                    data[path] = value
+                if goes_well() and search(at + 1):
+                    return True
+            if inside:
+                _put(data[path], inside, _UNKNOWN)
+            else:
+                data.pop(path, None)
+                if not place.is_optional:
+                    data[path] = _UNKNOWN
+            return False
+
+        return dict(data) if search(0) else None
+
+    def _hold(self, constraints: Sequence[Constraint], base: Mapping[Path, Any], more: Mapping[Path, Any]) -> bool:
+        if not constraints:
+            return True
+        root = self.parameters.root
+        data = defaults(root)
+        for path, value in {**base, **more}.items():
+            here = data
+            for step in path[:-1]:
+                here = here.setdefault(step, {})
+            here[path[-1]] = with_defaults(self.members[path].type, value)
+        for path, member in self.members.items():  # still to be chosen
+            if member.required and _at(data, path) is None:
+                _put(data, path, _UNKNOWN)
+        named = evaluate.by_code_names(root, data)
+        return all(
+            evaluate.holds(each.expression, named)
+            for each in constraints
+            if not self.is_careful or not any(_is_open(_at(named, path)) for path in evaluate.paths(each.expression))
+        )
+
+    def _values(self, place: _Place) -> list[Any]:
+        """What a place may hold, the simplest first."""
+        type_ = place.type
+        if type_.secret:
+            named = max(at for at, step in enumerate(place.steps) if isinstance(step, str))
+            return [reference("_".join(map(str, place.steps[named:])))]
+        found = [*place.first, *islice(simplest(type_), _VALUES)]
+        if isinstance(type_, BasicType) and type_.is_number:
+            near = [each for each in simplest(type_) if isinstance(each, int | float)]
+            whole = sorted((each for each in near if float(each).is_integer()), key=abs)
+            found = [*place.first, *near[:1], *whole[:_VALUES], *near[-4:]]
+            for number in self.numbers:
+                found += [_plain(each) for each in (number, number + 1, number - 1, number / 2, number * 2, -number)]
+            if type_.range is not None:
+                found += [end.value for end in (type_.range.low, type_.range.high) if end is not None]
+        elif isinstance(type_, BasicType) and type_.name == "string":
+            found += self.texts
+        return list({repr(each): each for each in found if not wrong(type_, each)}.values())
+
+
+def _plain(number: float) -> int | float:
+    return int(number) if float(number).is_integer() else number
+
+
+def _depth(place: _Place, members: Mapping[Path, Member]) -> int:
+    return next(n for n in range(1, len(place.steps) + 1) if tuple(map(str, place.steps[:n])) in members)
+
+
+def _shape(type_: Type, form: _Form) -> Any:
+    """A value of which every plain part is still to be chosen."""
+    match type_:
+        case ListType(element=element, size=size):
+            return [_shape(element, form) for _ in range(count_of(size, form.count))]
+        case MapType(element=element, size=size):
+            names = [*form.keys, "name", *(f"name{n}" for n in range(1, size.least + 8))]
+            return {name: _shape(element, form) for name in names[: count_of(size, form.count)]}
+        case RecordType(members=members):
+            return {
+                m.name: _shape(m.type, form) if m.default is None else m.default.data
+                for m in members
+                if form.is_full or not m.optional
+            }
+        case _:
+            return dict(_UNKNOWN)
+
+
+def _places(
+    type_: Type, shape: Any, steps: tuple[str | int, ...], is_optional: bool, default: Any = None
+) -> Iterator[_Place]:
+    match type_:
+        case ListType(element=element):
+            for n, item in enumerate(shape):
+                yield from _places(element, item, (*steps, n), is_optional)
+        case MapType(element=element):
+            for name, item in shape.items():
+                yield from _places(element, item, (*steps, name), is_optional)
+        case RecordType(members=members):
+            for member in members:
+                if member.name in shape:
+                    usual = member.default.data if member.default is not None else None
+                    if member.default is None or isinstance(member.type, ScalarType):
+                        yield from _places(member.type, shape[member.name], (*steps, member.name), is_optional, usual)
+        case BasicType() | EnumType():
+            yield _Place(steps, type_, [] if default is None else [default], is_optional)
+
+
+def _is_unique(type_: Type) -> bool:
+    match type_:
+        case ListType(element=element, unique=unique):
+            return unique or _is_unique(element)
+        case MapType(element=element):
+            return _is_unique(element)
+        case RecordType(members=members):
+            return any(_is_unique(member.type) for member in members)
+        case _:
+            return False
+
+
+def _is_open(data: Any) -> bool:
+    """Whether something in it is still to be chosen."""
+    if isinstance(data, dict):
+        return data == _UNKNOWN or any(map(_is_open, data.values()))
+    return isinstance(data, list) and any(map(_is_open, data))
+
+
+def _put(data: Any, steps: Sequence[str | int], value: Any) -> None:
+    for step in steps[:-1]:
+        data = data[step]
+    data[steps[-1]] = value
+
+
+def _at(data: Any, path: Path) -> Any:
+    for step in path:
+        data = data.get(step) if isinstance(data, dict) else None
+    return data
+
+
+def _differs(type_: Type, value: Any) -> bool:
+    """Whether all that is chosen of lists whose entries are to differ does."""
+    match type_:
+        case ListType(element=element, unique=unique) if isinstance(value, list):
+            known = [repr(item) for item in value if item != _UNKNOWN]
+            return (not unique or len(set(known)) == len(known)) and all(_differs(element, item) for item in value)
+        case MapType(element=element) if isinstance(value, dict):
+            return all(_differs(element, item) for item in value.values())
+        case RecordType(members=members) if isinstance(value, dict):
+            return all(_differs(m.type, value[m.name]) for m in members if m.name in value)
+        case _:
+            return True
+
+
+def _code_path(record: RecordType, path: Path) -> Path:
+    found: list[str] = []
+    for step in path:
+        member = record.member(step)
+        assert member is not None
+        found.append(member.code_name)
+        if isinstance(member.type, RecordType):
+            record = member.type
+    return tuple(found)
+
+
+def _is_named(code: Path, named: Sequence[Path]) -> bool:
+    """Whether expressions name a parameter, what it holds or what it stands in."""
+    return any(each[: len(code)] == code[: len(each)] for each in named)
+
+
+def _literals(part: object) -> Iterator[object]:
+    """The values that an expression holds."""
+    if isinstance(part, expression.Literal):
+        yield part.value
+    elif isinstance(part, msgspec.Struct):
+        for name in part.__struct_fields__:
+            yield from _literals(getattr(part, name))
+    elif isinstance(part, tuple):
+        for each in part:
+            yield from _literals(each)

@@ -1,0 +1,270 @@
+"""Types of expressions: every name is there, every operator and function has operands that fit.
+
+A constraint that has a type can be said in every language that components are written in.
+"""
+
+from __future__ import annotations
+
+import msgspec
+
+from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.parameters.expressions.expression import (
+    Attribute,
+    Binary,
+    Call,
+    Compare,
+    Each,
+    Expression,
+    Index,
+    Listing,
+    Literal,
+    Logic,
+    Name,
+    NotInLanguage,
+    Unary,
+)
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    RecordType,
+    Type,
+)
+from robocomp_yaml.parameters.words import in_brief
+
+BOOL, WHOLE, NUMBER, TEXT = BasicType("bool"), BasicType("long"), BasicType("double"), BasicType("string")
+
+
+class Scope(msgspec.Struct, frozen=True):
+    """The names of the parameters, and of the variables of `for` around the place."""
+
+    root: RecordType
+    variables: tuple[tuple[str, Type], ...] = ()
+
+    def with_variable(self, name: str, type_: Type) -> Scope:
+        return Scope(self.root, (*self.variables, (name, type_)))
+
+    def find(self, name: str) -> Type | None:
+        for variable, type_ in reversed(self.variables):
+            if variable == name:
+                return type_
+        return find_member(self.root, name)
+
+    @property
+    def names(self) -> list[str]:
+        return [name for name, _ in self.variables] + [member.code_name for member in self.root.members]
+
+
+def find_member(record: RecordType, name: str) -> Type | None:
+    """A member's type by its name in expressions: the name in code."""
+    return next((member.type for member in record.members if member.code_name == name), None)
+
+
+def is_sound(expression: Expression, root: RecordType) -> bool:
+    try:
+        check_constraint(expression, root)
+    except NotInLanguage:
+        return False
+    return True
+
+
+def check_constraint(expression: Expression, root: RecordType) -> None:
+    """Raises NotInLanguage for what has no meaning, at its place."""
+    type_ = type_of(expression, Scope(root))
+    if not is_bool(type_):
+        raise NotInLanguage(f"a constraint is true or false, and this is {in_brief(type_)}", 0, "compare it: … > 0")
+
+
+def is_bool(type_: Type) -> bool:
+    return isinstance(type_, BasicType) and type_.name == "bool"
+
+
+def is_number(type_: Type) -> bool:
+    return isinstance(type_, BasicType) and type_.is_number
+
+
+def is_text(type_: Type) -> bool:
+    return isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
+
+
+def comparable(one: Type, other: Type) -> bool:
+    """Whether == has a meaning between them."""
+    return any(fits(one) and fits(other) for fits in (is_bool, is_number, is_text))
+
+
+def type_of(expression: Expression, scope: Scope) -> Type:
+    """The type of an expression. Raises NotInLanguage."""
+    match expression:
+        case Literal(value=bool()):
+            return BOOL
+        case Literal(value=str()):
+            return TEXT
+        case Literal(value=value):
+            return WHOLE if isinstance(value, int) else NUMBER
+        case Name(name=name, at=at):
+            found = scope.find(name)
+            if found is None:
+                raise _unknown(name, scope.names, at)
+            return found
+        case Attribute(of=of, name=name, at=at):
+            return _attribute(type_of(of, scope), name, at)
+        case Index():
+            return _index(expression, scope)
+        case Listing(items=items, at=at):
+            return _listing(items, scope, at)
+        case Unary(operator=operator, operand=operand):
+            wanted = is_bool if operator == "not" else is_number
+            return _want(operand, wanted, "true or false" if operator == "not" else "a number", operator, scope)
+        case Binary(operator=operator, left=left, right=right):
+            types = [_want(side, is_number, "a number", operator, scope) for side in (left, right)]
+            whole = operator != "/" and all(isinstance(t, BasicType) and t.is_integer for t in types)
+            return WHOLE if whole else NUMBER
+        case Logic(operator=operator, operands=operands):
+            for operand in operands:
+                _want(operand, is_bool, "true or false", operator, scope)
+            return BOOL
+        case Compare():
+            return _compare(expression, scope)
+        case Call():
+            return _call(expression, scope)
+
+
+def _want(expression: Expression, fits: object, wanted: str, where: str, scope: Scope) -> Type:
+    found = type_of(expression, scope)
+    if not fits(found):  # type: ignore[operator]
+        raise NotInLanguage(f"'{where}' needs {wanted} here, and this is {in_brief(found)}", expression.at)
+    return found
+
+
+def _unknown(name: str, known: list[str], at: int, of: str = "parameter") -> NotInLanguage:
+    hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known[:20])}")
+    return NotInLanguage(f"there is no {of} '{name}'", at, hint)
+
+
+def _attribute(owner: Type, name: str, at: int) -> Type:
+    if not isinstance(owner, RecordType):
+        hint = "take an entry with [0], or go through them with 'for'" if isinstance(owner, ListType) else ""
+        raise NotInLanguage(f"{in_brief(owner)} has no members, so no '{name}'", at, hint)
+    found = find_member(owner, name)
+    if found is None:
+        raise _unknown(name, [member.code_name for member in owner.members], at, "member")
+    return found
+
+
+def _index(expression: Index, scope: Scope) -> Type:
+    owner = type_of(expression.of, scope)
+    if isinstance(owner, ListType):
+        index = expression.index
+        if isinstance(index, Unary) or not (isinstance(found := type_of(index, scope), BasicType) and found.is_integer):
+            raise NotInLanguage("an entry of a list is taken by its number, from 0", index.at)
+        return owner.element
+    if isinstance(owner, MapType):
+        _want(expression.index, is_text, "text", "[]", scope)
+        return owner.element
+    raise NotInLanguage(f"{in_brief(owner)} has no entries", expression.at)
+
+
+def _listing(items: tuple[Expression, ...], scope: Scope, at: int) -> Type:
+    types = [type_of(item, scope) for item in items]
+    if not types:
+        raise NotInLanguage("an empty list holds nothing to compare with", at)
+    for item, type_ in zip(items, types, strict=True):
+        if not comparable(types[0], type_):
+            raise NotInLanguage(f"{in_brief(type_)} stands beside {in_brief(types[0])}", item.at)
+    return ListType(types[0])
+
+
+def _compare(expression: Compare, scope: Scope) -> Type:
+    left_node, left = expression.first, type_of(expression.first, scope)
+    for operator, node in expression.rest:
+        right = type_of(node, scope)
+        if operator in ("in", "not in"):
+            if not isinstance(right, ListType | MapType):
+                raise NotInLanguage(f"'{operator}' needs a list or a map here, and this is {in_brief(right)}", node.at)
+            inner = right.element if isinstance(right, ListType) else TEXT
+            _same(left, inner, left_node, node, operator)
+            if isinstance(node, Listing):
+                for item in node.items:
+                    _same(left, type_of(item, scope), left_node, item, operator)
+        else:
+            _same(left, right, left_node, node, operator)
+            if operator in ("<", "<=", ">", ">=") and not (is_number(left) and is_number(right)):
+                raise NotInLanguage(f"'{operator}' compares numbers, and this is {in_brief(left)}", left_node.at)
+        left_node, left = node, right
+    return BOOL
+
+
+def _same(left: Type, right: Type, left_node: Expression, right_node: Expression, operator: str) -> None:
+    if not comparable(left, right):
+        raise NotInLanguage(f"'{operator}' cannot compare {in_brief(left)} with {in_brief(right)}", right_node.at)
+    for type_, node in ((left, right_node), (right, left_node)):
+        if isinstance(type_, EnumType) and isinstance(node, Literal) and node.value not in type_.names:
+            raise _unknown(str(node.value), list(type_.names), node.at, f"enumerator of {type_.name}")
+
+
+def _call(call: Call, scope: Scope) -> Type:
+    function, first = call.function, call.arguments[0]
+    if function == "has":
+        if not isinstance(first, Name | Attribute | Index):
+            raise NotInLanguage("has() asks whether a parameter has a value", call.at)
+        type_of(first, scope)
+        return BOOL
+    if isinstance(first, Each):
+        element = _each(first, scope)
+    elif len(call.arguments) > 1:
+        types = [
+            _want(one, is_number, "a number", f"{function}()", scope)
+            for one in call.arguments
+            if not isinstance(one, Each)
+        ]
+        return WHOLE if all(isinstance(t, BasicType) and t.is_integer for t in types) else NUMBER
+    else:
+        operand = type_of(first, scope)
+        if function in _OF_ONE:
+            return _of_one(function, operand, first)
+        if not isinstance(operand, ListType):
+            raise NotInLanguage(f"{function}() needs a list here, and this is {in_brief(operand)}", first.at)
+        element = operand.element
+    return _of_many(function, element, first)
+
+
+_OF_ONE = ("len", "abs", "keys", "values")
+
+
+def _of_one(function: str, operand: Type, node: Expression) -> Type:
+    if function == "abs" and is_number(operand):
+        return operand
+    if function == "len" and isinstance(operand, ListType | MapType):
+        return WHOLE
+    if function in ("keys", "values") and isinstance(operand, MapType):
+        return ListType(TEXT if function == "keys" else operand.element)
+    wanted = {"abs": "a number", "len": "a list or a map"}.get(function, "a map")
+    raise NotInLanguage(f"{function}() needs {wanted} here, and this is {in_brief(operand)}", node.at)
+
+
+def _of_many(function: str, element: Type, node: Expression | Each) -> Type:
+    at = node.element.at if isinstance(node, Each) else node.at
+    if function in ("all", "any"):
+        if not is_bool(element):
+            raise NotInLanguage(f"{function}() needs true or false here, and this is {in_brief(element)}", at)
+        return BOOL
+    if function == "unique":
+        if not isinstance(element, BasicType | EnumType):
+            raise NotInLanguage(f"unique() needs plain values, and this is {in_brief(element)}", at)
+        return BOOL
+    if not is_number(element):
+        raise NotInLanguage(f"{function}() needs numbers, and this is {in_brief(element)}", at)
+    return element
+
+
+def _each(each: Each, scope: Scope) -> Type:
+    source = type_of(each.source, scope)
+    if isinstance(source, MapType):
+        raise NotInLanguage("a 'for' goes through a list", each.source.at, "write keys(…) or values(…) of a map")
+    if not isinstance(source, ListType):
+        raise NotInLanguage(f"a 'for' goes through a list, and this is {in_brief(source)}", each.source.at)
+    inner = scope.with_variable(each.variable, source.element)
+    if each.condition is not None:
+        _want(each.condition, is_bool, "true or false", "if", inner)
+    return type_of(each.element, inner)

@@ -1,0 +1,140 @@
+"""Values by their types, with what is secret among them hidden: for whatever shows values to people."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from typing import Any
+
+from robocomp_yaml import secrets
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics.references import is_sound
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+
+
+def holds_secret(type_: Type) -> bool:
+    """Whether a plain value is a secret, or anything that is inside."""
+    match type_:
+        case BasicType() | EnumType():
+            return type_.secret
+        case ListType(element=element) | MapType(element=element):
+            return holds_secret(element)
+        case _:
+            return any(holds_secret(member.type) for member in type_.members)
+
+
+def declared(type_: Type) -> Iterator[str]:
+    """The names of members that a document calls secret."""
+    match type_:
+        case ListType(element=element) | MapType(element=element):
+            yield from declared(element)
+        case RecordType(members=members):
+            for member in members:
+                if member.secret:
+                    yield member.name
+                yield from declared(member.type)
+        case _:
+            return
+
+
+def hidden(type_: Type, data: Any) -> Any:
+    """The data with its secrets hidden. References that can be followed stay: they say where a value comes from, not
+    what it is."""
+    match type_:
+        case BasicType() | EnumType():
+            return plain(type_, data)
+        case ListType(element=element) if isinstance(data, list):
+            return [hidden(element, item) for item in data]
+        case MapType(element=element) if isinstance(data, dict):
+            named = {key: secrets.HIDDEN for key, item in data.items() if _is_named(key, item)}
+            return {key: hidden(element, item) for key, item in data.items()} | named
+        case RecordType() if isinstance(data, dict):
+            types = {member.name: member.type for member in type_.members}
+            return {key: hidden(types[key], item) if key in types else item for key, item in data.items()}
+        case _:
+            return data
+
+
+def plain(type_: Type, data: Any) -> Any:
+    """One plain value; passwords in URLs are hidden, whatever the type says."""
+    if isinstance(type_, BasicType | EnumType) and type_.secret:
+        return data if data is None or data == "" or is_sound(data) else secrets.HIDDEN
+    return secrets.url(data) if isinstance(data, str) else data
+
+
+def _is_named(key: str, data: Any) -> bool:
+    """Whether an entry of a map is a secret by its own name."""
+    return isinstance(data, str) and data != "" and secrets.is_secret(key)
+
+
+def nodes(type_: Type, node: Node) -> Iterator[Scalar]:
+    """Every plain value below a node that is a secret. Wherever a node does not fit the type, names alone count."""
+    match type_:
+        case BasicType() | EnumType():
+            if type_.secret and not is_sound(node.data):
+                yield from plain_below(node)
+        case ListType(element=element) if isinstance(node, Sequence):
+            for item in node.items:
+                yield from nodes(element, item)
+        case MapType(element=element) if isinstance(node, Mapping):
+            for key, value in node.items():
+                named = secrets.is_secret(key.lexeme) and isinstance(value.data, str)
+                yield from plain_below(value) if named else nodes(element, value)
+        case RecordType() if isinstance(node, Mapping):
+            for key, value in node.items():
+                yield from _of_member(type_, key, value)
+        case _:
+            if not is_sound(node.data):
+                yield from plain_below(node) if holds_secret(type_) else named_nodes(node)
+
+
+def _of_member(record: RecordType, key: Scalar, value: Node) -> Iterator[Scalar]:
+    """What a key of a record gives a value to: it may be a path, as under `set:`."""
+    steps = [key.lexeme] if record.member(key.lexeme) else paths.parse(key.lexeme) or [key.lexeme]
+    type_: Type | None = record
+    for step in steps:
+        if isinstance(type_, RecordType):
+            member = type_.member(step)
+            type_ = member.type if member is not None else None
+        else:
+            type_ = type_.element if isinstance(type_, ListType | MapType) else None
+    if type_ is not None and not (isinstance(value.data, str) and secrets.is_secret(steps[-1])):
+        yield from nodes(type_, value)
+    elif type_ is not None or secrets.is_secret(key.lexeme) or _is_close(record, key.lexeme):
+        yield from plain_below(value)
+    else:
+        yield from named_nodes(value)
+
+
+def _is_close(record: RecordType, name: str) -> bool:
+    """Whether a name that there is not is a secret's with a slip in it."""
+    from difflib import get_close_matches  # few need it
+
+    known = [member.name.lower() for member in record.members if holds_secret(member.type)]
+    return bool(known) and bool(get_close_matches(name.lower(), known, 1, 0.7))
+
+
+def named_nodes(node: Node, names: Collection[str] = ()) -> Iterator[Scalar]:
+    """Every plain value that stands below a key whose name says that it is secret, or is one of these."""
+    if isinstance(node, Mapping) and not is_sound(node.data):
+        for key, value in node.items():
+            last = (paths.parse(key.lexeme) or [key.lexeme])[-1] if names else ""
+            named = secrets.is_secret(key.lexeme) or last in names
+            yield from plain_below(value) if named else named_nodes(value, names)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from named_nodes(item, names)
+
+
+def plain_below(node: Node) -> Iterator[Scalar]:
+    """Every plain value in a node, but for references."""
+    if isinstance(node, Scalar):
+        if node.data is not None and node.data != "":
+            yield node
+    elif isinstance(node, Mapping):
+        if not is_sound(node.data):
+            for _, value in node.items():
+                yield from plain_below(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from plain_below(item)

@@ -1,0 +1,1 @@
+"""Values merged, completed and judged: what is in effect."""

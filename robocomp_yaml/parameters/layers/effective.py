@@ -1,0 +1,153 @@
+"""The effective values of a document and its layers, with everything that is wrong with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import msgspec
+
+from robocomp_yaml.diag.codes import values as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
+from robocomp_yaml.parameters.layers.completion import completed
+from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
+from robocomp_yaml.parameters.schema.gate import fits
+from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE
+from robocomp_yaml.parameters.types import MapType, Parameters, RecordType, Type
+from robocomp_yaml.parameters.verdict.judge import Path, judge, missing, wrong_size
+from robocomp_yaml.parameters.verdict.specification import is_usable
+from robocomp_yaml.source.tree import Mapping
+
+
+class Effective(msgspec.Struct):
+    """`data` are the values with all defaults, references as `{"env": NAME}`; `place` is where they stand."""
+
+    data: dict[str, Any]
+    place: Place | None
+    parameters: Parameters
+
+
+def document_faults(values: LayeredValues) -> list[Diagnostic]:
+    """What is wrong with the values that a document itself gives, whatever is missing."""
+    linked = values.parameters
+    entry = values.document.root.entries.get("parameters")
+    if linked is None or entry is None or not isinstance(entry[1], Mapping):
+        return []
+    if fits(linked, DOCUMENT, entry[1].data):
+        return []
+    return list(judge(linked.parameters.root, entry[1], (), complete=False, key=entry[0]))
+
+
+def effective(values: LayeredValues) -> tuple[Effective | None, list[Diagnostic]]:
+    """The values of a document and all that it builds on; None where something is wrong with them."""
+    linked = values.parameters
+    assert linked is not None
+    root = linked.parameters.root
+    place = merged(values)
+    data = data_of(place, root)
+    layers = values.layers()
+    # A single layer that is effective as it stands is right as a layer, too: one look is enough.
+    is_right = len(layers) == 1 and fits(linked, EFFECTIVE, _own_data(values))
+    found = [] if is_right else [fault for layer in layers for fault in _layer_faults(layer, linked)]
+    if not is_right and not values.broken and not fits(linked, EFFECTIVE, data):
+        found += _not_misspelled(found, _incomplete(root, place, (), _head(values)))
+    if found or values.broken or not is_usable(linked):
+        return None, found
+    complete = completed(linked, data)
+    found = list(_broken_constraints(linked.parameters, complete, place, _head(values)))
+    return (None if found else Effective(complete, place, linked.parameters)), found
+
+
+def _not_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """What is missing, but for what stands there misspelled: that is one cause, not two."""
+    meant = set()
+    for fault in found:
+        if fault.code == codes.UNKNOWN_PARAMETER.id and (name := fault.fact("meant")):
+            around = str(fault.fact("path")).rpartition(".")[0]
+            meant.add(f"{around}.{name}" if around else name)
+    return [fault for fault in missing_ones if fault.fact("path") not in meant]
+
+
+def _own_data(values: LayeredValues) -> object:
+    entry = values.document.root.entries.get("parameters")
+    return entry[1].data if entry is not None else None
+
+
+def _layer_faults(layer: LayeredValues, linked: ResolvedParameters) -> list[Diagnostic]:
+    if layer.parameters is linked:
+        return document_faults(layer)
+    return document_faults(LayeredValues(layer.document, parameters=linked))
+
+
+def _head(values: LayeredValues) -> Span:
+    """Where a document's values begin."""
+    root = values.document.root
+    entry = root.entries.get("parameters") or root.entries.get("component")
+    return entry[0].span if entry else Span(root.file)
+
+
+def _incomplete(type_: Type, place: Place | None, path: Path, head: Span) -> Iterator[Diagnostic]:
+    """What is missing from merged values, and maps whose merged size is wrong."""
+    if place is not None and place.key is not None:
+        head = place.key.span
+    if place is not None and place.entries is None:
+        if path:
+            yield from _incomplete_node(type_, place, path, head)
+        return
+    entries = place.entries if place is not None else None
+    if isinstance(type_, RecordType):
+        yield from missing(type_, set(entries or ()), path, head)
+        for name, entry in (entries or {}).items():
+            member = type_.member(name)
+            assert member is not None
+            yield from _incomplete(member.type, entry, (*path, name), head)
+    elif isinstance(type_, MapType) and place is not None:
+        yield from wrong_size(type_, len(entries or ()), place.node, path, place.key)
+        for name, entry in (entries or {}).items():
+            yield from _incomplete(type_.element, entry, (*path, name), head)
+
+
+def _incomplete_node(type_: Type, place: Place, path: Path, head: Span) -> Iterator[Diagnostic]:
+    """Inside of a list nothing merges: each entry is judged as it stands, but for null."""
+    for fault in judge(type_, place.node, path, complete=True, key=place.key):
+        if fault.code in (codes.MISSING.id, codes.WRONG_SIZE.id):
+            yield fault
+
+
+def _broken_constraints(
+    parameters: Parameters, data: dict[str, Any], place: Place | None, head: Span
+) -> Iterator[Diagnostic]:
+    if not parameters.constraints:
+        return
+    from robocomp_yaml.parameters.expressions import evaluate
+
+    named = evaluate.by_code_names(parameters.root, data)
+    for constraint in parameters.constraints:
+        if not evaluate.holds(constraint.expression, named):
+            span = _concerned(parameters.root, constraint.expression, place) or head
+            yield codes.CONSTRAINT.at(
+                span, message=constraint.message, hint="" if not constraint.otherwise else constraint.text
+            )
+
+
+def _concerned(root: RecordType, expression: object, place: Place | None) -> Span | None:
+    """The first value that a constraint names and that a document gives."""
+    from robocomp_yaml.parameters.expressions import evaluate
+
+    for steps in evaluate.paths(expression):
+        here, record = place, root
+        found: Span | None = None
+        for step in steps:
+            member = next((m for m in record.members if m.code_name == step), None)
+            entry = here.entries.get(member.name) if here and here.entries and member else None
+            if entry is None or member is None:
+                break
+            here, found = entry, entry.key.span if entry.key else entry.node.span
+            if not isinstance(member.type, RecordType):
+                break
+            record = member.type
+        if found is not None:
+            return found
+    return None

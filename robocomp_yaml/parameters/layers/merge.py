@@ -1,0 +1,120 @@
+"""Layers of values merged: mappings merge, lists and scalars replace, null returns to the default.
+
+The result remembers for each value its node, and those that it overrode.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import msgspec
+
+from robocomp_yaml.parameters.documents import LayeredValues
+from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+
+
+class Place(msgspec.Struct):
+    """A merged value. `node` is what the last layer says (of a merged mapping: its last one), `key` the key it stands
+    behind; `entries` are those of a merged mapping, None for lists and plain values. `overrode` are the nodes of
+    earlier layers that it replaces, the latest first."""
+
+    node: Node
+    key: Scalar | None
+    entries: dict[str, Place] | None = None
+    overrode: list[Node] = []
+
+
+Given = tuple[Scalar | None, Node]
+
+
+def merged(values: LayeredValues) -> Place | None:
+    """What the layers say under `parameters:`, merged by the types; None where they say nothing."""
+    assert values.parameters is not None
+    return merge(values.parameters.parameters.root, _sections(values))
+
+
+def _sections(values: LayeredValues) -> Iterator[Given]:
+    for layer in values.layers():
+        entry = layer.document.root.entries.get("parameters")
+        if entry is not None and isinstance(entry[1], Mapping):
+            yield entry
+
+
+def merge(type_: Type, given: Iterable[Given]) -> Place | None:
+    """One value of several layers, the most general first."""
+    layers = list(given)
+    for index in range(len(layers) - 1, -1, -1):
+        if layers[index][1].data is None:  # null: nothing before it counts
+            layers = layers[index + 1 :]
+            break
+    if not layers:
+        return None
+    key, top = layers[-1]
+    if not isinstance(type_, RecordType | MapType) or not isinstance(top, Mapping):
+        return Place(top, key, None, [node for _, node in reversed(layers[:-1])])
+    first = len(layers) - 1
+    while first > 0 and isinstance(layers[first - 1][1], Mapping):
+        first -= 1
+    by_name: dict[str, list[Given]] = {}
+    for _, node in layers[first:]:
+        assert isinstance(node, Mapping)
+        for name, entry in node.entries.items():
+            by_name.setdefault(name, []).append(entry)
+    entries = {}
+    for name, entry_layers in by_name.items():
+        entry_type = _entry_type(type_, name)
+        if entry_type is not None and (place := merge(entry_type, entry_layers)) is not None:
+            entries[name] = place
+    return Place(top, key, entries, [node for _, node in reversed(layers[:first])])
+
+
+def _entry_type(type_: RecordType | MapType, name: str) -> Type | None:
+    if isinstance(type_, MapType):
+        return type_.element
+    member = type_.member(name)
+    return None if member is None else member.type
+
+
+def data_of(place: Place | None, type_: Type) -> Any:
+    """Plain data of merged values, without null."""
+    if place is None:
+        return {}
+    if place.entries is None:
+        return _without_null(place.node.data, type_)
+    return {
+        name: data_of(entry, entry_type)
+        for name, entry in place.entries.items()
+        if isinstance(type_, RecordType | MapType) and (entry_type := _entry_type(type_, name)) is not None
+    }
+
+
+def _without_null(data: Any, type_: Type) -> Any:
+    """What stands in a list merges with nothing; null members return to their defaults there too, and keys `x-…` of
+    records are no members."""
+    if isinstance(type_, ListType) and isinstance(data, list):
+        if not isinstance(type_.element, RecordType | MapType | ListType):
+            return data
+        return [_without_null(item, type_.element) for item in data]
+    if isinstance(type_, RecordType | MapType) and isinstance(data, dict):
+        kept = data
+        if isinstance(type_, RecordType) and any(name.startswith("x-") for name in data):
+            kept = {name: value for name, value in data.items() if not name.startswith("x-")}
+        if None not in kept.values() and not any(isinstance(value, dict | list) for value in kept.values()):
+            return kept
+        return {
+            name: _without_null(value, _entry_type(type_, name) or type_)
+            for name, value in kept.items()
+            if value is not None
+        }
+    return data
+
+
+def child(node: Node | None, step: str | int) -> Given | None:
+    """Key and node one step further down."""
+    if isinstance(node, Mapping) and isinstance(step, str):
+        return node.entries.get(step)
+    if isinstance(node, Sequence) and isinstance(step, int) and step < len(node.items):
+        return None, node.items[step]
+    return None

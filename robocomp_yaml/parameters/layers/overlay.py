@@ -1,0 +1,103 @@
+"""Values set from outside of their document, as one more layer: a `parameters:` block, or paths (`motors[0].vel: 1`).
+
+Lists merge with nothing, so a path into one makes a copy of the list that it changes. All nodes keep their places.
+"""
+
+from __future__ import annotations
+
+import msgspec
+
+from robocomp_yaml.parameters.layers.merge import Place
+from robocomp_yaml.parameters.types import ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, mapping_at, sequence_at, text_at
+
+Entries = dict[str, tuple[Scalar, Node]]
+
+
+class NoEntry(msgspec.Struct, frozen=True):
+    """A path that leads nowhere: `key` spells it."""
+
+    key: Scalar
+    problem: str
+
+
+class Overlay(msgspec.Struct):
+    """`root` has the entries of the layer; `faults` are paths into lists that are not there."""
+
+    root: Mapping
+    faults: list[NoEntry] = []
+
+
+def overlay(settings: Mapping, type_: RecordType, base: Place | None) -> Overlay:
+    """The layer that `settings` are, on top of the merged values `base`."""
+    result = Overlay(mapping_at(settings.span, {}))
+    entries: Entries = {}
+    for key, node in settings.items():
+        steps = [key.lexeme] if type_.member(key.lexeme) else paths.parse(key.lexeme) or [key.lexeme]
+        try:
+            _put(entries, steps, key, node, type_, base)
+        except LookupError as error:
+            result.faults.append(NoEntry(key, str(error.args[0])))
+    result.root = mapping_at(settings.span, entries)
+    return result
+
+
+def _put(entries: Entries, steps: list[str], key: Scalar, node: Node, type_: Type, base: Place | None) -> None:
+    """Changes `entries`, those of a mapping of this type. Raises LookupError with what is not there."""
+    step, *rest = steps
+    known = entries.get(step)
+    name = text_at(key.span, step)
+    if not rest:
+        entries[step] = (name, _joined(known, node))
+        return
+    below = base.entries.get(step) if base is not None and base.entries else None
+    member = type_.member(step) if isinstance(type_, RecordType) else None
+    inner = member.type if member else type_.element if isinstance(type_, MapType) else None
+    if isinstance(inner, ListType):
+        entries[step] = (name, _replaced(known[1] if known else _list(below, member), rest, key, node))
+        return
+    inside = dict(known[1].entries) if known and isinstance(known[1], Mapping) else {}
+    if inner is None:
+        inside[rest[0]] = (text_at(key.span, rest[0]), node)  # the judge says what is wrong with it
+    else:
+        _put(inside, rest, key, node, inner, below)
+    entries[step] = (name, mapping_at(key.span, inside))
+
+
+def _joined(known: tuple[Scalar, Node] | None, node: Node) -> Node:
+    """A block and paths into it may stand side by side."""
+    if known and isinstance(known[1], Mapping) and isinstance(node, Mapping):
+        return mapping_at(node.span, {**known[1].entries, **node.entries})
+    return node
+
+
+def _list(below: Place | None, member: Member | None) -> Node | None:
+    """What a list holds before: by the document, else by its default."""
+    if below is not None:
+        return below.node
+    return member.default.node if member and member.default else None
+
+
+def _replaced(node: Node | None, steps: list[str], key: Scalar, new: Node) -> Node:
+    """A copy of what stands inside of a list, with another value at `steps`."""
+    if not steps:
+        return new
+    step, *rest = steps
+    if isinstance(node, Sequence):
+        if not step.isdigit() or int(step) >= len(node.items):
+            raise LookupError(f"the list has {_count(len(node.items))}, counted from 0")
+        at = int(step)
+        items = [_replaced(item, rest, key, new) if index == at else item for index, item in enumerate(node.items)]
+        return sequence_at(node.span, items)
+    if isinstance(node, Mapping):
+        inside = node.entries.get(step, (key, None))[1]
+        entries = node.entries | {step: (text_at(key.span, step), _replaced(inside, rest, key, new))}
+        return mapping_at(node.span, entries)
+    if node is None and not step.isdigit():
+        return mapping_at(key.span, {step: (text_at(key.span, step), _replaced(None, rest, key, new))})
+    raise LookupError("there is no list yet to change" if node is None else "there is a plain value")
+
+
+def _count(number: int) -> str:
+    return f"{number} entr{'y' if number == 1 else 'ies'}"

@@ -1,0 +1,229 @@
+"""Regular expressions that mean the same to ECMAScript, Python, Rust and C++.
+
+What a PDSL's `pattern:` may say is the subset that all of them know: literals, `.`, classes, `\\d \\w \\s`, groups,
+alternatives and the usual counts. It is parsed here and written out again in a form without anything that the engines
+read differently: classes as sorted ranges, shorthands spelled out (ASCII), anchored at both ends.
+"""
+
+from __future__ import annotations
+
+import re
+
+import msgspec
+
+from robocomp_yaml.parameters.patterns.match import MAX_PLACES, TooLarge, matcher
+
+MAX_COUNT = 1000
+_SHORTHANDS = {
+    "d": [(0x30, 0x39)],
+    "w": [(0x30, 0x39), (0x41, 0x5A), (0x5F, 0x5F), (0x61, 0x7A)],
+    "s": [(0x09, 0x0D), (0x20, 0x20)],
+}
+_CONTROLS = {"t": "\t", "n": "\n", "r": "\r", "f": "\f", "v": "\v"}
+_SPELLED = {"\t": "\\t", "\n": "\\n", "\r": "\\r", "\f": "\\f", "\v": "\\v"}
+_SYNTAX = frozenset("^$\\.*+?()[]{}|/")
+_COUNT = re.compile(r"\{(\d{1,4})(,(\d{1,4})?)?\}")
+
+
+class NotPortable(ValueError):
+    """Says what an expression may not say, and where (an index)."""
+
+    def __init__(self, problem: str, index: int) -> None:
+        super().__init__(problem)
+        self.index = index
+
+
+class Pattern(msgspec.Struct, frozen=True):
+    """`text` is as written; `portable` is the same without anchors, for `^(?:…)$` in any engine."""
+
+    text: str
+    portable: str
+
+    def matches(self, value: str) -> bool:
+        return matcher(self.portable).matches(value)
+
+    @property
+    def anchored(self) -> str:
+        """For engines that search. Python's `$` also matches before a last line end: the look-ahead forbids that."""
+        return f"^(?:{self.portable})$(?!\\n)"
+
+
+def parse(text: str) -> Pattern:
+    """The pattern of an expression. Raises NotPortable."""
+    body, shift = text, 0
+    if body.startswith("^"):  # it matches the whole text in any case
+        body, shift = body[1:], 1
+    if body.endswith("$") and (len(body) - len(body.rstrip("$").rstrip("\\")) - 1) % 2 == 0:
+        body = body[:-1]
+    parser = _Parser(body, shift)
+    portable = parser.alternatives()
+    if parser.at < len(body):
+        raise NotPortable("a ')' has no '(' before it", parser.at + shift)
+    try:
+        matcher(portable)
+    except TooLarge:
+        raise NotPortable(f"its counts come to more than {MAX_PLACES} characters", 0) from None
+    return Pattern(text, portable)
+
+
+class _Parser(msgspec.Struct):
+    text: str
+    shift: int
+    at: int = 0
+    depth: int = 0
+    out: list[str] = []
+
+    def fail(self, problem: str, index: int | None = None) -> NotPortable:
+        return NotPortable(problem, (self.at if index is None else index) + self.shift)
+
+    def peek(self) -> str:
+        return self.text[self.at : self.at + 1]
+
+    def alternatives(self) -> str:
+        parts = [self.sequence()]
+        while self.peek() == "|":
+            self.at += 1
+            parts.append(self.sequence())
+        return "|".join(parts)
+
+    def sequence(self) -> str:
+        out = []
+        while (char := self.peek()) and char not in "|)":
+            out.append(self.atom() + self.count())
+        return "".join(out)
+
+    def atom(self) -> str:
+        start, char = self.at, self.peek()
+        self.at += 1
+        match char:
+            case "(":
+                return self.group(start)
+            case "[":
+                return self.char_class(start)
+            case ".":
+                return "[^\\n\\r]"
+            case "\\":
+                return self.escape(start)
+            case "*" | "+" | "?":
+                raise self.fail(f"'{char}' has nothing before it to repeat", start)
+            case "^" | "$":
+                raise self.fail(f"'{char}' stands inside; a pattern matches the whole text in any case", start)
+            case "{" | "}" | "]":
+                raise self.fail(f"'{char}' stands for itself only with a backslash: '\\{char}'", start)
+        return _literal(char)
+
+    def group(self, start: int) -> str:
+        if self.text.startswith("?:", self.at):
+            self.at += 2
+        elif self.peek() == "?":
+            raise self.fail("look-around, names and flags of groups are not known to every engine", start)
+        self.depth += 1
+        if self.depth > 20:
+            raise self.fail("groups are nested more than 20 deep", start)
+        inner = self.alternatives()
+        if self.peek() != ")":
+            raise self.fail("this '(' has no ')'", start)
+        self.depth -= 1
+        self.at += 1
+        return f"(?:{inner})"
+
+    def count(self) -> str:
+        char = self.peek()
+        if char and char in "*+?":
+            self.at += 1
+            found = char
+        elif char == "{":
+            counted = _COUNT.match(self.text, self.at)
+            if not counted:
+                raise self.fail("a count is {2}, {2,} or {2,5}")
+            least, most = int(counted[1]), int(counted[3] or counted[1])
+            if most < least or most > MAX_COUNT:
+                raise self.fail(f"a count goes up, and to {MAX_COUNT} at most")
+            self.at = counted.end()
+            found = counted[0]
+        else:
+            return ""
+        following = self.peek()
+        if following == "?":
+            raise self.fail("a lazy count changes nothing where the whole text must match; leave the '?' out")
+        if following and following in "*+{":
+            raise self.fail("a count of a count needs a group around the first")
+        return found
+
+    def escape(self, start: int) -> str:
+        char = self.peek()
+        self.at += 1
+        if char.lower() in _SHORTHANDS and char:
+            return _class(_SHORTHANDS[char.lower()], negated=char.isupper())
+        return _literal(self.single(char, start))
+
+    def single(self, char: str, start: int) -> str:
+        """The character that stands behind a backslash."""
+        if char in _CONTROLS:
+            return _CONTROLS[char]
+        if not char:
+            raise self.fail("a backslash stands at the end", start)
+        if char.isalnum() or (char.isspace() and char != " "):
+            raise self.fail(f"'\\{char}' does not mean the same to every engine", start)
+        return char
+
+    def char_class(self, start: int) -> str:
+        negated = self.peek() == "^"
+        self.at += negated
+        ranges: list[tuple[int, int]] = []
+        while self.peek() != "]":
+            if not self.peek():
+                raise self.fail("this '[' has no ']'", start)
+            low = self.class_item()
+            if isinstance(low, list):
+                ranges += low
+            elif self.peek() == "-" and self.text[self.at + 1 : self.at + 2] not in ("]", ""):
+                place = self.at
+                self.at += 1
+                high = self.class_item()
+                if isinstance(high, list) or high < low:
+                    raise self.fail("a range of characters goes up, from one to another", place)
+                ranges.append((low, high))
+            else:
+                ranges.append((low, low))
+        self.at += 1
+        if not ranges:
+            raise self.fail("a class of characters is empty", start)
+        return _class(ranges, negated)
+
+    def class_item(self) -> int | list[tuple[int, int]]:
+        start, char = self.at, self.peek()
+        self.at += 1
+        if char == "[":
+            raise self.fail("inside of a class, '[' needs a backslash: '\\['", start)
+        if char != "\\":
+            return ord(char)
+        char = self.peek()
+        self.at += 1
+        if char and char in _SHORTHANDS:
+            return _SHORTHANDS[char]
+        return ord(self.single(char, start))
+
+
+def _literal(char: str) -> str:
+    return _SPELLED.get(char) or (f"\\{char}" if char in _SYNTAX else char)
+
+
+def _class(ranges: list[tuple[int, int]], negated: bool) -> str:
+    """Sorted ranges that do not touch: so `--`, `&&` and `~~`, which mean something to Rust, never stand there."""
+    merged: list[list[int]] = []
+    for low, high in sorted(ranges):
+        if merged and low <= merged[-1][1] + 1:
+            merged[-1][1] = max(merged[-1][1], high)
+        else:
+            merged.append([low, high])
+    inner = "".join(
+        _in_class(low) + ("" if low == high else f"-{_in_class(high)}" if high > low + 1 else _in_class(high))
+        for low, high in merged
+    )
+    return f"[{'^' if negated else ''}{inner}]"
+
+
+def _in_class(code: int) -> str:
+    char = chr(code)
+    return _SPELLED.get(char) or (f"\\{char}" if char in _SYNTAX or char == "-" else char)

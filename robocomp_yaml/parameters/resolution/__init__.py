@@ -1,0 +1,1 @@
+"""The types of parameters resolved: names looked up, limits joined and judged."""

@@ -1,0 +1,325 @@
+"""Parameters as written become parameters with resolved types; each component also gets its `period`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from msgspec.structs import replace
+
+from robocomp_yaml import secrets
+from robocomp_yaml.diag.codes import pdsl as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import did_you_mean, meaning
+from robocomp_yaml.parameters.resolution.limits import inside, limited
+from robocomp_yaml.parameters.specification.document import Entry, ParameterDocument, Rule, Spec
+from robocomp_yaml.parameters.types import (
+    BASIC_TYPES,
+    BasicType,
+    Bound,
+    Constraint,
+    Default,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    Parameters,
+    Range,
+    RecordType,
+    ScalarType,
+    Type,
+    innermost,
+)
+from robocomp_yaml.parameters.words import kind_in_words
+from robocomp_yaml.source.tree import Scalar
+
+MAX_DEPTH = 30
+MAX_VALUES = 5000
+DEFAULT_PERIOD, DEFAULT_EMERGENCY = 100, 500
+_IN_TYPES = ("type", "list", "map", "enum", "struct")
+_IN_PARAMETERS = ("type", "list", "map", "group")
+
+
+def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Parameters, list[Diagnostic]]:
+    """The parameters of a document, as far as they have types, and what is wrong with these. `period` is what the
+    component says, in milliseconds."""
+    resolver = _Resolver(document)
+    members = tuple(resolver.members(document.parameters, None, _IN_PARAMETERS))
+    constraints = tuple(resolver.constraints(document.rules))
+    types = [resolver.named(name) for name, _ in document.types]
+    resolver.unused()
+    root = RecordType("", members, document.doc)
+    if resolver.found == [] and _size(root, {}) > MAX_VALUES:
+        resolver.found.append(
+            codes.TOO_LARGE.at(document.span, name="parameters", limit=MAX_VALUES, what="values of plain types")
+        )
+    root, problems = with_period(root, period)
+    return Parameters(
+        root,
+        tuple(t for t in types if isinstance(t, EnumType) or (isinstance(t, RecordType) and t.name)),
+        constraints,
+        document.legacy,
+        document.doc,
+    ), [*resolver.found, *problems]
+
+
+def of_no_document(period: int | None) -> Parameters:
+    """The parameters of a component that has no document for them."""
+    return Parameters(with_period(RecordType("", ()), period)[0])
+
+
+class _Resolver:
+    def __init__(self, document: ParameterDocument) -> None:
+        self.specs = dict(document.types)
+        self.path = document.path
+        self.found: list[Diagnostic] = []
+        self.done: dict[str, Type | None] = {}
+        self.open: list[str] = []
+        self.used: set[str] = set()
+
+    def unused(self) -> None:
+        if not self.found:
+            for name, spec in self.specs.items():
+                if name not in self.used:
+                    self.found.append(codes.UNUSED_TYPE.at(spec.key_span, name=name))
+
+    def named(self, name: str) -> Type | None:
+        """One of the document's own types."""
+        if name in self.done:
+            return self.done[name]
+        spec = self.specs[name]
+        if name in BASIC_TYPES:
+            self.found.append(codes.BASIC_NAME.at(spec.key_span, name=name))
+        self.open.append(name)
+        self.done[name] = resolved = self.definition(name, spec)
+        self.open.pop()
+        return resolved
+
+    def definition(self, name: str, spec: Spec) -> Type | None:
+        if not self.has_one_kind(spec, "type", name, _IN_TYPES):
+            return None
+        if spec.kind == "enum":
+            names = tuple(literal.lexeme for literal, _ in spec.enumerators)
+            for place, (literal, _) in enumerate(spec.enumerators):
+                if literal.lexeme in names[:place]:
+                    self.found.append(
+                        codes.UNREACHABLE.at(literal.span, problem=f"the enumerator '{literal.lexeme}' stands twice")
+                    )
+            enumerators = tuple((literal.lexeme, doc) for literal, doc in spec.enumerators)
+            return limited(EnumType(name, enumerators, names, spec.doc), spec.limits, self.found)
+        if spec.kind == "struct":
+            record = RecordType(name, tuple(self.members(spec.members, None, _IN_PARAMETERS[:3])), spec.doc)
+            return limited(record, spec.limits, self.found)
+        return self.type(spec, name)
+
+    def has_one_kind(self, spec: Spec, what: str, name: str, possible: tuple[str, ...]) -> bool:
+        if not spec.kinds:
+            choice = ", ".join(f"{kind}: …" for kind in possible)
+            self.found.append(codes.NO_TYPE.at(spec.span, what=what, name=name, hint=f"write one of {choice}"))
+        elif len(spec.kinds) > 1:
+            kinds = " and ".join(f"'{kind}'" for kind, _ in spec.kinds)
+            self.found.append(codes.TWO_TYPES.at(spec.kinds[1][1], what=what, name=name, kinds=kinds))
+        return len(spec.kinds) == 1
+
+    def type(self, spec: Spec, name: str) -> Type | None:
+        """The type of a parameter, a member, or of the entries of a list or map; `name` is for messages."""
+        if len(self.open) > MAX_DEPTH:
+            self.found.append(codes.TOO_LARGE.at(spec.span, name=name, limit=MAX_DEPTH, what="types inside each other"))
+            return None
+        match spec.kind:
+            case "type":
+                base = self.reference(spec)
+            case "list" | "map":
+                assert spec.element is not None
+                if not self.has_one_kind(spec.element, "the entry type of", name, _IN_PARAMETERS[:3]):
+                    return None
+                element = self.type(spec.element, name)
+                if element is None:
+                    return None
+                base = ListType(element) if spec.kind == "list" else MapType(element)
+            case _:
+                return None
+        return None if base is None else limited(base, spec.limits, self.found)
+
+    def reference(self, spec: Spec) -> Type | None:
+        name = spec.name
+        if name in BASIC_TYPES and name not in self.specs:
+            return BasicType(name)
+        if name not in self.specs:
+            known = (*BASIC_TYPES, *self.specs)
+            hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known)}")
+            if hint.meant not in self.specs and (ours := _FOREIGN.get(name.lower())):
+                hint = meaning(name, ours)
+            self.found.append(codes.UNKNOWN_TYPE.at(spec.span, name=name, hint=hint))
+            return None
+        self.used.add(name)
+        if name in self.open:
+            cycle = [*self.open[self.open.index(name) :], name]
+            self.found.append(codes.RECURSIVE_TYPE.at(spec.span, name=name, cycle=" → ".join(cycle)))
+            return None
+        return self.named(name)
+
+    def members(
+        self, entries: tuple[Entry, ...], editable: bool | None, possible: tuple[str, ...], *, secret: bool = False
+    ) -> Iterator[Member]:
+        """Entries with their types; one without a type is left out, having been reported. `secret`: the name of the
+        group around them says so."""
+        what = "parameter" if "group" in possible else "member"
+        for entry in entries:
+            if not self.has_one_kind(entry.spec, what, entry.name, possible):
+                continue
+            own = entry.editable if entry.editable is not None else editable
+            hidden = secret or secrets.is_secret(entry.name)
+            type_: Type | None
+            if entry.spec.kind == "group":
+                type_ = RecordType("", tuple(self.members(entry.spec.members, own, possible, secret=hidden)), entry.doc)
+                self.group(entry, type_)
+            else:
+                type_ = self.type(entry.spec, entry.name)
+            if type_ is None:
+                continue
+            type_ = self.secret(entry, type_) if entry.secret else _named_so(type_) if hidden else type_
+            if entry.optional and entry.default is not None:
+                self.found.append(codes.DEFAULT_AND_OPTIONAL.at(entry.default_span or entry.span, name=entry.name))
+            default = None if entry.default is None else Default(entry.default.data, entry.default)
+            yield Member(
+                entry.name,
+                type_,
+                entry.doc,
+                default,
+                entry.optional,
+                bool(own),
+                entry.secret is not None,
+                entry.code_name or entry.name,
+                span=entry.span,
+            )
+
+    def group(self, entry: Entry, type_: RecordType) -> None:
+        limited(type_, entry.spec.limits, self.found)
+        problem = "is for values; give it to what the group holds"
+        if entry.default is not None:
+            self.found.append(codes.LIMIT_MISFIT.at(entry.default_span or entry.span, key="default", problem=problem))
+        if entry.optional:
+            self.found.append(codes.LIMIT_MISFIT.at(entry.span, key="optional", problem=problem))
+
+    def secret(self, entry: Entry, type_: Type) -> Type:
+        """The type of a parameter that the document calls secret."""
+        assert entry.secret is not None
+        if entry.default is not None:
+            self.found.append(codes.SECRET_DEFAULT.at(entry.default_span or entry.span, name=entry.name, hint=(
+                "leave the default out: values documents give {env: NAME} or {file: PATH}"
+            )))  # fmt: skip
+        if _plain_of(type_) is None:
+            words = "a group" if isinstance(type_, RecordType) and type_.is_group else kind_in_words(type_)
+            words += ", and not of plain values" if isinstance(type_, ListType) else ""
+            self.found.append(codes.SECRET_MISFIT.at(entry.secret, name=entry.name, words=words))
+            return type_
+        return _as_secret(type_)
+
+    def constraints(self, rules: tuple[Rule, ...]) -> Iterator[Constraint]:
+        if rules:
+            from robocomp_yaml.parameters.expressions import expression  # Python's parser is slow to import
+        for rule in rules:
+            assert isinstance(rule.that, Scalar)
+            try:
+                tree = expression.parse(rule.that.lexeme)
+            except expression.NotInLanguage as refused:
+                self.found.append(
+                    codes.BAD_EXPRESSION.at(inside(rule.that, refused.index), problem=str(refused), hint=refused.hint)
+                )
+                continue
+            yield Constraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
+
+
+def _plain_of(type_: Type) -> ScalarType | None:
+    """The plain type that lists, at any depth, hold; None where they hold something else."""
+    while isinstance(type_, ListType):
+        type_ = type_.element
+    return type_ if isinstance(type_, BasicType | EnumType) else None
+
+
+def _as_secret(type_: Type) -> Type:
+    if isinstance(type_, ListType | MapType):
+        return replace(type_, element=_as_secret(type_.element))
+    return replace(type_, secret=True) if isinstance(type_, BasicType | EnumType) else type_
+
+
+def _named_so(type_: Type) -> Type:
+    """The type of what is secret by its name: texts and numbers are, and lists and maps of them."""
+    plain = innermost(type_)
+    return _as_secret(type_) if isinstance(plain, BasicType) and plain.name != "bool" else type_
+
+
+_FOREIGN = {
+    "integer": "int", "boolean": "bool", "str": "string", "text": "string", "number": "double", "short": "int",
+    "byte": "int", "real": "double", "float32": "float", "float64": "double", "int32": "int", "int64": "long",
+    "duration": "int", "path": "string", "angle": "float",
+}  # fmt: skip
+
+
+def _size(type_: Type, known: dict[str, int]) -> int:
+    """How many plain values a value of a type has at least, each list and map counted as one entry. `known` are those
+    of structs, which stand in many places."""
+    match type_:
+        case RecordType(name=name, members=members):
+            if name not in known:
+                size = sum(_size(member.type, known) for member in members)
+                return known.setdefault(name, size) if name else size
+            return known[name]
+        case ListType(element=element) | MapType(element=element):
+            return _size(element, known)
+        case _:
+            return 1
+
+
+def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[Diagnostic]]:
+    """The parameters with `period.compute` and `period.emergency`, as far as the document does not define them."""
+    found: list[Diagnostic] = []
+    given = root.member("period")
+    if given is not None and not given.is_group:
+        found.append(
+            codes.PERIOD.at(
+                given.span,
+                problem="'period' is the group of the worker's periods",
+                hint="write period: {group: {compute: …}}, or give the parameter another name",
+            )
+        )
+        return root, found
+    own = given.type.members if given is not None and isinstance(given.type, RecordType) else ()
+    by_name = {member.name: member for member in own}
+    for name in ("compute", "emergency"):
+        member = by_name.get(name)
+        if member is not None and not (isinstance(member.type, BasicType) and member.type.name == "int"):
+            problem = f"'period.{name}' is a whole number of milliseconds: int"
+            found.append(codes.PERIOD.at(member.span, problem=problem))
+    compute = by_name.get("compute") or _period("compute", "How often compute() runs.", period or DEFAULT_PERIOD)
+    if compute.default is None and not compute.optional:
+        compute = replace(compute, default=Default(period or DEFAULT_PERIOD))
+    elif period is not None and compute.default is not None and compute.default.data != period and by_name:
+        node = compute.default.node
+        if node is not None:
+            found.append(
+                codes.PERIOD.at(
+                    node.span, problem=f"the component's 'period:' says {period} ms", hint="leave one of the two out"
+                )
+            )
+    emergency = by_name.get("emergency") or _period(
+        "emergency", "The period of RoboComp's emergency(); in other components, for their own code.", DEFAULT_EMERGENCY
+    )
+    others = [member for member in own if member.name not in ("compute", "emergency")]
+    group = RecordType("", (compute, emergency, *others), "How often the component works.")
+    member = Member(
+        "period",
+        group,
+        given.doc if given else group.doc,
+        code_name="period",
+        editable=True,
+        span=given.span if given else Span(""),
+    )
+    rest = [other for other in root.members if other.name != "period"]
+    return replace(root, members=(*rest, member)), found
+
+
+def _period(name: str, doc: str, default: int) -> Member:
+    type_ = BasicType("int", Range(Bound(1, False, "1"), None), unit="ms")
+    return Member(name, type_, doc, Default(default), editable=True, code_name=name)

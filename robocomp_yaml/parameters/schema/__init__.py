@@ -1,0 +1,1 @@
+"""JSON Schemas of values: for editors and tools, and as the gate of `check`."""

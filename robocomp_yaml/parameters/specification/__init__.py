@@ -1,0 +1,1 @@
+"""Parameters and values as documents have them: names of types are not looked up yet."""

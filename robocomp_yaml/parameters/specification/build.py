@@ -1,0 +1,133 @@
+"""PDSL and values documents' trees to the model as written. The trees have their schemas' shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.model.build_interface import doc, entries, items, span_of, text
+from robocomp_yaml.model.interface import Literal
+from robocomp_yaml.parameters.specification.document import (
+    KINDS,
+    Entry,
+    Limits,
+    ParameterDocument,
+    Rule,
+    Spec,
+    Spelling,
+    ValuesDocument,
+)
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+
+
+def build(root: Mapping, path: str) -> ParameterDocument:
+    """The parameters of a document that fits `pdsl.schema.json`."""
+    return ParameterDocument(
+        path=path,
+        component=text(root, "component"),
+        types=tuple((key.lexeme, _spec(value, key)) for key, value in _named(root, "types")),
+        parameters=tuple(_entry(key, value) for key, value in _named(root, "parameters")),
+        rules=tuple(_rule(item) for item in items(root, "constraints")),
+        legacy=tuple(_spelling(key, value) for key, value in _named(root, "legacy")),
+        doc=doc(root),
+        span=span_of(root, "parameters"),
+        component_span=span_of(root, "component"),
+    )
+
+
+def build_values(root: Mapping, path: str) -> ValuesDocument:
+    """A values document that fits `config.schema.json`."""
+    extends = [
+        Literal(node.lexeme, node.lexeme, span=node.span) for node in items(root, "extends") if isinstance(node, Scalar)
+    ]
+    after = root.get("legacy")
+    first = after.get("after") if isinstance(after, Mapping) else None
+    if isinstance(first, Scalar):  # what comes first in the file is what later properties replace: a layer
+        extends.insert(0, Literal(first.lexeme, first.lexeme, span=first.span))
+    return ValuesDocument(path, root, text(root, "component"), tuple(extends), span=span_of(root, "component"))
+
+
+def _named(parent: Node | None, key: str) -> Iterator[tuple[Scalar, Node]]:
+    return ((name, value) for name, value in entries(parent, key) if not name.lexeme.startswith("x-"))
+
+
+def _entry(key: Scalar, node: Node) -> Entry:
+    if not isinstance(node, Mapping):
+        return Entry(key.lexeme, _spec(node, key), span=key.span)
+    default = node.entries.get("default")
+    secret = node.entries.get("secret")
+    editable = node.data.get("editable")  # type: ignore[attr-defined]
+    return Entry(
+        key.lexeme,
+        _spec(node, key),
+        default=default[1] if default else None,
+        default_span=default[0].span if default else None,
+        optional=node.data.get("optional") is True,  # type: ignore[attr-defined]
+        editable=editable if isinstance(editable, bool) else None,
+        secret=secret[0].span if secret is not None and secret[1].data is True else None,
+        code_name=text(node, "as"),
+        doc=doc(node),
+        span=key.span,
+    )
+
+
+def _spec(node: Node, key: Scalar | None = None) -> Spec:
+    """A type in its short or its long form."""
+    if not isinstance(node, Mapping):
+        assert isinstance(node, Scalar)
+        return Spec((("type", node.span),), node.lexeme, span=node.span, key_span=(key or node).span)
+    kinds = tuple((kind, node.entries[kind][0].span) for kind in KINDS if node.get(kind) is not None)
+    found = {kind: node.get(kind) for kind, _ in kinds[:1]}
+    named, element = found.get("type"), found.get("list") or found.get("map")
+    return Spec(
+        kinds,
+        name=named.lexeme if isinstance(named, Scalar) else "",
+        element=_spec(element) if element is not None else None,
+        members=tuple(_entry(k, v) for k, v in _named(node, kinds[0][0]))
+        if kinds and kinds[0][0] in ("group", "struct")
+        else (),
+        enumerators=tuple(_enumerators(found.get("enum"))),
+        limits=Limits(*(node.get(name) for name in ("range", "values", "pattern", "size", "unique", "unit"))),
+        doc=doc(node),
+        span=named.span if named is not None else key.span if key is not None else node.span,
+        key_span=(key or node).span,
+    )
+
+
+def _enumerators(node: Node | None) -> Iterator[tuple[Literal, str]]:
+    if isinstance(node, Sequence):
+        for item in node.items:
+            assert isinstance(item, Scalar)
+            yield Literal(item.lexeme, item.lexeme, span=item.span), ""
+    elif isinstance(node, Mapping):
+        for name, value in node.items():
+            if not name.lexeme.startswith("x-"):
+                yield Literal(name.lexeme, name.lexeme, span=name.span), doc(value)
+
+
+def _rule(node: Node) -> Rule:
+    if not isinstance(node, Mapping):
+        return Rule(node, span=node.span)
+    that = node.get("that")
+    assert that is not None
+    return Rule(that, text(node, "else"), doc(node), span=that.span)
+
+
+def _spelling(key: Scalar, node: Node) -> Spelling:
+    if not isinstance(node, Mapping):
+        assert isinstance(node, Scalar)
+        return Spelling(node.lexeme, path=key.lexeme, span=key.span)
+    data = node.data
+    assert isinstance(data, dict)
+    fields = tuple((name.lexeme, value.lexeme) for name, value in entries(node, "fields") if isinstance(value, Scalar))
+    return Spelling(
+        text(node, "key"),
+        fields,
+        int(data.get("first", 0)),
+        tuple(item.lexeme for item in items(node, "columns") if isinstance(item, Scalar)),
+        text(node, "separator", ","),
+        tuple(item.lexeme for item in items(node, "separators") if isinstance(item, Scalar)),
+        data.get("trailing") is True,
+        text(node, "count"),
+        path=key.lexeme,
+        span=key.span,
+    )

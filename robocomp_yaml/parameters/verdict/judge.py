@@ -1,0 +1,260 @@
+"""Values judged at their places: what is wrong with each, in words that name parameter, value, limit and unit."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.codes import values as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.suggest import did_you_mean, hint_for_key
+from robocomp_yaml.parameters.spelling.references import node_is_reference
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    RecordType,
+    ScalarType,
+    Type,
+    is_secret,
+)
+from robocomp_yaml.parameters.verdict.plain import CHOICE, KIND, PATTERN, RANGE, wrong
+from robocomp_yaml.parameters.words import kind_in_words
+from robocomp_yaml.secrets import HIDDEN, url
+from robocomp_yaml.semantics import references
+from robocomp_yaml.semantics.limits import bounds, entries, one_of
+from robocomp_yaml.semantics.paths import Step, in_words
+from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
+
+Path = tuple[Step, ...]
+
+
+def judge(type_: Type, node: Node, path: Path, *, complete: bool, key: Scalar | None = None) -> Iterator[Diagnostic]:
+    """All that is wrong with a value. `complete`: nothing required may be missing, and there is no null, as in a
+    default; else it is a layer, in which null returns to the default and anything may be left out."""
+    match type_:
+        case BasicType() | EnumType():
+            yield from _scalar(type_, node, path, key)
+        case ListType():
+            yield from _list(type_, node, path, complete, key)
+        case MapType():
+            yield from _map(type_, node, path, complete, key)
+        case RecordType():
+            yield from _record(type_, node, path, complete, key)
+
+
+def shown(node: Node, type_: Type) -> str:
+    """A value for messages, shortened; a secret is not shown."""
+    if isinstance(node, Mapping):
+        return "a mapping"
+    if isinstance(node, Sequence):
+        return "a list"
+    assert isinstance(node, Scalar)
+    if node.data is None:
+        return "empty"
+    if is_secret(type_):
+        return f"the text {HIDDEN}" if isinstance(node.data, str) else HIDDEN
+    return f"the text '{_short(node.lexeme)}'" if isinstance(node.data, str) else _short(node.lexeme)
+
+
+def _short(text: str) -> str:
+    text = url(text)
+    return text if len(text) <= 40 else f"{text[:39]}…"
+
+
+def _at(
+    code: Code, node: Node, key: Scalar | None, *, hint: str | Hint = "", fixes: Iterable[Fix] = (), **facts: str
+) -> Diagnostic:
+    """At the value; at its key where the value is empty or fills many lines."""
+    span = node.span
+    empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
+    at_key = key is not None and (empty or span.line != span.end_line)
+    place = key.span if key is not None and at_key else span
+    return code.at(place, hint=hint, related=(), more="", fixes=fixes, **facts)
+
+
+def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
+    hint = ""
+    if is_secret(type_):
+        pass  # a hint would say it
+    elif isinstance(node, Scalar) and isinstance(node.data, str) and isinstance(type_, BasicType):
+        bare = node.lexeme.strip()
+        if node.quoted and (
+            (type_.is_number and re.fullmatch(r"[-+]?[0-9.]+", bare))
+            or (type_.name == "bool" and bare in ("true", "false", "True", "False"))
+        ):
+            hint = f"without quotes: {bare}"
+        elif type_.name == "bool" and (meant := TRUTHS.get(bare.lower())):
+            hint = f"write {meant}"
+    elif isinstance(type_, BasicType) and type_.name == "string" and isinstance(node, Scalar) and node.lexeme:
+        hint = f'text needs quotes here: "{node.lexeme}"'
+    wanted = f"{kind_in_words(type_)}{_unit(type_)}"
+    return _at(
+        codes.WRONG_TYPE,
+        node,
+        key,
+        path=in_words(path),
+        wanted=wanted,
+        found=shown(node, type_),
+        hint=hint,
+        fixes=_retyped(type_, node),
+    )
+
+
+def _retyped(type_: Type, node: Node) -> tuple[Fix, ...]:
+    if not isinstance(node, Scalar) or not isinstance(type_, BasicType) or is_secret(type_):
+        return ()
+    wanted = (
+        BOOL
+        if type_.name == "bool"
+        else STRING
+        if type_.name == "string"
+        else (INTEGER if type_.is_integer else NUMBER)
+    )
+    return retyped([wanted], node.lexeme, node.data, node.span)
+
+
+def _unit(type_: Type) -> str:
+    return f" ({type_.unit})" if isinstance(type_, BasicType) and type_.unit else ""
+
+
+def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
+    if node_is_reference(node):
+        yield from _reference(node, path)
+        return
+    fault = wrong(type_, node.data)
+    if fault == KIND:
+        yield _wrong_type(type_, node, path, key)
+    elif fault == PATTERN:
+        assert isinstance(type_, BasicType) and type_.pattern is not None
+        value = HIDDEN if type_.secret else f"'{_short(str(node.data))}'"
+        yield _at(codes.NO_MATCH, node, key, path=in_words(path), value=value, pattern=type_.pattern.text)
+    elif fault:
+        yield _outside(type_, fault, node, path, key)
+
+
+def _reference(node: Node, path: Path) -> Iterator[Diagnostic]:
+    assert isinstance(node, Mapping)
+    kind = next(kind for kind in references.KINDS if kind in node.entries)
+    key, name = node.entries[kind]
+    for other, _ in node.items():
+        if other.lexeme != kind:
+            problem = f"has '{other.lexeme}' beside '{kind}'"
+            yield codes.BAD_REFERENCE.at(other.span, path=in_words(path), problem=problem)
+    if problem := references.problem(kind, name.data):
+        is_empty = isinstance(name, Scalar) and not name.lexeme and not name.quoted
+        yield codes.BAD_REFERENCE.at(
+            key.span if is_empty else name.span, path=in_words(path), problem=problem, hint=_REFERENCE_HINTS[kind]
+        )
+
+
+_REFERENCE_HINTS = {
+    references.ENV: "a variable's name has letters, digits and underscores, and starts with no digit",
+    references.FILE: "file: is the path of a file that is read when the component starts",
+}
+
+
+def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
+    """Of the right kind, and not allowed."""
+    assert isinstance(node, Scalar)
+    unit = f" {type_.unit}" if isinstance(type_, BasicType) and type_.unit else ""
+    hint: str | Hint = NO_HINT
+    value = _short(node.lexeme)
+    if isinstance(node.data, str):
+        value = f"'{node.data}'" if isinstance(type_, EnumType) else repr(value)
+    if fault == CHOICE:
+        allowed = type_.allowed if isinstance(type_, EnumType) else [each.lexeme for each in type_.values]
+        wanted = f"{one_of(allowed, type_.secret)}{unit}"
+        hint = did_you_mean(node.data, allowed) if isinstance(node.data, str) and not type_.secret else NO_HINT
+    elif fault == RANGE and isinstance(type_, BasicType) and type_.range is not None:
+        wanted = f"{type_.range.in_words}{unit}"
+    else:
+        wanted = bounds(type_.name)
+    value = HIDDEN if type_.secret else value
+    return _at(codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{value}{unit}", wanted=wanted, hint=hint)
+
+
+def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
+    if not isinstance(node, Sequence):
+        yield _wrong_type(type_, node, path, key)
+        return
+    yield from wrong_size(type_, len(node.items), node, path, key)
+    seen: set[object] = set()
+    for place, item in enumerate(node.items):
+        yield from judge(type_.element, item, (*path, place), complete=complete)
+        if type_.unique:
+            known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
+            if known in seen:
+                yield codes.NOT_UNIQUE.at(
+                    item.span,
+                    path=in_words(path),
+                    value=shown(item, type_.element),
+                    fixes=[removal(item.span, safe=False)],
+                )
+            seen.add(known)
+
+
+def wrong_size(
+    type_: ListType | MapType, count: int, node: Node, path: Path, key: Scalar | None
+) -> Iterator[Diagnostic]:
+    if not type_.size.holds(count):
+        wanted = type_.size.in_words
+        yield _at(codes.WRONG_SIZE, node, key, path=in_words(path), count=entries(count), wanted=wanted)
+
+
+def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
+    if not isinstance(node, Mapping):
+        yield _wrong_type(type_, node, path, key)
+        return
+    if complete:  # layers are judged when they are merged
+        yield from wrong_size(type_, len(node.entries), node, path, key)
+    for name, value in node.items():
+        if value.data is None and not complete:
+            continue
+        yield from judge(type_.element, value, (*path, name.lexeme), complete=complete, key=name)
+
+
+def _record(type_: RecordType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
+    if not isinstance(node, Mapping):
+        yield _wrong_type(type_, node, path, key)
+        return
+    members = {member.name: member for member in type_.members}
+    for name, value in node.items():
+        member = members.get(name.lexeme)
+        if member is None:
+            if complete or not name.lexeme.startswith("x-"):  # the user's own, in a document
+                yield unknown(name, type_, path, node)
+        elif value.data is None and not isinstance(value, Mapping | Sequence):
+            if complete:
+                yield _wrong_type(member.type, value, (*path, name.lexeme), name)
+        else:
+            yield from judge(member.type, value, (*path, name.lexeme), complete=complete, key=name)
+    if complete:
+        yield from missing(type_, set(node.entries), path, key.span if key is not None else node.span)
+
+
+def unknown(name: Scalar, type_: RecordType, path: Path, node: Mapping) -> Diagnostic:
+    hint = hint_for_key(name.lexeme, (member.name for member in type_.members), node.entries)
+    return codes.UNKNOWN_PARAMETER.at(name.span, path=in_words((*path, name.lexeme)), hint=hint)
+
+
+def missing(type_: RecordType, given: set[str], path: Path, span: Span) -> Iterator[Diagnostic]:
+    """What has no value and needs one; groups that are not there are looked into."""
+    for member in type_.members:
+        if member.name in given:
+            continue
+        if isinstance(member.type, RecordType) and member.type.is_group:
+            yield from missing(member.type, set(), (*path, member.name), span)
+        elif member.required:
+            yield codes.MISSING.at(span, path=in_words((*path, member.name)), hint=_wish(member))
+
+
+def _wish(member: Member) -> str:
+    unit = f" ({member.unit})" if member.unit else ""
+    return f"give it {kind_in_words(member.type)}{unit}"

@@ -1,0 +1,96 @@
+"""What is wrong with parameters themselves: defaults that do not fit, and spellings that cannot say what they name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_yaml.diag.codes import pdsl as codes
+from robocomp_yaml.diag.codes import values as value_codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.parameters.documents import ResolvedParameters
+from robocomp_yaml.parameters.spelling.templates import fault
+from robocomp_yaml.parameters.types import Member, Parameters, RecordType, Type, leaves
+from robocomp_yaml.parameters.verdict.judge import Path, judge
+from robocomp_yaml.semantics.references import is_reference
+from robocomp_yaml.source.tree import Mapping, Node, Sequence
+
+
+def is_usable(linked: ResolvedParameters) -> bool:
+    """Whether values can be completed and written by them. Where not, that has been told at the document's lines;
+    values are then judged each by itself, and no further."""
+    return (
+        not linked.broken and not default_faults(linked) and linked.once("spelled", lambda: _spells(linked.parameters))
+    )
+
+
+def _spells(parameters: Parameters) -> bool:
+    types = {path: member.type for path, member in leaves(parameters.root)}
+    return not any(
+        spelling.path in types and fault(spelling, types[spelling.path]) for spelling in parameters.spellings
+    )
+
+
+def default_faults(linked: ResolvedParameters) -> list[Diagnostic]:
+    """Of each struct once, and of the groups of the parameters."""
+    return linked.once("default faults", lambda: list(_default_faults(linked.parameters)))
+
+
+def _default_faults(parameters: Parameters) -> Iterator[Diagnostic]:
+    yield from _of_members(parameters.root, ())
+    for type_ in parameters.types:
+        if isinstance(type_, RecordType):
+            yield from _of_members(type_, (type_.name,))
+
+
+def _of_members(record: RecordType, path: Path) -> Iterator[Diagnostic]:
+    for member in record.members:
+        if member.is_group and isinstance(member.type, RecordType):
+            yield from _of_members(member.type, (*path, member.name))
+        elif member.default is not None and member.default.node is not None:
+            yield from _of_default(member, member.default.node, (*path, member.name))
+
+
+def _of_default(member: Member, node: Node, path: Path) -> Iterator[Diagnostic]:
+    for one in judge(member.type, node, path, complete=True):
+        problem = one.message
+        if one.code == value_codes.UNKNOWN_PARAMETER.id:
+            problem = f"{member.name} gives a value to something else: {problem}"
+        yield codes.BAD_DEFAULT.at(one.span, problem=problem, hint=one.hint, fixes=one.fixes)
+    for reference in _references(node):
+        source = "a file" if "file" in reference.entries else "the environment"
+        yield codes.BAD_DEFAULT.at(
+            reference.span, problem=f"{member.name} comes from {source}", hint="references stand in values documents"
+        )
+
+
+def _references(node: Node) -> Iterator[Mapping]:
+    if isinstance(node, Mapping):
+        if is_reference(node.data):
+            yield node
+        for _, value in node.items():
+            yield from _references(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _references(item)
+
+
+def spelling_faults(parameters: Parameters) -> Iterator[Diagnostic]:
+    """Entries of the legacy table that name no parameter, or cannot spell what it holds."""
+    known = dict(_paths(parameters.root))
+    for spelling in parameters.spellings:
+        type_ = known.get(spelling.path)
+        if type_ is None:
+            given = {other.path for other in parameters.spellings}
+            hint = did_you_mean(spelling.path, known, given)
+            yield codes.BAD_SPELLING.at(spelling.span, path=spelling.path, problem="names no parameter", hint=hint)
+        elif problem := fault(spelling, type_):
+            yield codes.BAD_SPELLING.at(spelling.span, path=spelling.path, problem=problem)
+
+
+def _paths(record: RecordType, prefix: str = "") -> Iterator[tuple[str, Type]]:
+    """Parameters and groups by their paths."""
+    for member in record.members:
+        yield f"{prefix}{member.name}", member.type
+        if member.is_group and isinstance(member.type, RecordType):
+            yield from _paths(member.type, f"{prefix}{member.name}.")

@@ -1,0 +1,159 @@
+"""Parameters in words: what a type is, its limits, and what else is to be known of a parameter. For messages, editors,
+documents and code."""
+
+from __future__ import annotations
+
+import re
+
+from robocomp_yaml.parameters.hidden import hidden
+from robocomp_yaml.parameters.spelling.yaml import flow
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    RecordType,
+    Type,
+    is_secret,
+    unit_of,
+)
+from robocomp_yaml.semantics.limits import LIST, MAP, WORDS, one_of, record_in_words
+
+_CODE_OR_TAG = re.compile(r"((`+)(?!`).*?(?<!`)\2(?!`))|(?<!\\)<(?!https?://)", re.DOTALL)
+
+
+def kind_in_words(type_: Type) -> str:
+    """What a value of a type is, without its limits: `a whole number`."""
+    match type_:
+        case BasicType():
+            return WORDS[type_.name]
+        case EnumType(allowed=allowed, secret=secret):
+            return one_of(allowed, secret)
+        case ListType():
+            return LIST
+        case MapType():
+            return MAP
+        case _:
+            return record_in_words([member.name for member in type_.members])
+
+
+def in_brief(type_: Type) -> str:
+    """What a value is in an expression, where all numbers are alike: `a number`, `a Motor`."""
+    match type_:
+        case BasicType():
+            return WORDS["double" if type_.is_number else type_.name]
+        case EnumType(name=name):
+            return one_of([name])
+        case ListType():
+            return "a list"
+        case MapType():
+            return "a map"
+        case _:
+            return f"a {type_.name}" if type_.name else "a group"
+
+
+def in_words(type_: Type) -> str:
+    """A type with its limits and unit: `a number from 0 to 2 (rad/s)`."""
+    match type_:
+        case RecordType():
+            return type_.name or "a mapping of parameters to values"
+        case ListType() | MapType():
+            kind, one = ("list", "entry") if isinstance(type_, ListType) else ("map", "value")
+            size = f" of {type_.size.in_words} entries" if not type_.size.is_any else ""
+            unique = ", all different" if isinstance(type_, ListType) and type_.unique else ""
+            return f"a {kind}{size}{unique}, each {one} {in_words(type_.element)}"
+        case BasicType(values=values) if values:
+            words = one_of([literal.lexeme for literal in values])
+        case BasicType(range=range_) if range_:
+            words = f"{kind_in_words(type_)} {range_.in_words}"
+        case BasicType(pattern=pattern) if pattern:
+            words = f"{kind_in_words(type_)} that matches `{pattern.text}`"
+        case _:
+            words = kind_in_words(type_)
+    return f"{words} ({type_.unit})" if isinstance(type_, BasicType) and type_.unit else words
+
+
+def limits_in_words(type_: Type) -> list[str]:
+    """The limits alone, as code has them behind the type: `from 0 to 2 rad/s`."""
+    match type_:
+        case BasicType():
+            unit = f" {type_.unit}" if type_.unit else ""
+            if type_.values:
+                return [f"{one_of([value.lexeme for value in type_.values])}{unit}"]
+            if type_.range is not None:
+                return [f"{type_.range.in_words}{unit}"]
+            return [f"matches {type_.pattern.text}"] if type_.pattern is not None else []
+        case EnumType(allowed=allowed):
+            return [one_of(allowed)] if allowed != type_.names else []
+        case ListType(element=element, size=size) | MapType(element=element, size=size):
+            found = [] if size.is_any else [f"{size.in_words} entries"]
+            if isinstance(type_, ListType) and type_.unique:
+                found.append("all different")
+            return found + [f"each {limit}".replace("each each", "each of these") for limit in limits_in_words(element)]
+        case _:
+            return []
+
+
+def label(type_: Type) -> str:
+    """A type by its name: `list of Motor`."""
+    if isinstance(type_, ListType | MapType):
+        return f"{'list' if isinstance(type_, ListType) else 'map'} of {label(type_.element)}"
+    return type_.name
+
+
+def default_in_words(member: Member) -> str:
+    """A default that is there, on one line, or how that begins; secrets are hidden."""
+    assert member.default is not None
+    text = flow(hidden(member.type, member.default.data))
+    return text if len(text) <= 60 else f"{text[:59]}…"
+
+
+def for_editors(member: Member) -> str:
+    """What an editor shows below the parameter's documentation, with the names of an enum in lines of their own."""
+    kind = in_words(member.type)
+    facts = [kind[0].upper() + kind[1:]] if not member.is_group else []
+    if member.default is not None:
+        facts.append(f"default: {default_in_words(member)}")
+    elif member.optional:
+        facts.append("may be left out")
+    elif not member.is_group:
+        facts.append("required")
+    if member.editable and not member.is_group:
+        facts.append("may change while running")
+    if is_secret(member.type):
+        facts.append("secret: give it as {env: NAME} or {file: PATH}")
+    text = "; ".join(facts) + ("." if facts else "")
+    if isinstance(member.type, EnumType):
+        text += "".join(f"\n- `{name}`: {said}" for name, said in member.type.enumerators if said)
+    return text
+
+
+def for_documents(member: Member) -> str:
+    """What stands above a parameter in a first document."""
+    facts = [in_words(member.type)]
+    facts += ["may be left out"] if member.optional else []
+    facts += ["may change while running"] if member.editable else []
+    return "; ".join(facts)
+
+
+def for_code(member: Member) -> str:
+    """What stands at an accessor, in one line; '' where there is nothing to say."""
+    found = limits_in_words(member.type)
+    if not found and (unit := unit_of(member.type)):
+        found.append(f"in {unit}")
+    if member.default is not None:
+        found.append(f"default: {default_in_words(member)}")
+    if member.optional:
+        found.append("optional")
+    if member.editable and not member.is_group:
+        found.append("may change while the component runs")
+    if is_secret(member.type):
+        found.append("secret")
+    line = "; ".join(found)
+    return f"{line[:1].upper()}{line[1:]}." if line else ""
+
+
+def prose(doc: str) -> str:
+    """A doc, which may be Markdown, but no HTML: `<name>` is to be seen."""
+    return _CODE_OR_TAG.sub(lambda found: found[0] if found[1] else "\\<", doc)

@@ -1,0 +1,1 @@
+"""Values in effect as properties and TOML, and back."""

@@ -1,0 +1,171 @@
+"""A whole values document as the properties of `etc/config`, in the order in which they are written."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+import msgspec
+from msgspec.structs import replace
+
+from robocomp_yaml.diag.codes import values as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.build_interface import text
+from robocomp_yaml.parameters.documents import LayeredValues
+from robocomp_yaml.parameters.layers.effective import Effective
+from robocomp_yaml.parameters.types import Parameters
+from robocomp_yaml.parameters.writing.write import Property, Writer
+from robocomp_yaml.semantics import connections
+from robocomp_yaml.semantics.spellings import quotes_texts
+from robocomp_yaml.semantics.texts import unquoted
+from robocomp_yaml.source.properties import unwritable
+from robocomp_yaml.source.tree import Mapping, Node, Scalar
+
+CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
+_OF_PORTS = ("endpoints", "proxies", "topics")
+
+
+class Section(msgspec.Struct):
+    """The properties that belong together, with what they are about."""
+
+    title: str
+    properties: list[Property] = []
+
+
+def dialect(values: LayeredValues) -> str:
+    for layer in reversed(values.layers()):
+        if found := text(layer.document.root.get("legacy"), "dialect"):
+            return found
+    return CLASSIC
+
+
+def legacy_file(values: LayeredValues) -> str:
+    """The file that a migrated document is written to again, or ''."""
+    return text(values.document.root.get("legacy"), "file")
+
+
+def properties(
+    values: LayeredValues, effective: Effective, *, quoted: bool = False, beside: bool = False
+) -> tuple[list[Section], list[Diagnostic]]:
+    """The properties of a document and its layers, and what of it no property can hold. `quoted`: text stands in
+    quotes, as it does in flat TOML anyway. `beside`: they are for a file in the document's folder."""
+    form = dialect(values)
+    root = values.document.root
+    entry = root.entries.get("parameters") or root.entries.get("component")
+    head = entry[0].span if entry else Span(root.file)
+    quote = quoted or form == FLAT_TOML
+    sections = [
+        Section("Where this component serves its interfaces", list(_endpoints(values, form, quote))),
+        Section("Where the components are that it requires", list(_proxies(values, form, quote))),
+        Section("Topics", list(_topics(values, form, quote))),
+        Section("Ice", [_property(f"Ice.{key}", node, quote) for key, node in given(values, "ice")]),
+        Section("Others", [_property(key, node, False) for key, node in given(values, "properties")]),
+    ]
+    unquotes = _seems_toml(effective.parameters, sections)
+    folder = os.path.dirname(values.document.path) if beside else None
+    writer = Writer(effective.parameters, head, bool(legacy_file(values)), quote, unquotes, folder)
+    sections.insert(3, Section("Parameters", writer.write(effective.data, effective.place)))
+    faults = list(writer.faults)
+    exact = {key: node.lexeme for key, node in given(values, "legacy", "exact") if isinstance(node, Scalar)}
+    seen: dict[str, Property] = {}
+    for section in sections:
+        section.properties = [_exact(made, exact.get(made.key)) for made in section.properties]
+        kept = []
+        for made in section.properties:
+            problem = unwritable(made.key, made.value)
+            if not problem and made.key in seen and seen[made.key].value != made.value:
+                problem = "another value is this property already"
+            if problem:
+                faults.append(codes.NOT_FOR_ICE.at(made.span or head, path=made.key, problem=problem))
+            elif made.key not in seen:
+                seen[made.key] = made
+                kept.append(made)
+        section.properties = kept
+    return [section for section in sections if section.properties], faults
+
+
+def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:
+    """Whether components take the file for one that has its texts in quotes, by some of its keys."""
+    spelled = [key for each in parameters.spellings for key in (each.key, each.count, *(key for _, key in each.fields))]
+    own = [f"{member.name}." for member in parameters.root.members]
+    others = [made.key for section in sections for made in section.properties]
+    return quotes_texts((*spelled, *own, *others))
+
+
+def secret_keys(sections: list[Section]) -> tuple[str, ...]:
+    """The properties that are not to be shown."""
+    return tuple(sorted(made.key for section in sections for made in section.properties if made.secret))
+
+
+def as_dict(sections: list[Section]) -> dict[str, str]:
+    return {made.key: made.value for section in sections for made in section.properties}
+
+
+def _exact(made: Property, original: str | None) -> Property:
+    """The original spelling, while it still means the value."""
+    if original is None or original == made.value or made.read is None:
+        return made
+    try:
+        same = made.read(original) == made.read(made.value)
+    except (ValueError, KeyError):
+        same = False
+    return replace(made, value=original) if same else made
+
+
+def given(values: LayeredValues, *keys: str) -> Iterator[tuple[str, Node]]:
+    """The entries of a section over all layers: later ones replace, null removes. Where names are those of ports, one
+    that starts with `x-` is the user's own."""
+    merged: dict[str, Node] = {}
+    for layer in values.layers():
+        section = layer.document.section(*keys)
+        for name, node in section.items() if section is not None else ():
+            if keys[0] in _OF_PORTS and name.lexeme.startswith("x-"):
+                continue
+            if node.data is None:
+                merged.pop(name.lexeme, None)
+            else:
+                merged[name.lexeme] = node
+    yield from merged.items()
+
+
+def _property(key: str, node: Node, quote: bool) -> Property:
+    """`quote`: as in flat TOML, where text stands in quotes, and numbers do not."""
+    assert isinstance(node, Scalar)
+    value = node.lexeme
+    if quote and isinstance(node.data, str) and '"' not in value:
+        return Property(key, f'"{value}"', node.span, unquoted)
+    return Property(key, value, node.span)
+
+
+def _endpoints(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
+    for name, node in given(values, "endpoints"):
+        yield _property(connections.endpoints(name)[form != CLASSIC], node, quote)
+
+
+def _proxies(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
+    for name, node in given(values, "proxies"):
+        key = connections.proxy(name)[form != CLASSIC]
+        if isinstance(node, Mapping):
+            key = text(node, "key", key)
+            proxy = node.get("proxy")
+            assert proxy is not None
+            node = proxy
+        yield _property(key, node, quote)
+
+
+def _topics(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
+    manager: Node | None = None
+    for layer in values.layers():
+        topics = layer.document.root.get("topics")
+        entry = topics.entries.get("manager") if isinstance(topics, Mapping) else None
+        if entry is not None:
+            manager = None if entry[1].data is None else entry[1]
+    if manager is not None:
+        yield _property(connections.MANAGER[form != CLASSIC], manager, quote)
+    for name, node in given(values, "topics", "prefix"):
+        made = _property(connections.prefix(name), node, quote)
+        if made.value:  # none at all is what an empty one means
+            yield made
+    for name, node in given(values, "topics", "name"):
+        yield _property(name, node, quote)

@@ -1,0 +1,150 @@
+"""Cerberus's rules of a component's parameters, and what Cerberus lacks.
+
+Cerberus takes True for a number, refuses 1.0 where a whole number is asked, lets NaN pass every range, knows no open
+ends, and ends its patterns before a last line end: the rules below make its verdict the others'.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+from typing import Any
+
+from cerberus import TypeDefinition, Validator
+
+from robocomp_yaml.parameters.types import (
+    BasicType,
+    EnumType,
+    ListType,
+    MapType,
+    Member,
+    RecordType,
+    ScalarType,
+    Size,
+    Type,
+)
+from robocomp_yaml.semantics.limits import LIMITS
+from robocomp_yaml.semantics.references import Unresolved
+
+Rules = dict[str, Any]
+
+
+class ParameterValidator(Validator):  # type: ignore[misc]  # cerberus has no types
+    """Cerberus with our types and rules. A reference fits every plain type; its value is judged at start."""
+
+    types_mapping = Validator.types_mapping.copy()
+    types_mapping["truth"] = TypeDefinition("truth", (bool, Unresolved), ())
+    types_mapping["whole"] = TypeDefinition("whole", (int, Unresolved), (bool,))
+    types_mapping["decimal"] = TypeDefinition("decimal", (int, float, Unresolved), (bool,))
+    types_mapping["text"] = TypeDefinition("text", (str, Unresolved), ())
+
+    def _validate_from(self, limit: float, field: str, value: object) -> None:
+        """{'type': 'number'}"""
+        if not isinstance(value, Unresolved) and not value >= limit:  # type: ignore[operator]  # so that NaN fails
+            self._error(field, f"must be at least {limit}")
+
+    def _validate_to(self, limit: float, field: str, value: object) -> None:
+        """{'type': 'number'}"""
+        if not isinstance(value, Unresolved) and not value <= limit:  # type: ignore[operator]
+            self._error(field, f"must be at most {limit}")
+
+    def _validate_above(self, limit: float, field: str, value: object) -> None:
+        """{'type': 'number'}"""
+        if not isinstance(value, Unresolved) and not value > limit:  # type: ignore[operator]
+            self._error(field, f"must be above {limit}")
+
+    def _validate_below(self, limit: float, field: str, value: object) -> None:
+        """{'type': 'number'}"""
+        if not isinstance(value, Unresolved) and not value < limit:  # type: ignore[operator]
+            self._error(field, f"must be below {limit}")
+
+    def _validate_one_of(self, allowed: list[object], field: str, value: object) -> None:
+        """{'type': 'list'}"""
+        if not isinstance(value, Unresolved) and value not in allowed:
+            self._error(field, f"must be one of {allowed}")
+
+    def _validate_pattern(self, expression: str, field: str, value: object) -> None:
+        """{'type': 'string'}"""
+        from robocomp_yaml.parameters.patterns.match import matcher
+
+        if isinstance(value, str) and not matcher(expression).matches(value):
+            self._error(field, f"must match {expression}")
+
+    def _validate_distinct(self, wanted: bool, field: str, value: list[object]) -> None:
+        """{'type': 'boolean'}"""
+        if wanted and len(set(value)) != len(value):
+            self._error(field, "must have no entry twice")
+
+
+def rules_of(type_: RecordType) -> Rules:
+    """The rules of a record's members."""
+    return {member.name: _member(member) for member in type_.members}
+
+
+def _member(member: Member) -> Rules:
+    rules = _type(member.type)
+    if member.is_group:
+        rules["default_setter"] = _always({})
+    elif member.default is not None:
+        rules["default_setter"] = _always(member.default.data)
+    elif not member.optional:
+        rules["required"] = True
+    return rules
+
+
+def _always(data: object) -> Callable[[object], object]:
+    return lambda _document: copy.deepcopy(data)
+
+
+def _type(type_: Type) -> Rules:
+    match type_:
+        case BasicType() | EnumType():
+            return _scalar(type_)
+        case ListType(element=element, size=size, unique=unique):
+            rules = {"type": "list", "schema": _type(element), **_size(size)}
+            return {**rules, "distinct": True} if unique else rules
+        case MapType(element=element, size=size):
+            return {
+                "type": "dict",
+                "keysrules": {"type": "string"},
+                "valuesrules": _type(element),
+                **_size(size),
+            }
+        case _:
+            return {"type": "dict", "schema": rules_of(type_)}
+
+
+def _size(size: Size) -> Rules:
+    rules: Rules = {"minlength": size.least} if size.least else {}
+    return rules | ({"maxlength": size.most} if size.most is not None else {})
+
+
+def _scalar(type_: ScalarType) -> Rules:
+    rules: Rules
+    if isinstance(type_, EnumType):
+        return {"type": "text", "one_of": list(type_.allowed)}
+    if type_.name in LIMITS:
+        rules = {"type": "whole", "coerce": _whole} if type_.is_integer else {"type": "decimal"}
+        rules |= _range(type_)
+    else:
+        rules = {"type": "truth" if type_.name == "bool" else "text"}
+    if type_.values:
+        rules["one_of"] = [literal.value for literal in type_.values]
+    if type_.pattern is not None:
+        rules["pattern"] = type_.pattern.portable
+    return rules
+
+
+def _range(type_: BasicType) -> Rules:
+    least, most = LIMITS[type_.name]
+    rules: Rules = {"from": least, "to": most}
+    if type_.range and (low := type_.range.low):
+        rules["above" if low.is_open else "from"] = low.value
+    if type_.range and (high := type_.range.high):
+        rules["below" if high.is_open else "to"] = high.value
+    return rules
+
+
+def _whole(value: object) -> object:
+    """1.0 is a whole number, and becomes 1."""
+    return int(value) if isinstance(value, float) and value.is_integer() else value
