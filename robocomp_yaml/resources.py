@@ -6,6 +6,7 @@ beside the package, where people look for them.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -26,6 +27,13 @@ def folder(name: str) -> Path:
     if (_PACKAGE.parent / "pyproject.toml").is_file() and beside.is_dir():
         return beside
     raise FileNotFoundError(f"rcyaml's folder '{name}' is missing from this installation: reinstall rcyaml")
+
+
+def files(source: Path) -> Iterator[tuple[str, str]]:
+    """The names and the texts of the files that stand directly in a folder of rcyaml's own."""
+    for file in sorted(source.iterdir()):
+        if file.is_file():
+            yield file.name, file.read_text(encoding="utf-8")
 
 
 def text(path: str) -> str:

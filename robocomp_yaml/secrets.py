@@ -1,7 +1,7 @@
 """What is secret: names that say so, and texts with what nobody should read taken out.
 
 Whatever is shown of a document, a command or a state asks here. Parameters may also say it themselves (`secret: true`):
-then their types know it. The run times of components have the rule for names once more, and a test compares them.
+then their types know it. Which names say it, components decide by the same rule (`semantics.secrecy`).
 """
 
 from __future__ import annotations
@@ -9,6 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import Any
+
+from robocomp_yaml.semantics.secrecy import HIDDEN as HIDDEN
+from robocomp_yaml.semantics.secrecy import USER_INFO
+from robocomp_yaml.semantics.secrecy import is_secret as is_secret
+from robocomp_yaml.semantics.secrecy import url as url
 
 
 class _Pattern:
@@ -23,43 +28,6 @@ class _Pattern:
         return found
 
 
-HIDDEN = "***"
-"""What is shown instead of a secret."""
-
-# Letters beyond ASCII are said by what they are not: ranges up to the end of Unicode take `re` milliseconds to compile.
-_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[^\x00-`{-\x7f]+|[0-9]+")
-_STEMS = (
-    "password", "passwd", "passphrase", "passcode", "secret", "credential", "contrase",
-    "apikey", "accesskey", "privatekey", "authkey", "bearer", "authorization",
-)  # fmt: skip
-_WORDS = frozenset(("pass", "pwd", "token", "tokens"))
-_ENDS = ("token", "tokens", "pwd", "dbpass", "userpass", "rootpass", "adminpass", "wifipass", "mypass", "keypass")
-_ABOUT = frozenset((
-    "file", "path", "dir", "directory", "folder", "length", "len", "size", "required", "enabled", "count", "policy",
-    "prompt", "timeout", "rate", "attempts", "tries", "retries", "limit", "min", "max", "age", "ttl", "lifetime",
-    "expiry", "period", "interval", "filter", "band", "through", "type",
-))  # fmt: skip
-"""Words that end the name of something about a secret, which is none itself."""
-_HOW = frozenset((
-    "max", "min", "num", "number", "count", "use", "has", "no", "allow", "require", "requires", "show", "hide",
-    "enable", "is", "with", "ask", "low", "high", "band", "all", "by", "over", "under", "two", "single", "first",
-    "second", "multi",
-))  # fmt: skip
-"""Words that begin such a name."""
-
-
-def is_secret(name: str) -> bool:
-    """Whether what has this name is to be kept secret: a variable, an option, a parameter, a property."""
-    words = [word.lower() for word in _WORD.findall(name)]
-    if not words or words[-1] in _ABOUT or words[0] in _HOW or words in (["pwd"], ["oldpwd"]):
-        return False
-    joined = "".join(words)
-    if words[-1] == "private" or any(stem in joined for stem in _STEMS):
-        return True
-    return any(word in _WORDS or word.endswith(_ENDS) for word in words)
-
-
-_USER_INFO = _Pattern(r"([A-Za-z][A-Za-z0-9+.-]{0,30}://[^\s/?#:@'\"<>]*):([^\s/?#'\"<>]+)@")
 _ASSIGNMENT = _Pattern(
     r"(?P<name>(?<![\w.])[^\x00-@\[-^`{-\x7f][\w.\-]{0,60})"
     r"(?P<sign>(?P<close>[\"']?)[ \t]*=[ \t]*|[\"']?[ \t]*:[ \t]+|[\"']:)"
@@ -92,11 +60,6 @@ def _without_value(found: re.Match[str]) -> str:
         return found[0]
     quote = value[0] if value[0] in "\"'" else ""
     return f"{found['name']}{found['sign']}{quote}{HIDDEN}{quote}"
-
-
-def url(text: str) -> str:
-    """A text without the passwords in its URLs."""
-    return _USER_INFO.sub(lambda found: f"{found[1]}:{HIDDEN}@", text) if "@" in text else text
 
 
 def is_one_of(name: str, names: Collection[str]) -> bool:
@@ -190,7 +153,7 @@ def parts_of_lines(lines: Sequence[str], names: Collection[str] = ()) -> dict[in
 
 def _parts_of_line(line: str, names: Collection[str]) -> tuple[list[Part], int | None]:
     """Also the indentation of a key whose value goes on in the next line."""
-    parts = [found.span(2) for found in _USER_INFO.finditer(line)]
+    parts = [found.span(2) for found in re.finditer(USER_INFO, line)]
     for options in (_OPTION, _LISTED):
         parts += [found.span("value") for found in options.finditer(line) if is_secret(found["name"])]
     first, at = _INDENT.match(line), 0

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 from unittest import mock
 
+from robocomp_yaml import semantics
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.python import parameters as python_parameters
+from robocomp_yaml.parameters.kinds import as_data, recording
 from robocomp_yaml.parameters.types import Parameters
+from robocomp_yaml.semantics import composite
+from robocomp_yaml.semantics.plain import Taking
+from robocomp_yaml.semantics.reading import Reader
+from robocomp_yaml.semantics.references import unresolved
 
 _LAST: list[Any] = []  # the parameters and the module that were asked for last
 
@@ -19,14 +26,19 @@ def python(parameters: Parameters) -> ModuleType:
     if _LAST and _LAST[0] is parameters:
         return _LAST[1]
     if "generated" not in sys.modules:
-        package = ModuleType("generated")
-        package.__path__ = [str(language("python").templates)]
-        sys.modules["generated"] = package
+        _package("generated", language("python").templates)
+        _package("generated.runtime.semantics", Path(semantics.__file__).parent)
     made = ModuleType("generated.parameters")
     text = python_parameters.text(parameters, "Component", "x.pdsl.yaml")
     exec(compile(text, "parameters.py", "exec"), made.__dict__)
     _LAST[:] = [parameters, made]
     return made
+
+
+def _package(name: str, folder: Path) -> None:
+    """A package that is found in a folder where it does not stand."""
+    sys.modules[name] = package = ModuleType(name)
+    package.__path__ = [str(folder)]
 
 
 def store(parameters: Parameters, properties: dict[str, str], overrides: dict[str, str] | None = None) -> Any:
@@ -48,8 +60,8 @@ def live(parameters: Parameters, properties: dict[str, str], overrides: dict[str
 def take(parameters: Parameters, data: Any) -> tuple[Any, list[str]]:
     """Data as the accessors take it: as data again, with defaults; and what is wrong. References are not judged."""
     made = python(parameters)
-    from generated.runtime import composite, references  # type: ignore[import-not-found]
-    from generated.runtime.plain import Taking  # type: ignore[import-not-found]
+    from generated.runtime.semantics import composite, references  # type: ignore[import-not-found]
+    from generated.runtime.semantics.plain import Taking  # type: ignore[import-not-found]
 
     kind, taking = composite.Recording(made.TABLE.values), Taking()
     with mock.patch.object(references.os, "environ", {}):
@@ -61,7 +73,7 @@ def take(parameters: Parameters, data: Any) -> tuple[Any, list[str]]:
 def read(parameters: Parameters, properties: dict[str, str]) -> tuple[Any, list[str]]:
     """The values that properties give, as data; and what is wrong."""
     python(parameters)
-    from generated.runtime.problems import ParameterError  # type: ignore[import-not-found]
+    from generated.runtime.semantics.problems import ParameterError  # type: ignore[import-not-found]
 
     try:
         return read_back(parameters, properties), []
@@ -72,6 +84,16 @@ def read(parameters: Parameters, properties: dict[str, str]) -> tuple[Any, list[
 def read_back(parameters: Parameters, properties: dict[str, str]) -> Any:
     """The values that a component has which was started with these properties, as data."""
     started = store(parameters, properties)
-    from generated.runtime import composite
+    from generated.runtime.semantics import composite
 
     return composite.data(started.kind, started.values)
+
+
+def as_written(parameters: Parameters, properties: dict[str, str]) -> tuple[Any, list[str]]:
+    """The same as the compiler reads them, by whose types no reference is followed."""
+    kind, taking = recording(parameters.root), Taking(is_text=True)
+    texts = Reader(properties, {each.path: each for each in parameters.spellings}, unresolved).read(kind)
+    taken = kind.take(texts, (), taking)
+    if taking.problems:
+        return None, [problem.message for problem in taking.problems]
+    return as_data(parameters.root, composite.data(kind, taken)), []

@@ -5,9 +5,10 @@ from __future__ import annotations
 import copy
 from typing import Any
 
-from robocomp_yaml.parameters.layers.rules import ParameterValidator, Reference, as_data, rules_of
-from robocomp_yaml.parameters.spelling import references
+from cerberus_rules import ParameterValidator, rules_of
+from robocomp_yaml.parameters.kinds import as_data
 from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type
+from robocomp_yaml.semantics.references import Unresolved, is_sound
 
 
 def cerberus_verdict(root: RecordType, data: object) -> tuple[bool, Any]:
@@ -28,7 +29,7 @@ def with_references(type_: Type, data: Any) -> Any:
         return _NOTHING
     match type_:
         case BasicType() | EnumType():
-            return Reference(dict(data)) if references.is_sound(data) else data
+            return Unresolved(dict(data)) if is_sound(data) else data
         case ListType(element=element) if isinstance(data, list):
             return [with_references(element, item) for item in data]
         case MapType(element=element) if isinstance(data, dict):

@@ -29,12 +29,12 @@ from robocomp_yaml.parameters.editing.show import Value
 from robocomp_yaml.parameters.examples.new import lines_above
 from robocomp_yaml.parameters.hidden import hidden
 from robocomp_yaml.parameters.layers.effective import Effective
-from robocomp_yaml.parameters.spelling import paths
-from robocomp_yaml.parameters.spelling.paths import Step
 from robocomp_yaml.parameters.types import BasicType, EnumType, RecordType, Type, is_secret, leaves
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.pipeline import Analysis, analyse
 from robocomp_yaml.secrets import HIDDEN, hidden_lines
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source import text as source_text
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import whole

@@ -11,8 +11,10 @@ from robocomp_yaml.emit.ports import Ports, interface_key
 from robocomp_yaml.emit.specific.entries import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.network.port_numbers import default_port
+from robocomp_yaml.semantics.connections import MANAGER, endpoints, proxy, topic_endpoints
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import IceEndpoint
-from robocomp_yaml.source.properties import entry_line, read, unquoted
+from robocomp_yaml.source.properties import entry_line, read
 from robocomp_yaml.source.regular import regular
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
@@ -42,10 +44,10 @@ def plan(component: LinkedComponent, table: Ports) -> FilePlan:
 
 def needed(linked: LinkedComponent) -> list[str]:
     """The keys without which a component finds no other, or is not found itself."""
-    keys = [f"{name}.Endpoints" for name in ports.adapters(linked)]
-    keys += [f"{port.name}Proxy" for port in linked.requires]
+    keys = [endpoints(name)[0] for name in ports.adapters(linked)]
+    keys += [proxy(port.name)[0] for port in linked.requires]
     if linked.publishes or linked.subscribes:
-        keys += ["TopicManager.Proxy", *(f"{port.name}Topic.Endpoints" for port in linked.subscribes)]
+        keys += [MANAGER[0], *(topic_endpoints(port.name)[0] for port in linked.subscribes)]
     return keys
 
 
@@ -55,7 +57,7 @@ def connections(linked: LinkedComponent, table: Ports, standing: Mapping[str, st
     values = read(plan(linked, table).text).values
     found = {key: values[key] for key in needed(linked)}
     for port in linked.requires:
-        key = f"{port.name}Proxy"
+        key = proxy(port.name)[0]
         stands = stated(standing, key)
         if stands is not None and not _others(linked, port, table):
             found[key] = stands
@@ -98,7 +100,7 @@ def _offers(linked: LinkedComponent, table: Ports) -> Iterator[str]:
     for name in ports.adapters(linked):
         doc = docs.get(name, "State, period, properties and orderly stop of every component.")
         yield from _comment(name, doc)
-        yield entry_line(f"{name}.Endpoints", f"tcp -p {table.endpoint(linked, name).port}")
+        yield entry_line(endpoints(name)[0], f"tcp -p {table.endpoint(linked, name).port}")
 
 
 def _needs(linked: LinkedComponent, table: Ports) -> Iterator[str]:
@@ -120,7 +122,7 @@ def _needs(linked: LinkedComponent, table: Ports) -> Iterator[str]:
             yield "# No component of this workspace implements it: set host and port of the one that does."
             endpoint = IceEndpoint(default_port("", port.interface.name))
         where = f"{endpoint.protocol} -h {endpoint.host or 'localhost'} -p {endpoint.port}"
-        yield entry_line(f"{port.name}Proxy", f"{identity}:{where}")
+        yield entry_line(proxy(port.name)[0], f"{identity}:{where}")
 
 
 def _implemented(linked: LinkedComponent, found: Sequence[tuple[LinkedComponent, str]], chosen: LinkedComponent) -> str:
@@ -134,11 +136,11 @@ def _topics(linked: LinkedComponent) -> Iterator[str]:
     if not (linked.publishes or linked.subscribes):
         return
     yield "# Topics: IceStorm carries them, and its topic manager must be running."
-    yield entry_line("TopicManager.Proxy", "IceStorm/TopicManager:default -p 9999")
+    yield entry_line(MANAGER[0], "IceStorm/TopicManager:default -p 9999")
     for port in linked.subscribes:
         yield from _comment(port.name, port.interface.doc)
         yield "# Port 0: any free one; only IceStorm needs to know it."
-        yield entry_line(f"{port.name}Topic.Endpoints", "tcp -p 0")
+        yield entry_line(topic_endpoints(port.name)[0], "tcp -p 0")
 
 
 def _worker(linked: LinkedComponent) -> Iterator[str]:

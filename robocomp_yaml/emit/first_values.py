@@ -13,9 +13,14 @@ from robocomp_yaml.emit.layout import CONFIG
 from robocomp_yaml.emit.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters
 from robocomp_yaml.parameters.examples.new import Sections, new_document
+from robocomp_yaml.parameters.kinds import as_data, recording
 from robocomp_yaml.parameters.types import Parameters, RecordType
-from robocomp_yaml.parameters.writing.read import properties_to_values
-from robocomp_yaml.source.properties import read, unquoted
+from robocomp_yaml.semantics import composite, connections
+from robocomp_yaml.semantics.plain import Taking
+from robocomp_yaml.semantics.reading import Reader
+from robocomp_yaml.semantics.references import unresolved
+from robocomp_yaml.semantics.texts import unquoted
+from robocomp_yaml.source.properties import read
 from robocomp_yaml.source.regular import regular
 from robocomp_yaml.transactions.manifest import BASE
 
@@ -49,9 +54,9 @@ def _connections(linked: LinkedComponent, standing: Mapping[str, str], table: Po
     usual = config.connections(linked, table, standing)
     found = {key: config.stated(standing, key) or value for key, value in usual.items()}
     served = [(key.removesuffix(".Endpoints"), text) for key, text in found.items() if key.endswith(".Endpoints")]
-    proxies = [(port.name, found[f"{port.name}Proxy"]) for port in linked.requires]
-    manager = found.get("TopicManager.Proxy", "")
-    topics = [("manager", manager)] if manager != usual.get("TopicManager.Proxy", "") else []
+    proxies = [(port.name, found[connections.proxy(port.name)[0]]) for port in linked.requires]
+    manager = found.get(connections.MANAGER[0], "")
+    topics = [("manager", manager)] if manager != usual.get(connections.MANAGER[0], "") else []
     return [("endpoints", served), ("proxies", proxies), ("topics", topics)]
 
 
@@ -68,8 +73,9 @@ def _changed(folder: str, standing: Mapping[str, str], usual: str) -> dict[str, 
 
 def _values(parameters: Parameters, standing: Mapping[str, str]) -> dict[str, Any]:
     """The parameters that an `etc/config` gives other values than their defaults."""
-    found, faults = properties_to_values(parameters, standing, quoted=_is_toml(standing))
-    return _but_defaults(parameters.root, found, faults)
+    kind = recording(parameters.root)
+    texts = Reader(standing, {each.path: each for each in parameters.spellings}, unresolved).read(kind)
+    return _but_defaults(parameters.root, kind, texts)
 
 
 def _is_toml(standing: Mapping[str, str]) -> bool:
@@ -77,17 +83,21 @@ def _is_toml(standing: Mapping[str, str]) -> bool:
     return any(key.startswith(("Endpoints.", "Proxies.")) and value[:1] == '"' for key, value in standing.items())
 
 
-def _but_defaults(record: RecordType, found: Mapping[str, Any], faults: Mapping[str, Any]) -> dict[str, Any]:
+def _but_defaults(record: RecordType, kind: composite.Recording, texts: Mapping[str, Any]) -> dict[str, Any]:
+    """What of the values that the texts spell fits its type, and is no default."""
     kept: dict[str, Any] = {}
     for member in record.members:
-        value = found.get(member.name)
-        if member.is_group and isinstance(member.type, RecordType) and isinstance(value, dict):
-            inside = faults.get(member.name)
-            below = inside[0] if isinstance(inside, list) and inside and isinstance(inside[0], dict) else {}
-            kept[member.name] = _but_defaults(member.type, value, below)
-        elif value is not None and member.name not in faults:
-            if member.default is None or value != member.default.data:
-                kept[member.name] = value
+        if member.name not in texts:
+            continue
+        inner, text = kind.members[member.name].kind, texts[member.name]
+        if isinstance(inner, composite.Recording) and isinstance(member.type, RecordType) and inner.is_group:
+            kept[member.name] = _but_defaults(member.type, inner, text)
+            continue
+        taking = Taking(is_text=True)
+        taken = inner.take(text, (), taking)
+        value = None if taking.problems else as_data(member.type, composite.data(inner, taken))
+        if value is not None and (member.default is None or value != member.default.data):
+            kept[member.name] = value
     return kept
 
 

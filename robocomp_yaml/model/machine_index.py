@@ -131,11 +131,6 @@ def is_unconditional(transition: Transition, datamodel: str) -> bool:
         return False
 
 
-def plain(descriptor: str) -> str:
-    """What an event's name begins with to match this; '' matches all."""
-    return descriptor.removesuffix(".*").rstrip(".").removesuffix("*")
-
-
 def prefixes(event: str) -> list[str]:
     """What matches an event: `door` and `door.open` for `door.open`, and '' for everything."""
     words = event.split(".")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 import msgspec
@@ -10,12 +9,11 @@ import msgspec
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean, suggest
+from robocomp_yaml.semantics.events import seconds
 from robocomp_yaml.source.xml import Element
 
 SCXML = "http://www.w3.org/2005/07/scxml"
 OURS = "urn:robocomp:statemachine"
-
-DURATION = re.compile(r"\+?(\d+(?:\.\d*)?|\.\d+)\s*(ms|s)")
 
 
 class Shape(msgspec.Struct, frozen=True):
@@ -132,7 +130,7 @@ def _values(element: Element) -> Iterator[Diagnostic]:
         if wanted and value not in wanted:
             yield codes.BAD_VALUE.at(element.place(name), name=name, value=value, hint=f"write {' or '.join(wanted)}")
     delay = element.get("delay")
-    if element.name == "send" and delay is not None and not DURATION.fullmatch(delay.strip()):
+    if element.name == "send" and delay is not None and seconds(delay) is None:
         yield codes.BAD_VALUE.at(element.place("delay"), name="delay", value=delay, hint="write 100ms or 1.5s")
     if element.name == "send" and delay is not None and element.get("target") == "#_internal":
         yield codes.BAD_VALUE.at(

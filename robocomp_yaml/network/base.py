@@ -7,6 +7,8 @@ import msgspec
 from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import LinkedValues
 from robocomp_yaml.parameters.writing.properties import CLASSIC, FLAT_TOML, dialect, given
+from robocomp_yaml.semantics import connections
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
@@ -32,7 +34,7 @@ class Base(msgspec.Struct):
     def manager(self) -> str:
         """The topic manager's proxy that it names, or ''."""
         if self.values is None:
-            return self.first("TopicManager.Proxy", "Proxies.TopicManager")
+            return self.first(*connections.MANAGER)
         for layer in reversed(self.values.layers()):
             topics = layer.document.section("topics")
             if topics is not None and "manager" in topics.entries:
@@ -43,15 +45,14 @@ class Base(msgspec.Struct):
         """The name of a topic, as generated components make it: a prefix, and a name of its own."""
         prefixes = f"{port}Pub" if is_out else port
         if self.values is None:
-            prefix, name = self.first(f"Proxies.{prefixes}Prefix"), self.first(port)
+            prefix, name = self.first(connections.prefix(prefixes)), self.first(port)
         else:
             prefix = _text(dict(given(self.values, "topics", "prefix")).get(prefixes))
             name = _text(dict(given(self.values, "topics", "name")).get(port))
-        name = name or interface
-        return f"{prefix}/{name}" if prefix else name
+        return connections.topic(prefix, name, interface)
 
     def first(self, *keys: str) -> str:
-        return next((properties.unquoted(text) for key in keys if (text := self.properties.get(key))), "")
+        return connections.first(self.properties.get, *keys)
 
     def proxy_key(self, name: str) -> Scalar | None:
         """The property that a proxy has instead of its usual one."""
@@ -71,4 +72,4 @@ def base_of(instance: LinkedInstance, disk: Disk) -> Base:
 
 
 def _text(node: Node | None) -> str:
-    return properties.unquoted(node.lexeme) if isinstance(node, Scalar) else ""
+    return unquoted(node.lexeme) if isinstance(node, Scalar) else ""

@@ -30,6 +30,7 @@ from robocomp_yaml.parameters.writing.properties import (
     section_text,
 )
 from robocomp_yaml.parameters.writing.write import Property, Writer
+from robocomp_yaml.semantics import connections
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, text_at
 
 _PARAMETERS = "What the deployment sets"
@@ -182,16 +183,15 @@ class Configuration(msgspec.Struct):
         """All that is derived as properties, in Ice's own spelling, which comes first for every generated component;
         and behind it in the file's, if that is another."""
         draft, made = self.draft, list[tuple[str, str, Given]]()
-        made += [(f"{name}.Endpoints", f"Endpoints.{name}", given) for name, given in self._endpoints()]
-        for name, given in draft.proxies.items():
-            made.append((f"{name}Proxy", f"Proxies.{name}", given))
+        made += [(*connections.endpoints(name), given) for name, given in self._endpoints()]
+        made += [(*connections.proxy(name), given) for name, given in draft.proxies.items()]
         if draft.manager is not None:
-            made.append(("TopicManager.Proxy", "Proxies.TopicManager", draft.manager))
+            made.append((*connections.MANAGER, draft.manager))
         made += [(name, name, given) for name, given in draft.topics.items()]
         lines = {classic: Property(classic, given.text, given.span) for classic, _, given in made}
         if dialect != CLASSIC:
             lines |= {other: Property(other, _quoted(given.text), given.span) for _, other, given in made}
-        prefixes = [f"Proxies.{name}{end}Prefix" for name in draft.topics for end in ("", "Pub")]
+        prefixes = [connections.prefix(f"{name}{end}") for name in draft.topics for end in ("", "Pub")]
         # an empty value takes back what the file says
         lines |= {key: Property(key, '""') for key in prefixes if key in self.base.properties}
         return list(lines.values())

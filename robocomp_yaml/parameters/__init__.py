@@ -3,8 +3,9 @@
 From the bottom to the top, each part using those before it:
 
     specification  a document as written             patterns     what texts may be
-    types          resolved: every limit joined      defaults     what there is when nobody gives a value
-    spelling       paths, references, plain values, rows and scalars of YAML as text
+    types          resolved: every limit joined      kinds        the same as components have them
+    defaults       what there is when nobody gives a value
+    spelling       references, rows, names of properties and scalars of YAML as text
     documents      of parameters and of values, as the linker joined them
     hidden         which values are secret           words        types and parameters in words
     verdict        the judge: what is wrong with a value, in words, at its place
@@ -17,5 +18,6 @@ From the bottom to the top, each part using those before it:
     editing        those looked at, and changed in their document
 
 The gate says whether values are right, fast; where they are not, the judge says why. Cerberus completes what is given.
-Tests hold all three, and Cerberus's own verdict, against each other.
+Tests hold gate, judge, the types of components (`kinds`) and Cerberus's own verdict against each other. What texts, limits
+and constraints mean is shared with components, in `semantics`.
 """

@@ -6,9 +6,9 @@ from collections.abc import Collection, Iterator
 from typing import Any
 
 from robocomp_yaml import secrets
-from robocomp_yaml.parameters.spelling import paths
-from robocomp_yaml.parameters.spelling.references import is_sound
 from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type
+from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics.references import is_sound
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 

@@ -17,19 +17,12 @@ from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.located import Located
 from robocomp_yaml.parameters.patterns.pattern import Pattern
 from robocomp_yaml.parameters.specification.document import Spelling
+from robocomp_yaml.semantics.limits import INTEGERS, LIMITS, Number, has_size, holds, range_in_words, size_in_words
 from robocomp_yaml.source.tree import Node
 
 if TYPE_CHECKING:
     from robocomp_yaml.parameters.expressions.expression import Expression
 
-Number = int | float
-LIMITS: dict[str, tuple[Number, Number]] = {
-    "int": (-(2**31), 2**31 - 1),
-    "long": (-(2**63), 2**63 - 1),
-    "float": (-3.4028234663852886e38, 3.4028234663852886e38),
-    "double": (-1.7976931348623157e308, 1.7976931348623157e308),
-}
-INTEGERS = ("int", "long")
 BASIC_TYPES = ("bool", *LIMITS, "string")
 
 
@@ -47,20 +40,23 @@ class Range(Located, frozen=True):
     span: Span = Span("")
 
     def holds(self, value: Number) -> bool:
-        low, high = self.low, self.high
-        if low is not None and (value <= low.value if low.is_open else value < low.value):
-            return False
-        return high is None or not (value >= high.value if high.is_open else value > high.value)
+        return holds(value, **self.limits)
 
     @property
     def in_words(self) -> str:
         """`from 0 to 2`, `at least 0`, `above 0 and at most 5`."""
-        low, high = self.low, self.high
-        if low and high and not low.is_open and not high.is_open:
-            return f"from {low.lexeme} to {high.lexeme}"
-        parts = [f"{'above' if low.is_open else 'at least'} {low.lexeme}"] if low else []
-        parts += [f"{'below' if high.is_open else 'at most'} {high.lexeme}"] if high else []
-        return " and ".join(parts)
+        return range_in_words(**{name: bound.lexeme for name, bound in self._ends()})
+
+    @property
+    def limits(self) -> dict[str, Number]:
+        """Its ends by what code calls them: `at_least` and `at_most` may be reached, `above` and `below` not."""
+        return {name: bound.value for name, bound in self._ends()}
+
+    def _ends(self) -> Iterator[tuple[str, Bound]]:
+        if self.low is not None:
+            yield "above" if self.low.is_open else "at_least", self.low
+        if self.high is not None:
+            yield "below" if self.high.is_open else "at_most", self.high
 
 
 class Size(Located, frozen=True):
@@ -71,7 +67,7 @@ class Size(Located, frozen=True):
     span: Span = Span("")
 
     def holds(self, count: int) -> bool:
-        return self.least <= count and (self.most is None or count <= self.most)
+        return has_size(count, self.least, self.most)
 
     @property
     def is_any(self) -> bool:
@@ -79,11 +75,7 @@ class Size(Located, frozen=True):
 
     @property
     def in_words(self) -> str:
-        if self.most is None:
-            return f"at least {self.least}"
-        if self.least == self.most:
-            return f"exactly {self.least}"
-        return f"from {self.least} to {self.most}" if self.least else f"at most {self.most}"
+        return size_in_words(self.least, self.most)
 
 
 class BasicType(msgspec.Struct, frozen=True):

@@ -4,7 +4,6 @@ documents and code."""
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
 
 from robocomp_yaml.parameters.hidden import hidden
 from robocomp_yaml.parameters.spelling.yaml import flow
@@ -19,40 +18,31 @@ from robocomp_yaml.parameters.types import (
     is_secret,
     unit_of,
 )
+from robocomp_yaml.semantics.limits import LIST, MAP, WORDS, one_of, record_in_words
 
 _CODE_OR_TAG = re.compile(r"((`+)(?!`).*?(?<!`)\2(?!`))|(?<!\\)<(?!https?://)", re.DOTALL)
-
-
-def one_of(values: Collection[str], secret: bool = False) -> str:
-    """Which values something may have: of a secret, only how many."""
-    return f"one of the {len(values)} values allowed" if secret else f"one of {', '.join(values)}"
 
 
 def kind_in_words(type_: Type) -> str:
     """What a value of a type is, without its limits: `a whole number`."""
     match type_:
         case BasicType():
-            return _plain(type_, "a whole number")
+            return WORDS[type_.name]
         case EnumType(allowed=allowed, secret=secret):
             return one_of(allowed, secret)
         case ListType():
-            return "a list"
+            return LIST
         case MapType():
-            return "a mapping of names to values"
+            return MAP
         case _:
-            return f"a mapping of {', '.join(member.name for member in type_.members)}"
-
-
-def _plain(type_: BasicType, whole: str) -> str:
-    words = {"bool": "true or false", "string": "text"}
-    return words.get(type_.name) or (whole if type_.is_integer else "a number")
+            return record_in_words([member.name for member in type_.members])
 
 
 def in_brief(type_: Type) -> str:
     """What a value is in an expression, where all numbers are alike: `a number`, `a Motor`."""
     match type_:
         case BasicType():
-            return _plain(type_, "a number")
+            return WORDS["double" if type_.is_number else type_.name]
         case EnumType(name=name):
             return one_of([name])
         case ListType():

@@ -12,7 +12,7 @@ from functools import lru_cache
 
 import msgspec
 
-from robocomp_yaml.source import properties
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_options import BLANKS, PROTOCOLS, Refused, words_of
 
 _EVERYWHERE = ("*", "0.0.0.0", "::")
@@ -68,7 +68,7 @@ def fixed_endpoint(text: str) -> IceEndpoint:
 def parse_endpoint(text: str) -> IceEndpoint | None:
     """The same of a property, whose value may stand in quotes; None where there is none."""
     try:
-        return fixed_endpoint(properties.unquoted(text))
+        return fixed_endpoint(unquoted(text))
     except Refused:
         return None
 

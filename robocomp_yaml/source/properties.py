@@ -84,13 +84,6 @@ def read(text: str) -> Properties:
     return Properties(tuple(lines))
 
 
-def unquoted(value: str) -> str:
-    """The value of a flat-TOML config: one that stands between double quotes, and has no other, loses them."""
-    if len(value) >= 2 and value[0] == value[-1] == '"' and value.count('"') == 2:
-        return value[1:-1]
-    return value
-
-
 def unwritable(key: str, value: str) -> str:
     """Why no line of a property file can say this entry, or ''."""
     if not key:

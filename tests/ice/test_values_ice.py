@@ -13,7 +13,6 @@ from parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
 from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.parameters.layers.effective import effective
 from robocomp_yaml.parameters.writing.properties import as_dict, properties, property_text
-from robocomp_yaml.parameters.writing.read import properties_to_values
 from verdicts import CASES
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")
@@ -48,9 +47,6 @@ def comes_back(by_ice, of: LinkedParameters, data: Data, **more: Any) -> list[st
         held = by_ice(property_text(sections, "TestComp", "config.yaml"))
         assert held == as_dict(sections)
         quoted = more.get("legacy", {}).get("dialect") == "flat-toml"
-        read, errors = properties_to_values(of.parameters, held, quoted=quoted)
-        assert not errors
-        assert read == found.data
         marked = {**held, "Endpoints.CommonBehavior": '"tcp"'} if quoted else held  # as every such file is
         assert accessors.read_back(of.parameters, marked) == found.data
     return [fault.message for fault in faults]

@@ -17,14 +17,14 @@ from click.testing import CliRunner, Result
 from hypothesis import HealthCheck, Phase, event, given, settings
 from hypothesis import strategies as st
 
+import accessors
 from layouts import laid_out
 from parameters import HARD_TEXTS, JUNK, NAMES, Data, documents, linked, mutated
 from robocomp_yaml.cli import group
 from robocomp_yaml.link.program import LinkedParameters
-from robocomp_yaml.parameters.spelling import paths
 from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
-from robocomp_yaml.parameters.writing.read import properties_to_values
+from robocomp_yaml.semantics import paths
 from robocomp_yaml.source.properties import read
 from robocomp_yaml.source.tree import parse
 from verdicts import CASES
@@ -109,8 +109,8 @@ def test_what_is_shown_is_got_and_exported(folder: Folder, case: Case) -> None:
         got = folder.run("get", "x.config.yaml", row["path"], "--reveal")
         assert got.exit_code == 0
         assert got.output == (row["value"] if isinstance(row["value"], str) else flow(row["value"])) + "\n"
-    values, errors = properties_to_values(of.parameters, read(exported.output).values)
-    assert not errors
+    values, problems = accessors.as_written(of.parameters, read(exported.output).values)
+    assert not problems
     assert _from(folder.path, values) == _of_rows(of, rows)
     loaded = tomllib.loads(as_toml.output)
     assert "env" in flow(values) or "file" in flow(values) or {key: loaded.get(key, {}) for key in values} == values

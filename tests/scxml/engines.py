@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from robocomp_yaml import semantics
 from robocomp_yaml.emit.machines import lower
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.cpp import machine_text
@@ -32,6 +33,7 @@ class Trace:
 
 HERE = Path(__file__).resolve().parent
 PYTHON = language("python").templates / "machine"
+SEMANTICS = Path(semantics.__file__).parent
 CPP = language("cpp").templates / "machine"
 _OF_WORKERS = {"reports.cpp", "worker.cpp"}  # they need Ice
 
@@ -40,7 +42,9 @@ def package(folder: Path) -> Path:
     """The package `generated` with the interpreter."""
     generated = folder / "generated"
     shutil.copytree(PYTHON, generated / "machine", ignore=shutil.ignore_patterns("__pycache__"))
-    (generated / "__init__.py").touch()
+    shutil.copytree(SEMANTICS, generated / "runtime" / "semantics", ignore=shutil.ignore_patterns("__pycache__"))
+    for folder in (generated, generated / "runtime"):
+        (folder / "__init__.py").touch()
     return generated
 
 

@@ -8,8 +8,9 @@ from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, plain, prefixes
+from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
+from robocomp_yaml.semantics.events import beginning
 
 _MANY = 500  # names to look for a similar one in
 _PLATFORM = ("done.", "error", "*", ".*")
@@ -129,7 +130,7 @@ def _sent(machine: StateMachine) -> tuple[list[Text], bool]:
 def _unheard(index: MachineIndex) -> Iterator[Diagnostic]:
     """What the machine sends to itself, and no transition waits for."""
     heard = [event.text for _, transition in index.transitions() for event in transition.events]
-    known = {plain(descriptor) for descriptor in heard}
+    known = {beginning(descriptor) for descriptor in heard}
     named = [descriptor for descriptor in known if descriptor and not descriptor.startswith(_PLATFORM)]
     for action in index.actions():
         if isinstance(action, Raise):
@@ -160,7 +161,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
                 continue
             if event.text.startswith(_PLATFORM):
                 yield from _platform(index, transition, event)
-            elif fired and complete and plain(event.text) not in heads:
+            elif fired and complete and beginning(event.text) not in heads:
                 hint = did_you_mean(
                     event.text,
                     known[:_MANY],

@@ -11,8 +11,9 @@ from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model import conditions
-from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, plain, prefixes
+from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PYTHON, State, StateMachine, Text, Transition
+from robocomp_yaml.semantics.events import beginning
 
 _AT_ONCE = "an event"  # what a transition without events does not wait for
 
@@ -76,7 +77,7 @@ def _dead(state: State, machine: StateMachine) -> Iterator[Diagnostic]:
     for transition in state.transitions:
         is_certain = is_unconditional(transition, machine.datamodel)
         condition = _meaning(transition.condition)
-        heads = {plain(event.text): event for event in transition.events}
+        heads = {beginning(event.text): event for event in transition.events}
         if not transition.events:
             heads = {_AT_ONCE: Text("", transition.span)}
         for head, event in heads.items():
@@ -107,7 +108,7 @@ def _told(machine: StateMachine, state: State, dead: _Taker, first: _Taker, wher
     guard = "`if:`" if machine.inline else "`cond`"
     event, takes = dead.event, first.event
     is_guarded = not is_unconditional(first.transition, machine.datamodel)
-    is_same = bool(takes.text) == bool(event.text) and plain(takes.text) == plain(event.text)
+    is_same = bool(takes.text) == bool(event.text) and beginning(takes.text) == beginning(event.text)
     if is_guarded:
         hint = "remove one of them, or give it another condition"
     elif takes.text and not is_same:

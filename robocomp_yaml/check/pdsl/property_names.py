@@ -8,8 +8,10 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, Program
-from robocomp_yaml.parameters.spelling.templates import exact_keys, row_templates
+from robocomp_yaml.parameters.spelling.templates import exact_keys, row_keys
 from robocomp_yaml.parameters.types import BasicType, EnumType, leaves
+from robocomp_yaml.semantics.connections import endpoints, proxy
+from robocomp_yaml.semantics.spellings import pattern
 
 _ICE = (
     "Ice",
@@ -68,14 +70,14 @@ def _among_themselves(linked: LinkedParameters, places: dict[str, Span]) -> Iter
         other = keys.setdefault(key, path)
         if other != path:
             yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=key)
-    templates: dict[str, str] = {}
-    for path, template in row_templates(linked.parameters):
-        other = templates.setdefault(template.text, path)
+    rows: dict[str, str] = {}
+    for path, row in row_keys(linked.parameters):
+        other = rows.setdefault(row, path)
         if other != path:
-            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=template.text)
-        pattern = template.pattern()
+            yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{other}'", property=row)
+        in_row = pattern(row)
         for key, owner in keys.items():
-            if owner != path and pattern.match(key):
+            if owner != path and in_row.match(key):
                 yield codes.PROPERTY_CLASH.at(places[path], name=path, other=f"'{owner}'", property=key)
 
 
@@ -84,8 +86,8 @@ def _taken(component: LinkedComponent) -> Iterator[tuple[str, str]]:
     names = [port.name for port in (*component.implements, *component.subscribes)]
     for name in ("CommonBehavior", *names, *(f"{port.name}Topic" for port in component.subscribes)):
         yield name, f"the adapter {name}"
-        yield f"{name}.Endpoints", f"the endpoints of {name}"
+        yield endpoints(name)[0], f"the endpoints of {name}"
     for port in component.publishes:
         yield port.name, f"the topic {port.name}"
     for port in component.requires:
-        yield f"{port.name}Proxy", f"the proxy {port.name}"
+        yield proxy(port.name)[0], f"the proxy {port.name}"

@@ -15,10 +15,10 @@ from robocomp_yaml.model.build_interface import entries
 from robocomp_yaml.parameters.layers.effective import Effective, document_faults
 from robocomp_yaml.parameters.writing.harmless import is_harmless
 from robocomp_yaml.parameters.writing.properties import properties
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import parse_endpoints
 from robocomp_yaml.source.ice_options import Refused
 from robocomp_yaml.source.ice_proxy import parse_proxy
-from robocomp_yaml.source.properties import unquoted
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 _SUCH_AS = {"endpoint": "tcp -p 10001", "proxy": '"mouth:tcp -h localhost -p 10002"'}

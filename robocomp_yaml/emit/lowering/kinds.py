@@ -10,6 +10,8 @@ import msgspec
 from robocomp_yaml.parameters.specification.document import Spelling
 from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Size, Type
 
+_LIMITS = {"at_least": "atLeast", "above": "above", "at_most": "atMost", "below": "below"}
+
 
 class Builders(msgspec.Struct, frozen=True):
     """How a language calls them: `prefix` stands before each function, `text` makes a literal, `value` one of any plain
@@ -49,11 +51,8 @@ class Builders(msgspec.Struct, frozen=True):
     def _limits(self, type_: BasicType) -> Iterator[str]:
         if type_.values:
             yield f"oneOf({self.listed([self.value(literal.value) for literal in type_.values])})"
-        low, high = (type_.range.low, type_.range.high) if type_.range else (None, None)
-        if low is not None:
-            yield f"{'above' if low.is_open else 'atLeast'}({self.value(low.value)})"
-        if high is not None:
-            yield f"{'below' if high.is_open else 'atMost'}({self.value(high.value)})"
+        for name, end in type_.range.limits.items() if type_.range else ():
+            yield f"{_LIMITS[name]}({self.value(end)})"
         if type_.pattern is not None:
             yield f"matching({self.pattern(type_.pattern.portable)}, {self.text(type_.pattern.text)})"
         if type_.unit:

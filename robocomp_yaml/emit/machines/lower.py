@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from robocomp_yaml.emit.machines import tables
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model import statemachine as model
+from robocomp_yaml.semantics import tables
 
 
 def lower(machine: model.StateMachine) -> tables.Machine:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import re
 
 from robocomp_yaml.emit.layout import CONFIG
+from robocomp_yaml.semantics import connections
 from robocomp_yaml.source import properties
 
-_NEEDED = r"(?P<name>.+?)(?:Topic)?\.Endpoints|(?P<proxy>.+)Proxy|(?P<manager>TopicManager)\.Proxy"
+_NEEDED = (
+    r"(?P<topic>.+)Topic\.Endpoints|(?P<adapter>.+)\.Endpoints|(?P<proxy>.+)Proxy|(?P<manager>TopicManager)\.Proxy"
+)
 
 
 def is_entries(path: str) -> bool:
@@ -56,7 +59,6 @@ def spellings(key: str) -> set[str]:
     if found is None:
         return set()
     if found["manager"]:
-        return {"Proxies.TopicManager"}
-    if found["proxy"]:
-        return {f"Proxies.{found['proxy']}"}
-    return {f"Endpoints.{key.removesuffix('.Endpoints')}", f"Endpoints.{found['name']}"}
+        return {*connections.MANAGER} - {key}
+    names = {"topic": connections.topic_endpoints, "adapter": connections.endpoints, "proxy": connections.proxy}
+    return {name for what, of in names.items() if found[what] for name in of(found[what])} - {key}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import fields, is_dataclass
 
-from robocomp_yaml.emit.machines.tables import Machine, Value
+from robocomp_yaml.semantics.tables import Machine, Value
 
 WIDTH = 110
 _IN = "    "

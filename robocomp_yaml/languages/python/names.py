@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import keyword
 from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.emit.lowering.ports import Spelling
+from robocomp_yaml.semantics.slice_names import FORGOTTEN
 
 # What Ice 3.7's mapping puts an underscore before. What it forgets is escaped when the generated component loads its
 # Slice (templates/runtime/keywords.py).
@@ -14,8 +14,7 @@ ICE_ESCAPES = frozenset(
     "not or pass print raise return self try while yield".split()
 )
 _PROXY_METHODS = frozenset(("checkedCast", "uncheckedCast"))
-_KEYWORDS = frozenset((*keyword.kwlist, "staticmethod"))
-_FORGOTTEN = _KEYWORDS - ICE_ESCAPES
+_KEYWORDS = ICE_ESCAPES.union(FORGOTTEN)
 
 # Attributes of every worker: accessors and methods called so get another name.
 WORKER_ATTRIBUTES = frozenset(
@@ -38,7 +37,7 @@ def ice_name(name: str) -> str:
 
 def python_name(name: str) -> str:
     """The attribute or variable called so."""
-    return f"_{name}" if name in ICE_ESCAPES or name in _KEYWORDS else name
+    return f"_{name}" if name in _KEYWORDS else name
 
 
 def proxy_method(name: str) -> str:
@@ -48,7 +47,7 @@ def proxy_method(name: str) -> str:
 
 def is_forgotten(name: str) -> bool:
     """Whether Python cannot have the name, and Ice does not escape it."""
-    return name in _FORGOTTEN
+    return name in FORGOTTEN
 
 
 def module_variable(name: str) -> str:

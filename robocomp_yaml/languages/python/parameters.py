@@ -114,8 +114,9 @@ def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints:
         yield f"from typing import {', '.join(typing)}"
     if "Mapping[" in hints or typing:
         yield ""
-    modules = {"composite": True, "constraints": constraints, "parameters": True, "plain": True, "reading": spellings}
-    yield f"from generated.runtime import {', '.join(name for name, used in modules.items() if used)}"
+    yield "from generated.runtime import parameters"
+    modules = {"composite": True, "constraints": constraints, "plain": True, "reading": spellings}
+    yield f"from generated.runtime.semantics import {', '.join(name for name, used in modules.items() if used)}"
 
 
 _SPELLING = Spelling(
@@ -193,11 +194,8 @@ def _plain(type_: BasicType) -> str:
 def _limits(type_: BasicType) -> Iterator[str]:
     if type_.values:
         yield f"values={literal(tuple(value.value for value in type_.values))}"
-    low, high = (type_.range.low, type_.range.high) if type_.range else (None, None)
-    if low is not None:
-        yield f"{'above' if low.is_open else 'at_least'}={low.value!r}"
-    if high is not None:
-        yield f"{'below' if high.is_open else 'at_most'}={high.value!r}"
+    if type_.range:
+        yield from (f"{name}={end!r}" for name, end in type_.range.limits.items())
     if type_.pattern is not None:
         yield f"pattern={literal(type_.pattern.portable)}"
         if type_.pattern.text != type_.pattern.portable:

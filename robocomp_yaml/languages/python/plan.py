@@ -1,7 +1,7 @@
 """The Python target: a component that runs with Python 3.9 and Ice 3.7 alone.
 
-Most of it is the same for every component and is copied as it stands (`templates/runtime/`); what differs are
-a few small generated files, the user's skeleton and a launcher.
+Most of it is the same for every component and is copied as it stands (`templates/runtime/`, `semantics`); what differs
+are a few small generated files, the user's skeleton and a launcher.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.emit import windows
-from robocomp_yaml.emit.copied import copied
+from robocomp_yaml.emit.copied import copied, shared
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, lower
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import parameters, qt
@@ -131,7 +131,7 @@ def _runtime() -> tuple[FilePlan, ...]:
     """The files that are the same in every component."""
     files = copied("python", "runtime")
     package = next(file for file in files if file.path.endswith("/__init__.py"))
-    return (replace(package, path="generated/__init__.py"), *files)
+    return (replace(package, path="generated/__init__.py"), *files, *shared())
 
 
 def _view(linked: LinkedComponent) -> View:

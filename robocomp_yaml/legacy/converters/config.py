@@ -20,6 +20,7 @@ from robocomp_yaml.legacy.settings.entries import (
     guess,
     settle_head,
 )
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
 
 MAX_KEY = 1000
@@ -95,7 +96,7 @@ def _setting(
         text, notes.tail = protected[0], [protected[1]] if protected[1] else []
         raw = f'"{text}"'
     elif dialect == FLAT_TOML:
-        text = properties.unquoted(raw)
+        text = unquoted(raw)
         if text == raw and '"' in raw:
             reader.repaired("half_quoted", node, entry.key)
     is_quoted = text != raw

@@ -24,7 +24,7 @@ from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.parameters.resolution.resolve import resolve
 from robocomp_yaml.parameters.specification import build as build_parameters
 from robocomp_yaml.parameters.specification.document import ValuesDocument
-from robocomp_yaml.parameters.spelling.paths import in_words
+from robocomp_yaml.semantics.paths import in_words
 from robocomp_yaml.source import schema, tree
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as Mapping_

@@ -12,7 +12,7 @@ from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, STRING, TO
 from robocomp_yaml.legacy.settings.plan import Config, Path, Plan
 from robocomp_yaml.legacy.settings.shapes import plain, written
 from robocomp_yaml.legacy.settings.sorting import Named
-from robocomp_yaml.source.properties import unquoted
+from robocomp_yaml.semantics.texts import unquoted
 
 
 class Links(msgspec.Struct, frozen=True):

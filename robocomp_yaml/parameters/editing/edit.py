@@ -14,8 +14,8 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.parameters.spelling.paths import Step
 from robocomp_yaml.parameters.spelling.yaml import quoted, scalar, single_quoted
+from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, end_of, last_end, parse
 
 _COLON = re.compile(r"[ \t]*:")

@@ -12,7 +12,6 @@ from robocomp_yaml import secrets
 from robocomp_yaml.parameters.hidden import hidden, holds_secret
 from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.layers.merge import Place, child
-from robocomp_yaml.parameters.spelling.paths import Step, in_words
 from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import (
     BasicType,
@@ -25,6 +24,7 @@ from robocomp_yaml.parameters.types import (
 )
 from robocomp_yaml.parameters.writing.write import Path, Where, node_of, step
 from robocomp_yaml.secrets import HIDDEN
+from robocomp_yaml.semantics.paths import Step, in_words
 from robocomp_yaml.source.tree import Node, Scalar, parse
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from robocomp_yaml.parameters.types import Member, Parameters, RecordType
 from robocomp_yaml.parameters.examples.fitting import Fitted, fitted
-from robocomp_yaml.parameters.spelling.paths import Step
+from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.parameters.spelling.yaml import comment, flow, scalar
 from robocomp_yaml.parameters.words import for_documents
 

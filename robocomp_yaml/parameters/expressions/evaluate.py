@@ -1,13 +1,12 @@
 """What a constraint means: an expression's value over normalized parameters.
 
-A value that is not there (an optional one left out, a reference to the environment) is UNKNOWN. It makes comparisons
-and arithmetic unknown; `and`, `or`, `not`, all() and any() go by the rest where that decides. A constraint that stays
-unknown holds. Generated accessors follow the same rules, with every reference resolved.
+A value that is not there (an optional one left out, a reference to the environment) is unknown, None: what comes of it
+components decide by the same functions (`semantics.constraints`), with every reference resolved.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from robocomp_yaml.parameters.expressions.expression import (
@@ -24,22 +23,16 @@ from robocomp_yaml.parameters.expressions.expression import (
     Name,
     Unary,
 )
-from robocomp_yaml.parameters.spelling.references import is_reference
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
+from robocomp_yaml.semantics import constraints
+from robocomp_yaml.semantics.references import is_reference
 
-UNKNOWN: Any = type("Unknown", (), {"__repr__": lambda self: "UNKNOWN"})()
-
-
-class Undefined(ArithmeticError):
-    """A division by zero, or an entry that a list or map does not have: the constraint does not hold."""
+_OF_ALL = ("len", "abs", "keys", "values")  # whatever is known of what it holds
 
 
 def holds(expression: Expression, data: Mapping[str, Any]) -> bool:
     """Whether a constraint holds; `data` is by the names that expressions use."""
-    try:
-        return value(expression, data) is not False
-    except Undefined:
-        return False
+    return constraints.holds(lambda: value(expression, data))
 
 
 def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
@@ -47,155 +40,48 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
         case Literal(value=literal):
             return literal
         case Name(name=name):
-            return _known(scope.get(name, UNKNOWN))
+            return _known(scope.get(name))
         case Attribute(of=of, name=name):
             owner = value(of, scope)
-            return UNKNOWN if owner is UNKNOWN else _known(owner.get(name, UNKNOWN))
+            return None if owner is None else _known(owner.get(name))
         case Index(of=of, index=index):
-            return _entry(value(of, scope), value(index, scope))
+            return _known(constraints.entry(value(of, scope), value(index, scope)))
         case Listing(items=items):
-            return [value(item, scope) for item in items]
+            return tuple(value(item, scope) for item in items)
         case Unary(operator="not", operand=operand):
-            return _not(value(operand, scope))
+            return constraints.opposite(value(operand, scope))
         case Unary(operator=operator, operand=operand):
             number = value(operand, scope)
-            return UNKNOWN if number is UNKNOWN else -number if operator == "-" else number
+            return constraints.arithmetic("-", 0, number) if operator == "-" else number
         case Binary(operator=operator, left=left, right=right):
-            return _arithmetic(operator, value(left, scope), value(right, scope))
+            return constraints.arithmetic(operator, value(left, scope), value(right, scope))
         case Compare(first=first, rest=rest):
-            return _all(_compared(first, rest, scope))
+            others = ((operator, value(part, scope)) for operator, part in rest)
+            return constraints.all_of(constraints.compared(value(first, scope), others))
         case Logic(operator=operator, operands=operands):
             parts = (value(operand, scope) for operand in operands)
-            return _all(parts) if operator == "and" else _any(parts)
+            return constraints.all_of(parts) if operator == "and" else constraints.any_of(parts)
+        case Call(function="has", arguments=(argument, *_)):
+            assert not isinstance(argument, Each)
+            return value(argument, scope) is not None
         case Call(function=function, arguments=arguments):
-            return _call(function, arguments, scope)
+            return constraints.call(constraints.FUNCTIONS[function], lambda: _operand(function, arguments, scope))
 
 
 def _known(data: Any) -> Any:
     """What a reference stands for is not known yet."""
-    return UNKNOWN if data is None or is_reference(data) else data
+    return None if is_reference(data) else data
 
 
-def _entry(owner: Any, index: Any) -> Any:
-    if owner is UNKNOWN or index is UNKNOWN:
-        return UNKNOWN
-    try:
-        if isinstance(owner, list) and index < 0:
-            raise IndexError
-        return _known(owner[index])
-    except (IndexError, KeyError):
-        raise Undefined(f"there is no entry {index!r}") from None
-
-
-def _not(truth: Any) -> Any:
-    return UNKNOWN if truth is UNKNOWN else not truth
-
-
-def _all(parts: Iterator[Any]) -> Any:
-    unknown = False
-    for part in parts:
-        if part is UNKNOWN:
-            unknown = True
-        elif not part:
-            return False
-    return UNKNOWN if unknown else True
-
-
-def _any(parts: Iterator[Any]) -> Any:
-    unknown = False
-    for part in parts:
-        if part is UNKNOWN:
-            unknown = True
-        elif part:
-            return True
-    return UNKNOWN if unknown else False
-
-
-def _arithmetic(operator: str, left: Any, right: Any) -> Any:
-    if left is UNKNOWN or right is UNKNOWN:
-        return UNKNOWN
-    try:
-        match operator:
-            case "+":
-                return left + right
-            case "-":
-                return left - right
-            case "*":
-                return left * right
-            case "/":
-                return left / right
-            case _:
-                return left % right
-    except (ZeroDivisionError, OverflowError):
-        raise Undefined("a division by zero") from None
-
-
-_COMPARE: dict[str, Callable[[Any, Any], bool]] = {
-    "<": lambda a, b: a < b,
-    "<=": lambda a, b: a <= b,
-    ">": lambda a, b: a > b,
-    ">=": lambda a, b: a >= b,
-    "==": lambda a, b: a == b,
-    "!=": lambda a, b: a != b,
-    "in": lambda a, b: a in b,
-    "not in": lambda a, b: a not in b,
-}
-
-
-def _compared(first: Expression, rest: tuple[tuple[str, Expression], ...], scope: Mapping[str, Any]) -> Iterator[Any]:
-    left = value(first, scope)
-    for operator, expression in rest:
-        right = value(expression, scope)
-        if left is UNKNOWN or right is UNKNOWN or (isinstance(right, list) and UNKNOWN in right):
-            yield UNKNOWN
-        else:
-            yield _COMPARE[operator](left, right)
-        left = right
-
-
-def _call(function: str, arguments: tuple[Expression | Each, ...], scope: Mapping[str, Any]) -> Any:
-    if function == "has":
-        assert not isinstance(arguments[0], Each)
-        return value(arguments[0], scope) is not UNKNOWN
-    if isinstance(arguments[0], Each):
-        operand: Any = _each(arguments[0], scope)
-    elif len(arguments) > 1:
-        operand = [value(argument, scope) for argument in arguments if not isinstance(argument, Each)]
-    else:
-        operand = value(arguments[0], scope)
-    if operand is UNKNOWN:
-        return UNKNOWN
-    if function in ("all", "any"):
-        parts = (_known(part) for part in operand)
-        return _all(parts) if function == "all" else _any(parts)
-    if function in ("len", "abs", "keys", "values"):
-        return _SIMPLE[function](operand)
-    return _gathered(function, [_known(part) for part in operand])
-
-
-_SIMPLE: dict[str, Callable[[Any], Any]] = {
-    "len": len,
-    "abs": abs,
-    "keys": list,
-    "values": lambda mapping: list(mapping.values()),
-}
-
-
-def _gathered(function: str, parts: list[Any]) -> Any:
-    if any(part is UNKNOWN for part in parts):
-        return UNKNOWN
-    if function == "sum":
-        return sum(parts)
-    if function == "unique":
-        return len(set(parts)) == len(parts)
-    if not parts:
-        raise Undefined(f"{function}() of nothing")
-    return min(parts) if function == "min" else max(parts)
-
-
-def _each(each: Each, scope: Mapping[str, Any]) -> Any:
-    source = value(each.source, scope)
-    return UNKNOWN if source is UNKNOWN else _elements(each, source, scope)
+def _operand(function: str, arguments: tuple[Expression | Each, ...], scope: Mapping[str, Any]) -> Any:
+    first = arguments[0]
+    if isinstance(first, Each):
+        source = value(first.source, scope)
+        return None if source is None else _elements(first, source, scope)
+    if len(arguments) > 1:
+        return tuple(value(argument, scope) for argument in arguments if not isinstance(argument, Each))
+    operand = value(first, scope)
+    return operand if operand is None or function in _OF_ALL else tuple(map(_known, operand))
 
 
 def _elements(each: Each, source: Any, scope: Mapping[str, Any]) -> Iterator[Any]:
@@ -203,13 +89,10 @@ def _elements(each: Each, source: Any, scope: Mapping[str, Any]) -> Iterator[Any
     inner = dict(scope)
     for item in source:
         inner[each.variable] = _known(item)
-        if each.condition is not None:
-            wanted = value(each.condition, inner)
-            if wanted is UNKNOWN:
-                yield UNKNOWN
-            if wanted is UNKNOWN or not wanted:
-                continue
-        yield value(each.element, inner)
+        if each.condition is None:
+            yield value(each.element, inner)
+        else:
+            yield from constraints.when(value(each.condition, inner), lambda: value(each.element, inner))
 
 
 def by_code_names(record: RecordType, data: dict[str, Any]) -> dict[str, Any]:

@@ -8,8 +8,8 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.parameters.layers.merge import Place
-from robocomp_yaml.parameters.spelling import paths
 from robocomp_yaml.parameters.types import ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.semantics import paths
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, mapping_at, sequence_at, text_at
 
 Entries = dict[str, tuple[Scalar, Node]]

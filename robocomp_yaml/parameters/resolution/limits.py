@@ -16,7 +16,6 @@ from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.parameters.patterns import pattern
 from robocomp_yaml.parameters.specification.document import Limits
 from robocomp_yaml.parameters.types import (
-    LIMITS,
     BasicType,
     Bound,
     EnumType,
@@ -29,6 +28,7 @@ from robocomp_yaml.parameters.types import (
 )
 from robocomp_yaml.parameters.verdict.plain import CHOICE, KIND, PATTERN, RANGE, wrong
 from robocomp_yaml.parameters.words import kind_in_words
+from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 Found = list[Diagnostic]

@@ -17,7 +17,6 @@ from robocomp_yaml.parameters.examples.example import example, example_of
 from robocomp_yaml.parameters.hidden import holds_secret
 from robocomp_yaml.parameters.spelling.yaml import flow
 from robocomp_yaml.parameters.types import (
-    LIMITS,
     BasicType,
     EnumType,
     ListType,
@@ -30,6 +29,7 @@ from robocomp_yaml.parameters.types import (
     Type,
 )
 from robocomp_yaml.parameters.words import for_editors, in_words, label, prose
+from robocomp_yaml.semantics.limits import LIMITS
 from robocomp_yaml.source.schema import new_schema
 
 Schema = dict[str, Any]

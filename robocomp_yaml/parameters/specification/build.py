@@ -115,12 +115,11 @@ def _rule(node: Node) -> Rule:
 def _spelling(key: Scalar, node: Node) -> Spelling:
     if not isinstance(node, Mapping):
         assert isinstance(node, Scalar)
-        return Spelling(key.lexeme, node.lexeme, span=key.span)
+        return Spelling(node.lexeme, path=key.lexeme, span=key.span)
     data = node.data
     assert isinstance(data, dict)
     fields = tuple((name.lexeme, value.lexeme) for name, value in entries(node, "fields") if isinstance(value, Scalar))
     return Spelling(
-        key.lexeme,
         text(node, "key"),
         fields,
         int(data.get("first", 0)),
@@ -129,5 +128,6 @@ def _spelling(key: Scalar, node: Node) -> Spelling:
         tuple(item.lexeme for item in items(node, "separators") if isinstance(item, Scalar)),
         data.get("trailing") is True,
         text(node, "count"),
+        path=key.lexeme,
         span=key.span,
     )

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Literal
 from robocomp_yaml.model.located import Located
+from robocomp_yaml.semantics import spellings
 from robocomp_yaml.source.tree import Mapping, Node
 
 # The keys that say what a type is, in the order in which they are looked at.
@@ -69,23 +72,12 @@ class Rule(Located, frozen=True):
     span: Span = Span("")
 
 
-class Spelling(Located, frozen=True):
-    """An entry of `legacy:`: how properties spell the parameter at `path`.
+@dataclass(frozen=True)
+class Spelling(spellings.Spelling):
+    """An entry of `legacy:`: how properties spell the parameter at `path`."""
 
-    A scalar has just `key`. For rows, `key` holds `{i}` (or members' names in braces) and `columns` say what a row
-    holds; with `fields` each member has a property of its own. `separators` are for lists in one property.
-    """
-
-    path: str
-    key: str = ""
-    fields: tuple[tuple[str, str], ...] = ()
-    first: int = 0
-    columns: tuple[str, ...] = ()
-    separator: str = ","
-    separators: tuple[str, ...] = ()
-    trailing: bool = False
-    count: str = ""
-    span: Span = Span("")
+    path: str = ""
+    span: Span = field(default=Span(""), compare=False)
 
 
 class ParameterDocument(Located, frozen=True):

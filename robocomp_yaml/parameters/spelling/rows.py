@@ -1,23 +1,12 @@
-"""Several values in one property: rows of columns, and lists between separators.
-
-What is split is stripped of blanks, as legacy files indent their rows; so a part cannot start or end with one.
-"""
+"""Several values in one property, by their types; `semantics.rows` says how they are split."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from robocomp_yaml.parameters.specification.document import Spelling
-from robocomp_yaml.parameters.types import ListType, RecordType, ScalarType, Type
-
-_BLANKS = " \t"
-
-
-def split(text: str, separator: str) -> list[str]:
-    """The parts of a text; a separator of blanks stands for any run of them."""
-    if not separator.strip(_BLANKS):
-        return text.split()
-    return [part.strip(_BLANKS) for part in text.split(separator.strip(_BLANKS))]
+from robocomp_yaml.parameters.types import EnumType, ListType, RecordType, ScalarType, Type
+from robocomp_yaml.semantics import rows, texts
 
 
 def columns(record: RecordType, names: tuple[str, ...]) -> list[tuple[str, ScalarType]]:
@@ -31,41 +20,39 @@ def is_optional(record: RecordType, name: str) -> bool:
     return member is not None and member.optional
 
 
-def read_row(record: RecordType, names: tuple[str, ...], text: str, separator: str) -> dict[str, Any] | None:
-    """The texts of a row by column; a column that is empty, and is no text, has no value. Optional columns at the end
-    may be left out. None where the columns do not add up."""
-    parts = split(text, separator)
-    if len(parts) > len(names) or any(not is_optional(record, name) for name in names[len(parts) :]):
-        return None
-    found: dict[str, Any] = {}
-    for name, part in zip(names, parts, strict=False):
-        member = record.member(name)
-        assert member is not None
-        if part or (getattr(member.type, "name", "") == "string" and not member.optional):
-            found[name] = part
-    return found
+def is_text(record: RecordType, name: str) -> bool:
+    member = record.member(name)
+    return member is not None and getattr(member.type, "name", "") == "string"
 
 
-def read_parts(type_: Type, text: str, spelling: Spelling, level: int = 0) -> Any:
+def keeps_empty(record: RecordType, name: str) -> bool:
+    """Whether an empty column has a value: the empty text."""
+    return is_text(record, name) and not is_optional(record, name)
+
+
+def read_row(record: RecordType, names: tuple[str, ...], text: str, separator: str) -> rows.Row:
+    return rows.row(text, separator, names, lambda name: is_optional(record, name), lambda name: is_text(record, name))
+
+
+def read_parts(type_: Type, text: str, spelling: Spelling) -> Any:
     """Nested lists (and records, at the innermost level) between separators."""
+    levels = 0
+    while isinstance(type_, ListType):
+        levels, type_ = levels + 1, type_.element
+    return _parts(type_, rows.nested(text, spelling.separators, levels, spelling.trailing), spelling, levels)
+
+
+def _parts(type_: Type, parts: Any, spelling: Spelling, levels: int) -> Any:
+    if isinstance(parts, list):
+        return [_parts(type_, part, spelling, levels) for part in parts]
     if isinstance(type_, RecordType):
-        return read_row(type_, spelling.columns, text, spelling.separators[level])
-    if not isinstance(type_, ListType):
-        return text
-    separator = spelling.separators[level]
-    if level == 0 and spelling.trailing and text.rstrip(_BLANKS).endswith(separator.strip(_BLANKS)):
-        text = text.rstrip(_BLANKS)[: -len(separator.strip(_BLANKS)) or None]
-        if not text:
-            return [] if not isinstance(type_.element, ListType) else [[]]
-    elif not text:
-        return []
-    return [read_parts(type_.element, part, spelling, level + 1) for part in split(text, separator)]
+        return read_row(type_, spelling.columns, parts, spelling.separators[levels])
+    return parts
 
 
-def join_parts(texts: Any, spelling: Spelling, level: int = 0) -> str:
-    """The text of nested lists of texts; the outermost separator stands once more at the end where it trails."""
-    if isinstance(texts, str):
-        return texts
-    separator = spelling.separators[level]
-    joined = separator.join(join_parts(part, spelling, level + 1) for part in texts)
-    return joined + separator if level == 0 and spelling.trailing and texts else joined
+def plain(type_: ScalarType, text: str) -> Any:
+    """The value that a text spells. Raises ValueError where it spells none."""
+    found = text if isinstance(type_, EnumType) else texts.read(type_.name, text)
+    if found is None:
+        raise ValueError(f"'{text}' is no {type_.name}")
+    return found

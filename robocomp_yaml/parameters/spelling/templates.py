@@ -5,10 +5,7 @@ A shape says, for one parameter, which properties hold it; writing (`properties`
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
-
-import msgspec
 
 from robocomp_yaml.parameters.specification.document import Spelling
 from robocomp_yaml.parameters.types import (
@@ -21,35 +18,12 @@ from robocomp_yaml.parameters.types import (
     Type,
     leaves,
 )
-
-_HOLE = re.compile(r"\{([A-Za-z0-9_][A-Za-z0-9_-]*)\}")
-
-
-class Template(msgspec.Struct, frozen=True):
-    """A property's name with holes: `JointMotor.M{i}`, `ID:{from}-{to}`."""
-
-    text: str
-
-    @property
-    def holes(self) -> tuple[str, ...]:
-        return tuple(_HOLE.findall(self.text))
-
-    def fill(self, values: dict[str, str]) -> str:
-        return _HOLE.sub(lambda hole: values[hole[1]], self.text)
-
-    def pattern(self) -> re.Pattern[str]:
-        """Reads the holes back; each as short as the rest allows, a number where it is the row's."""
-        out, at = "", 0
-        for hole in _HOLE.finditer(self.text):
-            out += re.escape(self.text[at : hole.start()])
-            out += "([0-9]+)" if hole[1] == "i" else "(.+?)"
-            at = hole.end()
-        return re.compile(out + re.escape(self.text[at:]) + r"\Z", re.DOTALL)
+from robocomp_yaml.semantics.spellings import holes as holes_of
 
 
 def fault(spelling: Spelling, type_: Type) -> str:
     """Why a parameter of this type cannot be spelled so, or ''."""
-    key, holes = spelling.key, Template(spelling.key).holes
+    key, holes = spelling.key, holes_of(spelling.key)
     if isinstance(type_, RecordType) and type_.is_group:
         return "is a group's: spell what the group holds, such as period.compute"
     if isinstance(type_, MapType):
@@ -116,7 +90,7 @@ def _fields(spelling: Spelling, element: Type) -> str:
             return f"names '{name}', which is no member of {element.name}"
         if not isinstance(member.type, BasicType | EnumType):
             return f"has '{name}' as a field, which is no plain value"
-        if Template(key).holes != ("i",):
+        if holes_of(key) != ("i",):
             return f"needs {{i}} once in the property of '{name}'"
     return _left_out(element, {name for name, _ in spelling.fields})
 
@@ -149,17 +123,17 @@ def exact_keys(parameters: Parameters) -> Iterator[tuple[str, str, bool]]:
         if spelling is None:
             yield path, path, False
         else:
-            if spelling.key and not Template(spelling.key).holes:
+            if spelling.key and not holes_of(spelling.key):
                 yield path, spelling.key, True
             if spelling.count:
                 yield path, spelling.count, True
 
 
-def row_templates(parameters: Parameters) -> Iterator[tuple[str, Template]]:
+def row_keys(parameters: Parameters) -> Iterator[tuple[str, str]]:
     for path, _ in leaves(parameters.root):
         spelling = parameters.spelling(path)
         if spelling is not None:
             keys = [spelling.key] if spelling.key else [key for _, key in spelling.fields]
             for key in keys:
-                if Template(key).holes:
-                    yield path, Template(key)
+                if holes_of(key):
+                    yield path, key

@@ -11,10 +11,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, hint_for_key
-from robocomp_yaml.parameters.spelling import references
-from robocomp_yaml.parameters.spelling.paths import Step, in_words
+from robocomp_yaml.parameters.spelling.references import node_is_reference
 from robocomp_yaml.parameters.types import (
-    LIMITS,
     BasicType,
     EnumType,
     ListType,
@@ -26,8 +24,11 @@ from robocomp_yaml.parameters.types import (
     is_secret,
 )
 from robocomp_yaml.parameters.verdict.plain import CHOICE, KIND, PATTERN, RANGE, wrong
-from robocomp_yaml.parameters.words import kind_in_words, one_of
+from robocomp_yaml.parameters.words import kind_in_words
 from robocomp_yaml.secrets import HIDDEN, url
+from robocomp_yaml.semantics import references
+from robocomp_yaml.semantics.limits import bounds, entries, one_of
+from robocomp_yaml.semantics.paths import Step, in_words
 from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -124,7 +125,7 @@ def _unit(type_: Type) -> str:
 
 
 def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
-    if references.node_is_reference(node):
+    if node_is_reference(node):
         yield from _reference(node, path)
         return
     fault = wrong(type_, node.data)
@@ -174,7 +175,7 @@ def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar 
     elif fault == RANGE and isinstance(type_, BasicType) and type_.range is not None:
         wanted = f"{type_.range.in_words}{unit}"
     else:
-        wanted = "from {} to {} ({})".format(*LIMITS[type_.name], type_.name)
+        wanted = bounds(type_.name)
     value = HIDDEN if type_.secret else value
     return _at(codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{value}{unit}", wanted=wanted, hint=hint)
 
@@ -203,8 +204,8 @@ def wrong_size(
     type_: ListType | MapType, count: int, node: Node, path: Path, key: Scalar | None
 ) -> Iterator[Diagnostic]:
     if not type_.size.holds(count):
-        entries = f"{count} entr{'y' if count == 1 else 'ies'}"
-        yield _at(codes.WRONG_SIZE, node, key, path=in_words(path), count=entries, wanted=type_.size.in_words)
+        wanted = type_.size.in_words
+        yield _at(codes.WRONG_SIZE, node, key, path=in_words(path), count=entries(count), wanted=wanted)
 
 
 def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from math import isfinite
 
-from robocomp_yaml.parameters.types import LIMITS, EnumType, ScalarType
+from robocomp_yaml.parameters.types import EnumType, ScalarType
+from robocomp_yaml.semantics.limits import beyond
 
 KIND, CHOICE, PATTERN, RANGE, LIMIT = "kind", "choice", "pattern", "range", "limit"
 
@@ -29,5 +30,4 @@ def wrong(type_: ScalarType, data: object) -> str:
         return "" if type_.pattern is None or type_.pattern.matches(data) else PATTERN
     if type_.range and not type_.range.holds(data):
         return RANGE
-    least, most = LIMITS[type_.name]
-    return "" if least <= data <= most else LIMIT
+    return LIMIT if beyond(type_.name, data) else ""

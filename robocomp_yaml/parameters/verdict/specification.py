@@ -9,10 +9,10 @@ from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.parameters.documents import ResolvedParameters
-from robocomp_yaml.parameters.spelling.references import is_reference
 from robocomp_yaml.parameters.spelling.templates import fault
 from robocomp_yaml.parameters.types import Member, Parameters, RecordType, Type, leaves
 from robocomp_yaml.parameters.verdict.judge import Path, judge
+from robocomp_yaml.semantics.references import is_reference
 from robocomp_yaml.source.tree import Mapping, Node, Sequence
 
 

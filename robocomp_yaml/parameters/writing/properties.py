@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 
 import msgspec
@@ -17,11 +16,13 @@ from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.types import Parameters
 from robocomp_yaml.parameters.writing.write import Property, Writer
-from robocomp_yaml.source.properties import entry_line, unquoted, unwritable
+from robocomp_yaml.semantics import connections
+from robocomp_yaml.semantics.spellings import quotes_texts
+from robocomp_yaml.semantics.texts import unquoted
+from robocomp_yaml.source.properties import entry_line, unwritable
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 CLASSIC, FLAT_TOML, TOML = "classic", "flat-toml", "toml"
-_OF_TOML = re.compile(r"(?:Endpoints|Period|Agent)\.|Proxies\.(?!.*Prefix$)")  # as in the components' run time
 _OF_PORTS = ("endpoints", "proxies", "topics")
 
 
@@ -89,7 +90,7 @@ def _seems_toml(parameters: Parameters, sections: list[Section]) -> bool:
     spelled = [key for each in parameters.spellings for key in (each.key, each.count, *(key for _, key in each.fields))]
     own = [f"{member.name}." for member in parameters.root.members]
     others = [made.key for section in sections for made in section.properties]
-    return any(_OF_TOML.match(key) for key in (*spelled, *own, *others))
+    return quotes_texts((*spelled, *own, *others))
 
 
 def property_text(sections: list[Section], name: str, source: str) -> str:
@@ -157,12 +158,12 @@ def _property(key: str, node: Node, quote: bool) -> Property:
 
 def _endpoints(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
     for name, node in given(values, "endpoints"):
-        yield _property(f"{name}.Endpoints" if form == CLASSIC else f"Endpoints.{name}", node, quote)
+        yield _property(connections.endpoints(name)[form != CLASSIC], node, quote)
 
 
 def _proxies(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]:
     for name, node in given(values, "proxies"):
-        key = f"{name}Proxy" if form == CLASSIC else f"Proxies.{name}"
+        key = connections.proxy(name)[form != CLASSIC]
         if isinstance(node, Mapping):
             key = text(node, "key", key)
             proxy = node.get("proxy")
@@ -179,9 +180,9 @@ def _topics(values: LayeredValues, form: str, quote: bool) -> Iterator[Property]
         if entry is not None:
             manager = None if entry[1].data is None else entry[1]
     if manager is not None:
-        yield _property("TopicManager.Proxy" if form == CLASSIC else "Proxies.TopicManager", manager, quote)
+        yield _property(connections.MANAGER[form != CLASSIC], manager, quote)
     for name, node in given(values, "topics", "prefix"):
-        made = _property(f"Proxies.{name}Prefix", node, quote)
+        made = _property(connections.prefix(name), node, quote)
         if made.value:  # none at all is what an empty one means
             yield made
     for name, node in given(values, "topics", "name"):

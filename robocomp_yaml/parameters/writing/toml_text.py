@@ -9,7 +9,6 @@ from typing import Any
 from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
 from robocomp_yaml.parameters.spelling import references
-from robocomp_yaml.parameters.spelling.templates import Template
 from robocomp_yaml.parameters.spelling.yaml import quoted
 from robocomp_yaml.parameters.types import (
     BasicType,
@@ -22,7 +21,9 @@ from robocomp_yaml.parameters.types import (
 )
 from robocomp_yaml.parameters.writing.properties import CLASSIC, Section, dialect, legacy_file, properties
 from robocomp_yaml.parameters.writing.write import Where, node_of, step
-from robocomp_yaml.source.properties import unquoted
+from robocomp_yaml.semantics import connections
+from robocomp_yaml.semantics.spellings import holes
+from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.tree import Scalar
 
 _NUMBER = re.compile(r"[-+]?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][-+]?[0-9]+)?\Z")
@@ -53,11 +54,11 @@ def _connections(sections: list[Section], unquotes: bool) -> Iterator[tuple[list
             name, _, tail = made.key.rpartition(".")
             key = made.key
             if tail == "Endpoints" and name:
-                key = f"Endpoints.{name}"
-            elif key == "TopicManager.Proxy":
-                key = "Proxies.TopicManager"
+                key = connections.endpoints(name)[1]
+            elif key == connections.MANAGER[0]:
+                key = connections.MANAGER[1]
             elif key.endswith("Proxy") and "." not in key and key != "Proxy":
-                key = f"Proxies.{key.removesuffix('Proxy')}"
+                key = connections.proxy(key.removesuffix("Proxy"))[1]
             is_bare = made.value in ("true", "false") or _NUMBER.match(made.value)
             plain = unquoted(made.value) if unquotes or made.read is not None else made.value
             yield key.split(".", 1), made.value if is_bare else quoted(plain)
@@ -74,7 +75,7 @@ def _parameters(effective: Effective, as_given: bool) -> Iterator[tuple[list[str
         if data is None or (as_given and where is None):
             continue
         spelling = effective.parameters.spelling(path)
-        is_plain = spelling is not None and bool(spelling.key) and not Template(spelling.key).holes
+        is_plain = spelling is not None and bool(spelling.key) and not holes(spelling.key)
         key = spelling.key if spelling is not None and is_plain else path
         yield key.split("."), _literal(member.type, data, where or (member.default.node if member.default else None))
 

@@ -19,9 +19,7 @@ from robocomp_yaml.parameters.defaults import with_defaults
 from robocomp_yaml.parameters.hidden import holds_secret
 from robocomp_yaml.parameters.layers.merge import Place, child
 from robocomp_yaml.parameters.specification.document import Spelling
-from robocomp_yaml.parameters.spelling import lexemes, references, rows
-from robocomp_yaml.parameters.spelling.paths import Step, escaped, in_words
-from robocomp_yaml.parameters.spelling.templates import Template
+from robocomp_yaml.parameters.spelling import references, rows
 from robocomp_yaml.parameters.types import (
     BasicType,
     EnumType,
@@ -34,7 +32,13 @@ from robocomp_yaml.parameters.types import (
     Type,
 )
 from robocomp_yaml.secrets import HIDDEN
-from robocomp_yaml.source.properties import unquoted, unwritable
+from robocomp_yaml.semantics import spellings
+from robocomp_yaml.semantics.paths import Step, escaped, in_words
+from robocomp_yaml.semantics.references import FILE, is_reference
+from robocomp_yaml.semantics.references import read as reference_of
+from robocomp_yaml.semantics.rows import joined
+from robocomp_yaml.semantics.texts import spelled, unquoted
+from robocomp_yaml.source.properties import unwritable
 from robocomp_yaml.source.tree import Node, Scalar
 
 Where = Place | Node | None
@@ -135,10 +139,10 @@ class Writer(msgspec.Struct):
         if text is None or (text == "" and not self.quote):
             return
         is_text = isinstance(type_, EnumType) or type_.name == "string"
-        read: Callable[[str], Any] | None = None if is_text else lambda other: lexemes.read(type_, other)
+        read: Callable[[str], Any] | None = None if is_text else lambda other: rows.plain(type_, other)
         if self.quote and is_text and '"' not in text:
             text, read = f'"{text}"', unquoted
-        is_secret = type_.secret and not references.is_reference(data)
+        is_secret = type_.secret and not is_reference(data)
         yield from self.checked(Property(key, text, span_of(where), read, is_secret), where, path)
 
     def checked(self, made: Property, where: Where, path: Path) -> Iterator[Property]:
@@ -155,8 +159,8 @@ class Writer(msgspec.Struct):
             if any(char in data for char in "\r\n\0"):
                 self.fault(where, path, "it holds a line end")
                 return None
-            if reference := references.read(data):
-                what = "a file" if references.FILE in reference else "the environment"
+            if reference := reference_of(data):
+                what = "a file" if FILE in reference else "the environment"
                 self.fault(where, path, f"it would be read as a reference to {what}")
                 return None
             if (self.quote or self.unquotes) and unquoted(data) != data:
@@ -168,7 +172,7 @@ class Writer(msgspec.Struct):
         node = node_of(where)
         if isinstance(node, Scalar) and node.data == data and not node.lexeme.startswith(("0x", "0o")):
             return node.lexeme
-        return lexemes.spelled(data)
+        return spelled(data)
 
     def spelled(self, spelling: Spelling, type_: Type, data: Any, where: Where, path: Path) -> Iterator[Property]:
         if isinstance(type_, BasicType | EnumType):
@@ -196,7 +200,7 @@ class Writer(msgspec.Struct):
                 written = list(self.row(spelling, key, element, item, here, inner)) if key else []
             else:
                 assert isinstance(element, BasicType | EnumType)
-                key = Template(spelling.key).fill({"i": number})
+                key = spellings.filled(spelling.key, {"i": number})
                 written = list(self.scalar(element, item, here, inner, key))
             if not written and not spelling.count and told == len(self.faults):
                 self.fault(here, inner, "its row would be empty")
@@ -209,15 +213,15 @@ class Writer(msgspec.Struct):
     def row_key(
         self, spelling: Spelling, record: RecordType, item: Any, where: Where, path: Path, number: str
     ) -> str | None:
-        template, texts = Template(spelling.key), {"i": number}
-        for hole in template.holes:
+        holes, found = spellings.holes(spelling.key), {"i": number}
+        for hole in holes:
             member = record.member(hole)
             if member is not None:
                 assert isinstance(member.type, BasicType | EnumType)
-                texts[hole] = self.text(member.type, item.get(hole, ""), step(where, hole), path) or ""
-        key = template.fill(texts)
-        found = template.pattern().match(key)
-        if found is None or found.groups() != tuple(texts[hole] for hole in template.holes):
+                found[hole] = self.text(member.type, item.get(hole, ""), step(where, hole), path) or ""
+        key = spellings.filled(spelling.key, found)
+        read = spellings.pattern(spelling.key).match(key)
+        if read is None or read.groups() != tuple(found[hole] for hole in holes):
             self.fault(where, path, f"its key, {key}, would be read differently")
             return None
         return key
@@ -255,7 +259,7 @@ class Writer(msgspec.Struct):
         self, spelling: Spelling, record: RecordType, item: Any, where: Where, path: Path
     ) -> dict[str, str] | None:
         """The texts of a row by column; None where one cannot be."""
-        said = {*spelling.columns, *Template(spelling.key).holes}
+        said = {*spelling.columns, *spellings.holes(spelling.key)}
         for member in record.members:
             if member.name in item and member.name not in said:
                 default = member.default
@@ -291,7 +295,7 @@ class Writer(msgspec.Struct):
         if read is None:
             raise ValueError("the columns do not add up")
         types = {member.name: member.type for member in record.members}
-        return {name: lexemes.read(types[name], text) for name, text in read.items()}  # type: ignore[arg-type]
+        return {name: self.typed(types[name], text) for name, text in read.items()}
 
     def fields(
         self, spelling: Spelling, record: RecordType, item: Any, where: Where, path: Path, number: str
@@ -308,18 +312,18 @@ class Writer(msgspec.Struct):
                     self.fault(here or where, inner, "its rows have no property for it")
                 continue
             assert isinstance(member.type, BasicType | EnumType)
-            key, told = Template(keys[member.name]).fill({"i": number}), len(self.faults)
+            key, told = spellings.filled(keys[member.name], {"i": number}), len(self.faults)
             written = list(self.scalar(member.type, value, here, inner, key))
             yield from written
             if told == len(self.faults):
                 self.check_empty(member, value, bool(written), here, inner)
 
     def separated(self, spelling: Spelling, type_: Type, data: Any, where: Where, path: Path) -> Iterator[Property]:
-        texts = self.texts(spelling, type_, data, where, path)
-        if texts is None:
+        parts = self.texts(spelling, type_, data, where, path)
+        if parts is None:
             return
-        text = rows.join_parts(texts, spelling)
-        if rows.read_parts(type_, text, spelling) != self.as_read(spelling, type_, texts):
+        text = joined(parts, spelling.separators, spelling.trailing)
+        if rows.read_parts(type_, text, spelling) != self.as_read(spelling, type_, parts):
             said = "it" if holds_secret(type_) else f"'{text}'"
             self.fault(where, path, f"its separators cannot say {said}")
         elif text:
@@ -352,14 +356,10 @@ class Writer(msgspec.Struct):
     def as_read(self, spelling: Spelling, type_: Type, texts: Any) -> Any:
         if isinstance(type_, RecordType):
             read = dict(zip(spelling.columns, texts, strict=True))
-            return {name: text for name, text in read.items() if text or self.keeps_empty(type_, name)}
+            return {name: text for name, text in read.items() if text or rows.keeps_empty(type_, name)}
         if isinstance(type_, ListType):
             return [self.as_read(spelling, type_.element, part) for part in texts]
         return texts
-
-    def keeps_empty(self, record: RecordType, name: str) -> bool:
-        member = record.member(name)
-        return member is not None and getattr(member.type, "name", "") == "string" and not member.optional
 
     def typed(self, type_: Type, read: Any) -> Any:
         if isinstance(type_, RecordType):
@@ -367,7 +367,7 @@ class Writer(msgspec.Struct):
         if isinstance(type_, ListType):
             return [self.typed(type_.element, part) for part in read]
         assert isinstance(type_, BasicType | EnumType)
-        return lexemes.read(type_, read)
+        return rows.plain(type_, read)
 
     def fault(self, where: Where, path: Path, problem: str) -> None:
         self.faults.append(codes.NOT_FOR_ICE.at(span_of(where) or self.head, path=in_words(path), problem=problem))

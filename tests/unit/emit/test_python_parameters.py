@@ -63,7 +63,7 @@ def arm() -> Any:
 def refused(action: Callable[[], object]) -> list[str]:
     """The messages of the ParameterError that it raises."""
     accessors.python(parameters("parameters: {x: {type: int, default: 1}}\n")[0])
-    from generated.runtime.problems import ParameterError  # type: ignore[import-not-found]
+    from generated.runtime.semantics.problems import ParameterError  # type: ignore[import-not-found]
 
     with pytest.raises(ParameterError) as error:
         action()
@@ -151,7 +151,7 @@ def test_a_bad_value_changes_nothing(arm: Any, path: str, value: object, message
 
 
 def test_an_error_says_what_and_where(arm: Any) -> None:
-    from generated.runtime.problems import ParameterError
+    from generated.runtime.semantics.problems import ParameterError
 
     with pytest.raises(ParameterError) as error:
         arm.set("basicPeriod", 2000)
@@ -266,8 +266,8 @@ def test_constraints_mean_what_the_checker_says(that: str) -> None:
     made, faults = parameters(subject(that))
     assert not faults
     table = accessors.python(made).TABLE
-    from generated.runtime import composite  # type: ignore[import-not-found]
-    from generated.runtime.plain import Taking  # type: ignore[import-not-found]
+    from generated.runtime.semantics import composite  # type: ignore[import-not-found]
+    from generated.runtime.semantics.plain import Taking  # type: ignore[import-not-found]
 
     kind = composite.Recording(table.values)
     for data in CASES:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from robocomp_yaml.model.parameters import Member, RecordType, is_secret
 
 from in_memory import ROOT, pdsl, program, refused, said
+from robocomp_yaml.parameters.types import Member, RecordType, is_secret
 
 
 def parameters(flow: str, types: str = "", component: str = "") -> dict[str, Member]:

@@ -6,10 +6,10 @@ from dataclasses import fields, replace
 from pathlib import Path
 
 from conftest import ROOT, write_tree
-from robocomp_yaml.emit.machines import tables
 from robocomp_yaml.emit.machines.lower import lower
 from robocomp_yaml.model.statemachine import StateMachine
 from robocomp_yaml.pipeline import analyse
+from robocomp_yaml.semantics import tables
 
 INLINE = """
   initial: initialize
@@ -83,16 +83,11 @@ def _sorted(machine: tables.Machine) -> tables.Machine:
     return replace(machine, states=states, transitions=tuple(sorted(machine.transitions, key=repr)))
 
 
-def test_the_run_times_have_the_same_tables() -> None:
-    languages = ROOT / "robocomp_yaml" / "languages"
-
-    names: dict[str, object] = {}
-    exec((languages / "python" / "templates" / "machine" / "tables.py").read_text(encoding="utf-8"), names)
-    header = (languages / "cpp" / "templates" / "machine" / "tables.h").read_text(encoding="utf-8")
+def test_the_run_time_of_cpp_has_the_same_tables() -> None:
+    header = (ROOT / "robocomp_yaml/languages/cpp/templates/machine/tables.h").read_text(encoding="utf-8")
     for table in vars(tables).values():
         if isinstance(table, type) and table.__module__ == tables.__name__:
             own = [field.name for field in fields(table)]
-            assert [field.name for field in fields(names[table.__name__])] == own  # type: ignore[arg-type]
             body = header.partition(f"\nstruct {table.__name__}\n")[2].partition("\n};")[0]
             members = [line.split("=")[0].rstrip("; ").split()[-1] for line in body.splitlines()[1:] if line.strip()]
             assert members == own

@@ -27,21 +27,6 @@ def test_escapes_and_comments() -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "bare"),
-    [
-        ('"tcp -p 1"', "tcp -p 1"),
-        ('" ""0"', '" ""0"'),
-        ('"', '"'),
-        ('""', ""),
-        ("x", "x"),
-        ('"a" b', '"a" b'),
-    ],
-)
-def test_quotes_of_flat_toml(value: str, bare: str) -> None:
-    assert properties.unquoted(value) == bare
-
-
-@pytest.mark.parametrize(
     ("key", "value"),
     [
         ("a", " x "),

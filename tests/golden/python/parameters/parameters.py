@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal, Optional
 
-from generated.runtime import composite, constraints, parameters, plain, reading
+from generated.runtime import parameters
+from generated.runtime.semantics import composite, constraints, plain, reading
 
 Handler = Literal["Dunkermotoren", "Faulhaber"]
 """Who drives it.

@@ -11,7 +11,7 @@ from typing import Any, Optional
 from generated.machine.events import Data, Event
 from generated.machine.model import ModelError
 from generated.machine.sessions import Sessions
-from generated.machine.tables import Machine
+from generated.runtime.semantics.tables import Machine
 
 PROPERTY = "statemachine.state"
 

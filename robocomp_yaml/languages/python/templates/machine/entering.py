@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from generated.machine.tables import Action, Transition
 from generated.machine.tree import ROOT, Tree
+from generated.runtime.semantics.tables import Action, Transition
 
 
 class Entry:

@@ -11,10 +11,11 @@ from collections.abc import Iterable, Sequence
 from typing import Any, Optional
 
 from generated.machine.entering import Entry, entry_of
-from generated.machine.events import INTERNAL, PLATFORM, Data, Event, matches
+from generated.machine.events import INTERNAL, PLATFORM, Data, Event
 from generated.machine.model import ModelError
-from generated.machine.tables import Action, Condition, Machine, Param, Transition, Value
 from generated.machine.tree import ROOT, Tree
+from generated.runtime.semantics.events import matches
+from generated.runtime.semantics.tables import Action, Condition, Machine, Param, Transition, Value
 
 MAX_STEPS = 10_000  # without an event from outside: more is a loop that never ends
 

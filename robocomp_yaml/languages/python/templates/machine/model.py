@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from generated.machine.events import Event
-from generated.machine.tables import Machine, Value
+from generated.runtime.semantics.tables import Machine, Value
 
 
 class ModelError(Exception):

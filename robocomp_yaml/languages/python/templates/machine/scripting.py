@@ -15,7 +15,7 @@ from typing import Any
 
 from generated.machine.events import Event
 from generated.machine.model import ModelError, NullModel
-from generated.machine.tables import Machine, Value
+from generated.runtime.semantics.tables import Machine, Value
 
 PROCESSOR = "http://www.w3.org/TR/scxml/#SCXMLEventProcessor"
 _FIRST_NAME = re.compile(r"\s*([^\W\d]\w*)")

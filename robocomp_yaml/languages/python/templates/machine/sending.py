@@ -3,21 +3,19 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 from generated.machine.model import ModelError
+from generated.runtime.semantics import events
 
 PROCESSOR = "http://www.w3.org/TR/scxml/#SCXMLEventProcessor"
 PROCESSORS = frozenset(["", "scxml", PROCESSOR, "http://www.w3.org/TR/scxml/"])
 SERVICES = frozenset(["", "scxml", "http://www.w3.org/TR/scxml", "http://www.w3.org/TR/scxml/"])
 
-_DELAY = re.compile(r"\+?(\d+(?:\.\d*)?|\.\d+)\s*(ms|s)")
-
 
 def seconds(delay: Any) -> float:
     """`1.5s`, `100ms`."""
-    match = _DELAY.fullmatch(str(delay).strip())
-    if not match:
+    found = events.seconds(str(delay))
+    if found is None:
         raise ModelError(f"'{delay}' is no delay, such as 100ms or 1.5s")
-    return float(match[1]) / (1000 if match[2] == "ms" else 1)
+    return found

@@ -14,7 +14,7 @@ from generated.machine.events import EXTERNAL, INTERNAL, Event
 from generated.machine.interpreter import Interpreter
 from generated.machine.model import ModelError
 from generated.machine.sending import PROCESSOR, PROCESSORS, SERVICES, seconds
-from generated.machine.tables import Invoke, Machine, Send, State
+from generated.runtime.semantics.tables import Invoke, Machine, Send, State
 
 Models = Mapping[str, Callable[..., Any]]
 

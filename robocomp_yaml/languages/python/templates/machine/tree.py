@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Optional
 
-from generated.machine.tables import Machine, State, Transition
+from generated.runtime.semantics.tables import Machine, State, Transition
 
 ROOT = 0
 

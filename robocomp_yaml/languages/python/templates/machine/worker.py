@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Optional
 
 from generated.machine.driver import StateMachine
-from generated.machine.tables import Machine
+from generated.runtime.semantics.tables import Machine
 from generated.runtime.worker import Context, Worker
 
 

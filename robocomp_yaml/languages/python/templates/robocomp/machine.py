@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from typing import Any, Optional
 
 from generated.machine import driver
-from generated.machine.tables import Machine
 from generated.robocomp.qt import QtCore
 from generated.robocomp.stage import Stage
+from generated.runtime.semantics.tables import Machine
 
 
 class StateMachine(driver.StateMachine):

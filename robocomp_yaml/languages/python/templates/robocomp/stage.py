@@ -13,8 +13,8 @@ from typing import Any
 from generated.robocomp import values
 from generated.runtime import stage, worker
 from generated.runtime.errors import StartError
-from generated.runtime.problems import ParameterError
 from generated.runtime.schedule import Schedule
+from generated.runtime.semantics.problems import ParameterError
 
 ROOT = Path(__file__).resolve().parents[2]
 

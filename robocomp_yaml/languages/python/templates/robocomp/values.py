@@ -9,7 +9,8 @@ from types import ModuleType
 from typing import Any
 
 from generated.runtime.ports import Component
-from generated.runtime.settings import Settings, unquoted
+from generated.runtime.semantics.texts import unquoted
+from generated.runtime.settings import Settings
 
 
 def proxies(component: Component, by_accessor: Mapping[str, Any]) -> dict[str, Any]:

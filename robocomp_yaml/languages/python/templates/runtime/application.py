@@ -14,6 +14,7 @@ from generated.runtime.parameters import Live, Store, Table
 from generated.runtime.ports import Component, Subscribed
 from generated.runtime.proxies import connect
 from generated.runtime.schedule import Schedule
+from generated.runtime.semantics import connections
 from generated.runtime.settings import Settings
 from generated.runtime.stage import Stage, WorkerClass
 from generated.runtime.topics import Topics
@@ -129,7 +130,7 @@ class Application:
     def _serve_common_behavior(self) -> commonbehavior.Behavior | None:
         """Unless the config has no endpoint for it, or the component implements it itself."""
         name = "CommonBehavior"
-        endpoints = self._settings.first(f"{name}.Endpoints", f"Endpoints.{name}")
+        endpoints = self._settings.first(*connections.endpoints(name))
         if not endpoints or any(port.name == name for port in self._component.implements):
             return None
         behavior = commonbehavior.servant(

@@ -12,9 +12,9 @@ from generated.runtime import configuration
 from generated.runtime.errors import StartError
 from generated.runtime.parameters import Store
 from generated.runtime.ports import Component
-from generated.runtime.problems import ParameterError
 from generated.runtime.schedule import Schedule
-from generated.runtime.secrecy import HIDDEN
+from generated.runtime.semantics.problems import ParameterError
+from generated.runtime.semantics.secrecy import HIDDEN
 from generated.runtime.settings import Settings
 from generated.runtime.stopping import Stopping
 

@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator
 from typing import Optional
 
-from generated.runtime import texts
 from generated.runtime.errors import StartError
 from generated.runtime.parameters import Store, Table
-from generated.runtime.plain import Plain
-from generated.runtime.problems import ParameterError
 from generated.runtime.schedule import Schedule
+from generated.runtime.semantics.plain import Plain
+from generated.runtime.semantics.problems import ParameterError
 from generated.runtime.settings import Settings, on_the_command_line
 
 _NOT_PARAMETERS = ("Endpoints", "Proxies", "Period", "TopicManager")  # what RoboComp's spellings of ports begin with
@@ -72,11 +72,22 @@ def misspelled(store: Store, ports: Iterable[str]) -> Iterator[tuple[str, str]]:
         if first in others:
             continue
         if first not in members:
-            meant = next((name for name in members if texts.alike(first, name)), "")
+            meant = next((name for name in members if _alike(first, name)), "")
             if meant:
                 yield key, meant
         elif dot and not isinstance(members[first].kind, Plain):
             yield key, ""
+
+
+def _alike(one: str, other: str) -> bool:
+    """Whether two names differ by a slip: in case, or in one character that is wrong, missing, too many, or changed
+    places with the next."""
+    short, long = sorted((one.lower(), other.lower()), key=len)
+    if short == long or len(long) < 4:
+        return short == long
+    same = len(os.path.commonprefix((short, long)))
+    rest, longer = short[same:], long[same:]
+    return longer[1:] in (rest, rest[1:]) or (longer[1::-1] == rest[:2] and longer[2:] == rest[2:])
 
 
 def drive(schedule: Schedule, store: Store) -> None:

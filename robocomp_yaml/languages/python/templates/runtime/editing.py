@@ -6,10 +6,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from generated.runtime import secrecy, texts
-from generated.runtime.composite import Kind, Listing, Naming, Recording
-from generated.runtime.paths import dotted, escaped
-from generated.runtime.plain import Path, Plain
+from generated.runtime.semantics import secrecy, texts
+from generated.runtime.semantics.composite import Kind, Listing, Naming, Recording
+from generated.runtime.semantics.paths import dotted, escaped
+from generated.runtime.semantics.plain import Path, Plain
 
 
 class Entry(NamedTuple):

@@ -10,16 +10,17 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Callable
 
-from generated.runtime import texts
-from generated.runtime.composite import Record, Recording, data
-from generated.runtime.constraints import Constraint
 from generated.runtime.editing import Entry, at, differences, flat, plain_values, put
-from generated.runtime.paths import dotted, in_words, parse
-from generated.runtime.plain import Path, Plain, Taking
-from generated.runtime.problems import ParameterError, Problem
-from generated.runtime.reading import Reader, Spelling
-from generated.runtime.references import referring, resolved
-from generated.runtime.secrecy import HIDDEN, shown
+from generated.runtime.semantics import texts
+from generated.runtime.semantics.composite import Record, Recording, data
+from generated.runtime.semantics.constraints import Constraint
+from generated.runtime.semantics.paths import dotted, in_words, parse
+from generated.runtime.semantics.plain import Path, Plain, Taking
+from generated.runtime.semantics.problems import ParameterError, Problem
+from generated.runtime.semantics.reading import Reader
+from generated.runtime.semantics.references import referring, resolved
+from generated.runtime.semantics.secrecy import HIDDEN, shown
+from generated.runtime.semantics.spellings import Spelling
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,7 @@ class Store:
             taking = Taking()
             changed = data(self.kind, self.values)
             for path, value in values.items():
-                if not put(self.kind, changed, _steps(path), value):
+                if not put(self.kind, changed, parse(path), value):
                     taking.refuse((), f"there is no parameter '{path}'")
             made = self.kind.take(changed, (), taking) if not taking.problems else None
             self._replace(made, taking)
@@ -145,7 +146,7 @@ class Store:
             for key in sorted(changes.keys() - reader.used):
                 taking.refuse((), f"there is no parameter '{key}'")
             for key in sorted(key for key in changes.keys() & reader.used if HIDDEN in changes[key]):
-                if HIDDEN in now.get(key, "") or getattr(at(self.kind, _steps(key)), "is_secret", False):
+                if HIDDEN in now.get(key, "") or getattr(at(self.kind, parse(key)), "is_secret", False):
                     taking.refuse((), f"{key} is to hold {HIDDEN}, which stands for what is not shown")
             self._replace(self.kind.take(read, (), taking), taking)
         self._tell()
@@ -184,10 +185,10 @@ class Store:
         known = {**properties}
         if "Period.Compute" in properties:  # RoboComp's own spelling
             known.setdefault("period.compute", properties["Period.Compute"])
-        reader = Reader(known, self.table.spellings, folder)
+        reader = Reader(known, self.table.spellings, lambda text: resolved(text, folder))
         read = reader.read(self.kind)
         for key, text in overrides.items():
-            steps = _steps(key)
+            steps = parse(key)
             if key not in reader.used and isinstance(at(self.kind, steps), Plain):
                 put(self.kind, read, steps, resolved(text))
                 reader.used.add(key)
@@ -235,13 +236,6 @@ class Store:
                             logging.getLogger("parameters").exception("a listener failed")
             finally:
                 self._telling.release()
-
-
-def _steps(path: str) -> list[str]:
-    try:
-        return parse(path)
-    except ValueError:
-        return []
 
 
 def _is_within(path: Path, changed: list[tuple[Path, bool]]) -> bool:

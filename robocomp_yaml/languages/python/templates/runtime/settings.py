@@ -9,6 +9,8 @@ from pathlib import Path
 
 import Ice
 from generated.runtime.errors import StartError
+from generated.runtime.semantics import connections
+from generated.runtime.semantics.texts import unquoted
 
 
 class Settings:
@@ -61,10 +63,7 @@ class Settings:
 
     def first(self, *keys: str) -> str:
         """The value of the first of the keys that is set, or ''."""
-        for key in keys:
-            if value := unquoted(self.properties.getProperty(key)):
-                return value
-        return ""
+        return connections.first(self.properties.getProperty, *keys)
 
     def required(self, what: str, *keys: str) -> str:
         if value := self.first(*keys):
@@ -72,22 +71,20 @@ class Settings:
         raise StartError(f"{what} is not configured: set {' or '.join(keys)} in {self.where}")
 
     def endpoints(self, name: str) -> str:
-        return self.required(f"the endpoint of {name}", f"{name}.Endpoints", f"Endpoints.{name}")
+        return self.required(f"the endpoint of {name}", *connections.endpoints(name))
 
     def proxy(self, name: str) -> str:
-        return self.required(f"the proxy to {name}", f"{name}Proxy", f"Proxies.{name}")
+        return self.required(f"the proxy to {name}", *connections.proxy(name))
 
     def topic_manager(self) -> str:
-        return self.required("IceStorm's topic manager", "TopicManager.Proxy", "Proxies.TopicManager")
+        return self.required("IceStorm's topic manager", *connections.MANAGER)
 
     def topic_endpoints(self, name: str) -> str:
-        return self.first(f"{name}Topic.Endpoints", f"Endpoints.{name}Topic", f"Endpoints.{name}") or "tcp -p 0"
+        return self.first(*connections.topic_endpoints(name)) or "tcp -p 0"
 
-    def topic_name(self, name: str, topic: str, prefix_key: str) -> str:
+    def topic_name(self, name: str, topic: str, prefixed: str) -> str:
         """The property called as the port, else the interface's name; behind the prefix, where there is one."""
-        prefix = self.first(prefix_key)
-        plain = self.first(name) or topic
-        return f"{prefix}/{plain}" if prefix else plain
+        return connections.topic(self.first(connections.prefix(prefixed)), self.first(name), topic)
 
     def reloaded(self) -> Settings:
         """The same files and command line, read again."""
@@ -119,12 +116,6 @@ def _check_text(file: Path) -> None:
             line.partition(b"#")[0].decode("utf-8")
         except UnicodeDecodeError:
             raise StartError(f"{shown(file)}:{number}: this line is not in UTF-8") from None
-
-
-def unquoted(value: str) -> str:
-    """Without the double quotes around it that TOML wants and Ice does not know."""
-    quoted = len(value) > 1 and value[0] == value[-1] == '"' and '"' not in value[1:-1]
-    return value[1:-1] if quoted else value
 
 
 def shown(file: Path) -> str:

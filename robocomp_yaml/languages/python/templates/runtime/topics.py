@@ -37,13 +37,13 @@ class Topics:
 
     def publisher(self, port: Published) -> Any:
         """The proxy that sends to the topic."""
-        name = self._settings.topic_name(port.name, port.topic, f"Proxies.{port.name}PubPrefix")
+        name = self._settings.topic_name(port.name, port.topic, f"{port.name}Pub")
         with asking(f"IceStorm for the topic {name}"):
             return port.proxy.uncheckedCast(self._topic(name).getPublisher().ice_oneway())
 
     def subscribe(self, port: Subscribed, proxy: Ice.ObjectPrx) -> None:
         """Sends the topic's events to the object."""
-        name = self._settings.topic_name(port.name, port.topic, f"Proxies.{port.name}Prefix")
+        name = self._settings.topic_name(port.name, port.topic, port.name)
         with asking(f"IceStorm for the topic {name}"):
             topic, subscriber = self._topic(name), proxy.ice_oneway()
             topic.subscribeAndGetPublisher({}, subscriber)

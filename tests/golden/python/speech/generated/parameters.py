@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from generated.runtime import composite, parameters, plain
+from generated.runtime import parameters
+from generated.runtime.semantics import composite, plain
 
 
 class PeriodGroup(composite.Record):

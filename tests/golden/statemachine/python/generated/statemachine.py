@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, Callable
 
 from generated.machine.model import NullModel
-from generated.machine.tables import Action, Block, Condition, Machine, Send, State, Transition, Value
+from generated.runtime.semantics.tables import Action, Block, Condition, Machine, Send, State, Transition, Value
 
 MODELS = {"null": NullModel}
 

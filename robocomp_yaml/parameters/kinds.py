@@ -1,0 +1,80 @@
+"""Types of parameters as components have them: for reading what a component would read, as it would."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from robocomp_yaml.parameters.patterns.pattern import Pattern
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, Member, RecordType, Size, Type
+from robocomp_yaml.semantics import composite, plain
+from robocomp_yaml.semantics.references import Unresolved
+
+
+class _Text(plain.Text):
+    """Patterns are matched by our own matcher, whose time is bounded."""
+
+    def __init__(self, values: tuple[str, ...], pattern: Pattern | None) -> None:
+        super().__init__(values)
+        self._matching = pattern
+
+    def limit(self, value: Any) -> str:
+        if self._matching is not None and not self._matching.matches(value):
+            return f"match {self._matching.text}"
+        return super().limit(value)
+
+
+def recording(record: RecordType) -> composite.Recording:
+    members = {
+        f"m{number}": composite.member(
+            kind(member.type),
+            key=member.name,
+            optional=member.optional,
+            **_default(member),
+        )
+        for number, member in enumerate(record.members)
+    }
+    return composite.Recording(type("Values", (composite.Record,), members), is_group=record.is_group)
+
+
+def kind(type_: Type) -> composite.Kind:
+    match type_:
+        case BasicType(name="bool"):
+            made: plain.Plain = plain.truth()
+        case BasicType(name="string", values=values, pattern=pattern):
+            made = _Text(tuple(str(literal.value) for literal in values), pattern)
+        case BasicType(name=name, values=values, range=limits, unit=unit):
+            numbers = tuple(literal.value for literal in values)
+            number = plain.whole if type_.is_integer else plain.decimal
+            made = number(name, values=numbers, unit=unit, **(limits.limits if limits else {}))
+        case EnumType(name=name, allowed=allowed):
+            made = plain.choice(name, *allowed)
+        case ListType(element=element, size=size, unique=unique):
+            return composite.listing(kind(element), unique=unique, **_size(size))
+        case MapType(element=element, size=size):
+            return composite.naming(kind(element), **_size(size))
+        case RecordType():
+            return recording(type_)
+    return plain.secret(made) if type_.secret else made
+
+
+def _default(member: Member) -> dict[str, Any]:
+    return {} if member.default is None else {"default": member.default.data}
+
+
+def _size(size: Size) -> dict[str, Any]:
+    return {"at_least": size.least, "at_most": size.most}
+
+
+def as_data(type_: Type, data: Any) -> Any:
+    """What was made of texts as plain data: references as `{"env": NAME}`, say; members in the order of their type."""
+    if isinstance(data, Unresolved):
+        return dict(data.data)
+    match type_:
+        case ListType(element=element) if isinstance(data, list):
+            return [as_data(element, item) for item in data]
+        case MapType(element=element) if isinstance(data, dict):
+            return {key: as_data(element, value) for key, value in data.items()}
+        case RecordType() if isinstance(data, dict):
+            return {m.name: as_data(m.type, data[m.name]) for m in type_.members if m.name in data}
+        case _:
+            return data

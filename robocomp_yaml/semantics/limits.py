@@ -1,0 +1,80 @@
+# Part of rcyaml and of the components that it makes. Do not edit a copy: the next compile overwrites it.
+"""What values of a type may be: ranges, sizes, and how that is said."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Union
+
+Number = Union[int, float]
+LIMITS: dict[str, tuple[Number, Number]] = {
+    "int": (-(2**31), 2**31 - 1),
+    "long": (-(2**63), 2**63 - 1),
+    "float": (-3.4028234663852886e38, 3.4028234663852886e38),
+    "double": (-1.7976931348623157e308, 1.7976931348623157e308),
+}
+INTEGERS = ("int", "long")
+WORDS = {"bool": "true or false", "string": "text", "int": "a whole number", "long": "a whole number"}
+WORDS |= dict.fromkeys(("float", "double"), "a number")
+"""What a value of a plain type is, for messages."""
+LIST, MAP = "a list", "a mapping of names to values"
+
+
+def record_in_words(names: Collection[str]) -> str:
+    return f"a mapping of {', '.join(names)}"
+
+
+def one_of(values: Collection[str], secret: bool = False) -> str:
+    """Which values something may have, for messages: of a secret, only how many."""
+    return f"one of the {len(values)} values allowed" if secret else f"one of {', '.join(values)}"
+
+
+def bounds(type_: str) -> str:
+    """What numbers a type can hold: `from -2147483648 to 2147483647 (int)`."""
+    return "from {} to {} ({})".format(*LIMITS[type_], type_)
+
+
+def beyond(type_: str, value: Number) -> str:
+    """What a number that its type cannot hold must be, or ''."""
+    least, most = LIMITS[type_]
+    return "" if least <= value <= most else bounds(type_)
+
+
+def holds(
+    value: Number,
+    at_least: Number | None = None,
+    at_most: Number | None = None,
+    above: Number | None = None,
+    below: Number | None = None,
+) -> bool:
+    """Whether a number is within limits: `at_least` and `at_most` may be reached, `above` and `below` not."""
+    return not (
+        (at_least is not None and value < at_least)
+        or (at_most is not None and value > at_most)
+        or (above is not None and value <= above)
+        or (below is not None and value >= below)
+    )
+
+
+def range_in_words(at_least: object = None, at_most: object = None, above: object = None, below: object = None) -> str:
+    """`from 0 to 2`, `at least 0`, `above 0 and at most 5`."""
+    if at_least is not None and at_most is not None:
+        return f"from {at_least} to {at_most}"
+    ends = {"at least": at_least, "above": above, "at most": at_most, "below": below}
+    return " and ".join(f"{word} {end}" for word, end in ends.items() if end is not None)
+
+
+def has_size(count: int, least: int, most: int | None) -> bool:
+    return least <= count and (most is None or count <= most)
+
+
+def size_in_words(least: int, most: int | None) -> str:
+    if most is None:
+        return f"at least {least}"
+    if least == most:
+        return f"exactly {least}"
+    return f"from {least} to {most}" if least else f"at most {most}"
+
+
+def entries(count: int) -> str:
+    return f"{count} entr{'y' if count == 1 else 'ies'}"
