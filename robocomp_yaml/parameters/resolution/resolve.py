@@ -218,7 +218,7 @@ class _Resolver:
 
     def constraints(self, rules: tuple[Rule, ...]) -> Iterator[Constraint]:
         if rules:
-            from robocomp_yaml.parameters.expressions import expression  # Python's parser is slow to import
+            from robocomp_yaml.parameters.specification import expression  # Python's parser is slow to import
         for rule in rules:
             assert isinstance(rule.that, Scalar)
             try:
