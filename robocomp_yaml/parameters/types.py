@@ -29,7 +29,7 @@ from robocomp_yaml.semantics.limits import (
 from robocomp_yaml.source.tree import Node
 
 if TYPE_CHECKING:
-    from robocomp_yaml.parameters.expressions.expression import Expression
+    from robocomp_yaml.parameters.specification.expression import Expression
 
 BASIC_TYPES = ("bool", *LIMITS, "string")
 

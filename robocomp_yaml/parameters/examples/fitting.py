@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.parameters.expressions import expression
+from robocomp_yaml.parameters.specification import expression
 from robocomp_yaml.parameters.types import (
     BasicType,
     Constraint,

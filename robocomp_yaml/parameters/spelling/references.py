@@ -1,7 +1,7 @@
 """Values by reference in documents: `{env: NAME}` and `{file: PATH}`; `semantics.references` says what is one.
 
-A relative path is one from the folder of the document that
-gives it; what is written says it from the folder of the file that is written, from which the component takes it.
+A relative path is one from the folder of the document that gives it; what is written says it from the folder of the
+file that is written, from which the component takes it.
 """
 
 from __future__ import annotations
