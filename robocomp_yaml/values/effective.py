@@ -12,7 +12,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.model.parameters import MapType, Parameters, RecordType, Type
-from robocomp_yaml.source.tree import Mapping
+from robocomp_yaml.source.tree import Mapping, Node, Sequence, mapping_at, sequence_at
 from robocomp_yaml.values.defaults import with_defaults
 from robocomp_yaml.values.json_schema import DOCUMENT, EFFECTIVE
 from robocomp_yaml.values.judge import Path, judge, missing, wrong_size
@@ -112,9 +112,17 @@ def _incomplete(type_: Type, place: Place | None, path: Path, head: Span) -> Ite
 
 def _incomplete_node(type_: Type, place: Place, path: Path, head: Span) -> Iterator[Diagnostic]:
     """Inside of a list nothing merges: each entry is judged as it stands, but for null."""
-    for fault in judge(type_, place.node, path, complete=True, key=place.key):
+    for fault in judge(type_, _given(place.node), path, complete=True, key=place.key):
         if fault.code in (codes.MISSING.id, codes.WRONG_SIZE.id):
             yield fault
+
+
+def _given(node: Node) -> Node:
+    """Without what is null in a mapping: it is as good as not there."""
+    if isinstance(node, Mapping):
+        entries = {name: (key, _given(value)) for name, (key, value) in node.entries.items() if value.data is not None}
+        return mapping_at(node.span, entries)
+    return sequence_at(node.span, [_given(item) for item in node.items]) if isinstance(node, Sequence) else node
 
 
 def _broken_constraints(
