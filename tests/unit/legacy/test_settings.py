@@ -169,3 +169,18 @@ def test_parameters_that_somebody_declared_are_taken_as_they_are(rcyaml: Run, tm
         tmp_path, {"speech/speech.cdsl.yaml": cdsl, "speech/speech.pdsl.yaml": declared, "speech/etc/config": config}
     )
     golden("settings/declared", migrated(rcyaml, tmp_path))
+
+
+def test_configs_without_a_component_have_parameters_of_their_own(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+    files = {"a/side.conf": "A = 1\n", "a/config.new": "B = 2\n", "a/side": "C = 3\n", "b/etc/config": "D = 4\n"}
+    write_tree(tmp_path, files)
+    rcyaml("migrate", ".")
+    paths = sorted(tmp_path.rglob("*.yaml"))
+    texts = {str(path.relative_to(tmp_path)).replace("/", "-"): path.read_text().partition("\n")[2] for path in paths}
+    golden("settings/alone", texts)
+
+
+def test_names_that_are_too_few_are_not_taken(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"speech/etc/config": "M0 = a,1\nM1 = b,2\n"})
+    said = " ".join(rcyaml("migrate", ".", "--names", "M=name").output.split())
+    assert "M… has 2 columns, and --names gives 1; they are called f1, f2" in said
