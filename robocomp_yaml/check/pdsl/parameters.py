@@ -13,9 +13,9 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.names import is_identifier
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.expressions import evaluate
-from robocomp_yaml.parameters.expressions.expression import NotInLanguage
 from robocomp_yaml.parameters.expressions.types import check_constraint, is_sound
 from robocomp_yaml.parameters.resolution.limits import inside
+from robocomp_yaml.parameters.specification.expression import NotInLanguage
 from robocomp_yaml.parameters.types import Constraint, Member, Parameters, RecordType
 from robocomp_yaml.parameters.verdict.specification import default_faults, spelling_faults
 from robocomp_yaml.source.tree import Scalar

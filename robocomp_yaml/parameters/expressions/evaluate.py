@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from robocomp_yaml.parameters.expressions.expression import (
+from robocomp_yaml.parameters.specification.expression import (
     Attribute,
     Binary,
     Call,

@@ -8,7 +8,7 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.parameters.expressions.expression import (
+from robocomp_yaml.parameters.specification.expression import (
     Attribute,
     Binary,
     Call,

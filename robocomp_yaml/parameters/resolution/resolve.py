@@ -11,6 +11,7 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, meaning
+from robocomp_yaml.parameters.defaults import EMERGENCY, PERIOD
 from robocomp_yaml.parameters.resolution.limits import inside, limited
 from robocomp_yaml.parameters.specification.document import Entry, ParameterDocument, Rule, Spec
 from robocomp_yaml.parameters.types import (
@@ -35,7 +36,6 @@ from robocomp_yaml.source.tree import Scalar
 
 MAX_DEPTH = 30
 MAX_VALUES = 5000
-DEFAULT_PERIOD, DEFAULT_EMERGENCY = 100, 500
 _IN_TYPES = ("type", "list", "map", "enum", "struct")
 _IN_PARAMETERS = ("type", "list", "map", "group")
 
@@ -218,7 +218,7 @@ class _Resolver:
 
     def constraints(self, rules: tuple[Rule, ...]) -> Iterator[Constraint]:
         if rules:
-            from robocomp_yaml.parameters.expressions import expression  # Python's parser is slow to import
+            from robocomp_yaml.parameters.specification import expression  # Python's parser is slow to import
         for rule in rules:
             assert isinstance(rule.that, Scalar)
             try:
@@ -292,9 +292,9 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
         if member is not None and not (isinstance(member.type, BasicType) and member.type.name == "int"):
             problem = f"'period.{name}' is a whole number of milliseconds: int"
             found.append(codes.PERIOD.at(member.span, problem=problem))
-    compute = by_name.get("compute") or _period("compute", "How often compute() runs.", period or DEFAULT_PERIOD)
+    compute = by_name.get("compute") or _period("compute", "How often compute() runs.", period or PERIOD)
     if compute.default is None and not compute.optional:
-        compute = replace(compute, default=Default(period or DEFAULT_PERIOD))
+        compute = replace(compute, default=Default(period or PERIOD))
     elif period is not None and compute.default is not None and compute.default.data != period and by_name:
         node = compute.default.node
         if node is not None:
@@ -304,7 +304,7 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
                 )
             )
     emergency = by_name.get("emergency") or _period(
-        "emergency", "The period of RoboComp's emergency(); in other components, for their own code.", DEFAULT_EMERGENCY
+        "emergency", "The period of RoboComp's emergency(); in other components, for their own code.", EMERGENCY
     )
     others = [member for member in own if member.name not in ("compute", "emergency")]
     group = RecordType("", (compute, emergency, *others), "How often the component works.")

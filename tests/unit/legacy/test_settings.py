@@ -31,6 +31,7 @@ CASES: dict[str, tuple[str, ...]] = {
     "configs that disagree about columns keep texts": ("# name,most\nM0 = a,1\n", "# most,title,third\nM0 = 1,b,c\n"),
     "columns are called by the comment above": ("# name (its name),min angle (rad),max\nM0 = a,1,2\nM1 = b,1,2\n",),
     "columns are called by a comment with a label": ("# Motors: name, id, speed\nMotor0 = a,1,2.5\nMotor1 = b,2,3\n",),
+    "rows that everybody knows are called as ever": ("Motor0 = a,1,1,0,1,0,2.5\nMotor1 = b,2,-1,0,1,0,2.5\n",),
     "prose above rows names no columns": ("# this is for the two\nM0 = a,1,2,3,4\nM1 = b,1,2,3,4\n",),
     "a comment far above names nothing": ("# name,most\n" + "\n" * 30 + "M0 = a,1\nM1 = b,2\n",),
     "a column that is named twice gets a number": ("# x,y,x\nM0 = 1,2,3\nM1 = 1,2,3\n",),
@@ -67,6 +68,10 @@ CASES: dict[str, tuple[str, ...]] = {
     "flat TOML is told by its keys": (
         "Endpoints.Speech = tcp -p 10001\nProxies.Speech = speech:tcp -p 2\nProxies.SpeechPrefix = robot1\n"
         "Proxies.TopicManager = IceStorm/TopicManager:default -p 9999\nIce.Warn.Connections = 0\nArm.n = 1\nx = a b\n",
+    ),
+    "settings that the documents would refuse stay properties": (
+        "Speech.Endpoints = nothing\nSpeech.Endpoints.x = 1\nIce = 1\nIce. = 2\n.Endpoints = tcp\nProxy = a:tcp -p 1\n"
+        "a..b = 1\n.c = 2\nd. = 3\nx y = 4\nImplicit.x = \n" + "a" + ".b" * 30 + " = 5\nk{i} = 6\nsize = 7\nm.size = 8\nm.0 = 9\n",
     ),
     "references stay as they are": ("key = ${env:KEY}\nother = ${file:a}\n",),
 }  # fmt: skip
@@ -164,3 +169,18 @@ def test_parameters_that_somebody_declared_are_taken_as_they_are(rcyaml: Run, tm
         tmp_path, {"speech/speech.cdsl.yaml": cdsl, "speech/speech.pdsl.yaml": declared, "speech/etc/config": config}
     )
     golden("settings/declared", migrated(rcyaml, tmp_path))
+
+
+def test_configs_without_a_component_have_parameters_of_their_own(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+    files = {"a/side.conf": "A = 1\n", "a/config.new": "B = 2\n", "a/side": "C = 3\n", "b/etc/config": "D = 4\n"}
+    write_tree(tmp_path, files)
+    rcyaml("migrate", ".")
+    paths = sorted(tmp_path.rglob("*.yaml"))
+    texts = {str(path.relative_to(tmp_path)).replace("/", "-"): path.read_text().partition("\n")[2] for path in paths}
+    golden("settings/alone", texts)
+
+
+def test_names_that_are_too_few_are_not_taken(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"speech/etc/config": "M0 = a,1\nM1 = b,2\n"})
+    said = " ".join(rcyaml("migrate", ".", "--names", "M=name").output.split())
+    assert "M… has 2 columns, and --names gives 1; they are called f1, f2" in said
