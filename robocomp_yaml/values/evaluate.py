@@ -2,7 +2,8 @@
 
 A value that is not there (an optional one left out, a reference to the environment) is UNKNOWN. It makes comparisons
 and arithmetic unknown; `and`, `or`, `not`, all() and any() go by the rest where that decides. A constraint that stays
-unknown holds. Generated accessors follow the same rules, with every reference resolved.
+unknown holds. has() knows that what is a reference will have a value. Generated accessors follow the same rules, with
+every reference resolved.
 """
 
 from __future__ import annotations
@@ -155,8 +156,7 @@ def _compared(first: Expression, rest: tuple[tuple[str, Expression], ...], scope
 
 def _call(function: str, arguments: tuple[Expression | Each, ...], scope: Mapping[str, Any]) -> Any:
     if function == "has":
-        assert not isinstance(arguments[0], Each)
-        return value(arguments[0], scope) is not UNKNOWN
+        return _has(arguments[0], scope)
     if isinstance(arguments[0], Each):
         operand: Any = _each(arguments[0], scope)
     elif len(arguments) > 1:
@@ -171,6 +171,22 @@ def _call(function: str, arguments: tuple[Expression | Each, ...], scope: Mappin
     if function in ("len", "abs", "keys", "values"):
         return _SIMPLE[function](operand)
     return _gathered(function, [_known(part) for part in operand])
+
+
+def _has(asked: Expression | Each, scope: Mapping[str, Any]) -> Any:
+    """Whether there is a value: one that a reference stands for is not known, but there."""
+    if isinstance(asked, Name):
+        return scope.get(asked.name) is not None and scope[asked.name] is not UNKNOWN
+    if not isinstance(asked, Attribute | Index):
+        return not isinstance(asked, Each) and value(asked, scope) is not UNKNOWN
+    if (around := _has(asked.of, scope)) is not True:
+        return around
+    owner = value(asked.of, scope)
+    if isinstance(asked, Attribute):
+        return UNKNOWN if owner is UNKNOWN else owner.get(asked.name) is not None
+    index = value(asked.index, scope)
+    _entry(owner, index)  # raises where there is none
+    return UNKNOWN if owner is UNKNOWN or index is UNKNOWN else True
 
 
 _SIMPLE: dict[str, Callable[[Any], Any]] = {
@@ -202,7 +218,7 @@ def _elements(each: Each, source: Any, scope: Mapping[str, Any]) -> Iterator[Any
     """The values of the element; where a condition is unknown, so is the element."""
     inner = dict(scope)
     for item in source:
-        inner[each.variable] = _known(item)
+        inner[each.variable] = item
         if each.condition is not None:
             wanted = value(each.condition, inner)
             if wanted is UNKNOWN:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import Any
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.codes import pdsl as codes
@@ -11,7 +12,6 @@ from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.expression_types import is_sound
 from robocomp_yaml.model.names import is_identifier
 from robocomp_yaml.model.parameters import Member, Parameters, RecordType
 from robocomp_yaml.source.tree import Mapping, Node, Sequence
@@ -102,9 +102,20 @@ def _free(name: str) -> str:
     return made if made[:1].isalpha() else f"p{made}"
 
 
+def _take_as_given(record: RecordType, data: dict[str, Any]) -> None:
+    """What has to be given has a value, which is not known: as a reference has."""
+    for member in record.members:
+        if isinstance(member.type, RecordType) and member.is_group:
+            inner = data[member.code_name] = dict(data.get(member.code_name, {}))
+            _take_as_given(member.type, inner)
+        elif member.required:
+            data[member.code_name] = {"env": "GIVEN"}
+
+
 def _defaults_together(parameters: Parameters) -> Iterator[Diagnostic]:
     """Constraints that are broken where nobody gives a value; what has no default is not known here."""
-    data = evaluate.by_code_names(parameters.root, defaults(parameters.root))
+    data = dict(evaluate.by_code_names(parameters.root, defaults(parameters.root)))
+    _take_as_given(parameters.root, data)
     for constraint in parameters.constraints:
-        if is_sound(constraint.expression, parameters.root) and not evaluate.holds(constraint.expression, data):
+        if not evaluate.holds(constraint.expression, data):
             yield codes.DEFAULTS_BREAK.at(constraint.span, message=constraint.message)
