@@ -190,3 +190,12 @@ def test_only_the_component_that_is_compiled_knows_of_a_change(rcyaml: Run, work
     assert rcyaml("-q", "compile", "components/motor").exit_code == 0
     told = rcyaml("deploy", "plan").output
     assert told.count("RC7012") == 1 and "'arm' was compiled before" in told
+
+
+def test_an_interface_beside_a_component_that_hides_another(rcyaml: Run, workspace: Path) -> None:
+    """The Slice that the others share is that of the folder of interfaces."""
+    write_tree(workspace, {"components/arm/Hand.idsl.yaml": HAND.replace("grip", "open")})
+    assert rcyaml("-q", "compile", "components/motor", "components/arm/arm.cdsl.yaml").exit_code == 0
+    assert "void open" in (workspace / "components/arm/slice/Hand.ice").read_text()
+    assert not (workspace / "slice/Hand.ice").exists() and (workspace / "slice/Motor.ice").exists()
+    assert not any("runtime" in path for path in generated(workspace, "arm"))
