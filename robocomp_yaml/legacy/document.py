@@ -10,9 +10,12 @@ from collections.abc import Iterable, Iterator
 
 import msgspec
 
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, scalar_at, sequence_at, text_at
 from robocomp_yaml.source.yaml_text import escaped, is_printable, text_of
 
 WIDTH = 120
+_NOWHERE = Span("")
 GAP = None  # an empty line between comments; several are one
 Line = str | None
 
@@ -94,6 +97,25 @@ class Entry(msgspec.Struct):
     key: str
     value: Value
     notes: Notes = msgspec.field(default_factory=Notes)
+
+
+def tree(document: Map) -> Mapping:
+    """What reading the document's text would give, for what needs no places in it."""
+    return mapping_at(_NOWHERE, dict(_entries(document)))
+
+
+def _entries(node: Map) -> Iterator[tuple[str, tuple[Scalar, Node]]]:
+    return ((entry.key, (text_at(_NOWHERE, entry.key), _node(entry.value))) for entry in node.entries)
+
+
+def _node(value: Value) -> Node:
+    if isinstance(value, Map):
+        return mapping_at(_NOWHERE, dict(_entries(value)))
+    if isinstance(value, List):
+        return sequence_at(_NOWHERE, [_node(item.value) for item in value.items])
+    if value is None or isinstance(value, Raw):
+        return scalar_at(_NOWHERE, value.lexeme if value else "")
+    return text_at(_NOWHERE, value if isinstance(value, str) else value.text)
 
 
 def text(document: Map, around: Notes) -> str:

@@ -28,6 +28,7 @@ from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
 MAX_ALIASED = 100_000  # nodes that aliases may add, all together
 
 _INT = re.compile(r"[-+]?[0-9]+\Z")
+_ZEROS = pattern(r"[-+]?0[0-9]+\Z")
 _FLOAT = pattern(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?\Z")
 _NAMED: dict[str, bool | float | None] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
 _NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
@@ -171,6 +172,28 @@ def sequence_at(span: Span, items: list[Node]) -> Sequence:
     return Sequence(span.file, SequenceNode(None, [], *_marks(span)), items)
 
 
+def scalar_at(span: Span, lexeme: str) -> Scalar:
+    """A plain scalar, and what it means."""
+    return Scalar(span.file, ScalarNode(None, lexeme, *_marks(span)), core(lexeme))
+
+
+def core(lexeme: str) -> object:
+    """What a plain scalar means by YAML 1.2's core schema."""
+    if lexeme in _NAMED:
+        return _NAMED[lexeme]
+    if _INT.match(lexeme):
+        return int(lexeme) if len(lexeme.lstrip("+-")) <= 4000 else float(lexeme)
+    if _FLOAT.match(lexeme):
+        return float(lexeme)
+    for prefix, base in (("0x", 16), ("0o", 8)):
+        if lexeme.startswith(prefix):
+            try:
+                return int(lexeme[2:], base) if "_" not in lexeme and lexeme[2:].isalnum() else lexeme
+            except ValueError:
+                return lexeme
+    return lexeme
+
+
 def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
     """The tree of a document's text, and all that is wrong with it; no tree when there is an error."""
     try:
@@ -262,30 +285,19 @@ class _Builder:
         return Scalar(self.path, node, node.value)
 
     def _core(self, node: ScalarNode, lexeme: str) -> object:
-        """A plain scalar by YAML 1.2's core schema."""
-        if lexeme in _NAMED:
-            return _NAMED[lexeme]
-        if _INT.match(lexeme):
+        """A plain scalar, which has no zeros before a whole number: those of others mean octal."""
+        data = core(lexeme)
+        if _ZEROS.match(lexeme):
             digits = lexeme.lstrip("+-")
-            if digits[0] == "0" and len(digits) > 1:
-                zeros = digits.lstrip("0") or "0"
-                self._say(
-                    codes.LEADING_ZEROS,
-                    node,
-                    lexeme=lexeme,
-                    hint=f'write "{lexeme}" for text, or {lexeme[: len(lexeme) - len(digits)]}{zeros} for a number',
-                    fixes=[quoting(self._span(node), safe=False)],
-                )
-            return int(lexeme) if len(digits) <= 4000 else float(lexeme)
-        if _FLOAT.match(lexeme):
-            return float(lexeme)
-        for prefix, base in (("0x", 16), ("0o", 8)):
-            if lexeme.startswith(prefix):
-                try:
-                    return int(lexeme[2:], base) if "_" not in lexeme and lexeme[2:].isalnum() else lexeme
-                except ValueError:
-                    return lexeme
-        return lexeme
+            zeros = digits.lstrip("0") or "0"
+            self._say(
+                codes.LEADING_ZEROS,
+                node,
+                lexeme=lexeme,
+                hint=f'write "{lexeme}" for text, or {lexeme[: len(lexeme) - len(digits)]}{zeros} for a number',
+                fixes=[quoting(self._span(node), safe=False)],
+            )
+        return data
 
     def _mapping(self, node: MappingNode) -> Mapping:
         entries: dict[str, tuple[Scalar, Node]] = {}
