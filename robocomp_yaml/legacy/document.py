@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 
 import msgspec
 
@@ -101,21 +102,25 @@ class Entry(msgspec.Struct):
 
 def tree(document: Map) -> Mapping:
     """What reading the document's text would give, for what needs no places in it."""
-    return mapping_at(_NOWHERE, dict(_entries(document)))
-
-
-def _entries(node: Map) -> Iterator[tuple[str, tuple[Scalar, Node]]]:
-    return ((entry.key, (text_at(_NOWHERE, entry.key), _node(entry.value))) for entry in node.entries)
+    entries = {entry.key: (_scalar(entry.key), _node(entry.value)) for entry in document.entries}
+    return mapping_at(_NOWHERE, entries)
 
 
 def _node(value: Value) -> Node:
+    if isinstance(value, Name | Doc):
+        return _scalar(value.text)
+    if isinstance(value, str):
+        return _scalar(value)
     if isinstance(value, Map):
-        return mapping_at(_NOWHERE, dict(_entries(value)))
+        return tree(value)
     if isinstance(value, List):
         return sequence_at(_NOWHERE, [_node(item.value) for item in value.items])
-    if value is None or isinstance(value, Raw):
-        return scalar_at(_NOWHERE, value.lexeme if value else "")
-    return text_at(_NOWHERE, value if isinstance(value, str) else value.text)
+    return scalar_at(_NOWHERE, value.lexeme if value else "")
+
+
+@lru_cache(1024)  # most of a document are words that come again
+def _scalar(text: str) -> Scalar:
+    return text_at(_NOWHERE, text)
 
 
 def text(document: Map, around: Notes) -> str:
