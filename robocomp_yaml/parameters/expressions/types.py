@@ -61,14 +61,6 @@ def find_member(record: RecordType, name: str) -> Type | None:
     return next((member.type for member in record.members if member.code_name == name), None)
 
 
-def is_sound(expression: Expression, root: RecordType) -> bool:
-    try:
-        check_constraint(expression, root)
-    except NotInLanguage:
-        return False
-    return True
-
-
 def check_constraint(expression: Expression, root: RecordType) -> None:
     """Raises NotInLanguage for what has no meaning, at its place."""
     type_ = type_of(expression, Scope(root))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.diag.codes import pdsl as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, meaning
 from robocomp_yaml.parameters.defaults import EMERGENCY, PERIOD
@@ -54,13 +54,37 @@ def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Par
             codes.TOO_LARGE.at(document.span, name="parameters", limit=MAX_VALUES, what="values of plain types")
         )
     root, problems = with_period(root, period)
+    found = [*resolver.found, *problems]
+    sound = tuple(_sound(constraints, root, found))
     return Parameters(
         root,
         tuple(t for t in types if isinstance(t, EnumType) or (isinstance(t, RecordType) and t.name)),
-        constraints,
+        sound,
         document.legacy,
         document.doc,
-    ), [*resolver.found, *problems]
+    ), found
+
+
+def hides_types(found: Iterable[Diagnostic]) -> bool:
+    """Whether some parameters have no usable type; a constraint that cannot be read harms no other."""
+    return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
+
+
+def _sound(constraints: Iterable[Constraint], root: RecordType, found: list[Diagnostic]) -> Iterator[Constraint]:
+    """The constraints that are true or false, and say only what has a meaning: nothing else ever sees others."""
+    for constraint in constraints:
+        from robocomp_yaml.parameters.expressions.types import check_constraint  # few documents have any
+        from robocomp_yaml.parameters.specification.expression import NotInLanguage
+
+        try:
+            check_constraint(constraint.expression, root)
+        except NotInLanguage as refused:
+            assert isinstance(constraint.node, Scalar)
+            if not hides_types(found):
+                place = inside(constraint.node, refused.index)
+                found.append(codes.BAD_EXPRESSION.at(place, problem=str(refused), hint=refused.hint))
+        else:
+            yield constraint
 
 
 def of_no_document(period: int | None) -> Parameters:

@@ -201,6 +201,38 @@ CASES: dict[str, tuple[tuple[str, str, str], dict[str, str]]] = {
         ("RC2221", "c.cdsl.yaml", "x"),
         {"c.cdsl.yaml": C + "statemachine: {initial: a, final: b, transitions: {a: [b, x]}}\n"},
     ),
+    "a type that is not there, and values of parameters without a component": (
+        ("RC3103", "p.pdsl.yaml", "itn"),
+        {
+            "p.pdsl.yaml": "parameters: {a: itn}\n",
+            "x.config.yaml": "component: p.pdsl.yaml\nparameters: {a: 1, b: 2}\n",
+        },
+    ),
+    "parameters that are no YAML, and a deployment that sets them": (
+        ("RC0101", "mouth/mouth.pdsl.yaml", ""),
+        dep(
+            TWO.replace("mouth}", "mouth, set: {lips: 4}}"),
+            **{"mouth/mouth.pdsl.yaml": "component: mouth.cdsl.yaml\nparameters: [\n"},
+        ),
+    ),
+    "a limit that leaves nothing, and a deployment that sets it": (
+        ("RC3109", "mouth/mouth.pdsl.yaml", "[3, 2]"),
+        dep(
+            TWO.replace("mouth}", "mouth, set: {lips: 4}}"),
+            **{"mouth/mouth.pdsl.yaml": "component: mouth.cdsl.yaml\nparameters: {lips: {type: int, range: [3, 2]}}\n"},
+        ),
+    ),
+    "a broken default of a group, and a constraint": (
+        ("RC3113", "c.pdsl.yaml", "x"),
+        comp(
+            "parameters: {g: {group: {a: {type: int, default: x}}}, b: int}\nconstraints: [b > 5]\n",
+            "parameters: {b: 1}\n",
+        ),
+    ),
+    "a spelling that cannot be, and values": (
+        ("RC3121", "c.pdsl.yaml", "ls"),
+        comp("parameters: {ls: {list: string}}\nlegacy: {ls: {key: L}}\n", "parameters: {ls: ['a,b']}\n"),
+    ),
 }
 
 

@@ -147,6 +147,16 @@ def test_it_follows_only_a_restart_and_says_whose() -> None:
     assert plan(network(MOTORS, CAMERA, several), stopped).steps["base"].action == KEEP
 
 
+def test_what_is_gone_and_what_is_new_are_listed() -> None:
+    before = replace(MOTORS, aliases=("a", "b", "c"), groups=("g",))
+    after = replace(MOTORS, aliases=("c", "d", "e"), groups=("g",))
+    step = plan(network(after), {"motors": running(before)}).steps["motors"]
+    assert [str(one) for one in step.changes] == ["aliases: a, b → d, e"]
+    turned = replace(MOTORS, aliases=("b", "a", "c"), groups=("g",))
+    step = plan(network(turned), {"motors": running(before)}).steps["motors"]
+    assert (step.action, step.reason) == (CHANGE, "aliases changed")
+
+
 def test_a_plan_that_changes_nothing_is_empty() -> None:
     now = {"motors": running(MOTORS)}
     assert plan(network(MOTORS), now).is_empty

@@ -24,6 +24,17 @@ FILES = {
     "mouth/mouth.pdsl.yaml": "parameters:\n  lips: {type: int, default: 2}\n  wifi: {type: string, secret: true, optional: true}\n",
     "mouth/etc/config.yaml": "parameters: {lips: 3}\nice: {Warn.Connections: 1}\nendpoints: {Mouth: tcp -p 10050}\n",
     "arm.ddsl.yaml": ARM,
+    "speech/classic.conf": (
+        "# old\nSpeech.Endpoints=tcp -p 10300\nMouthProxy=mouth:tcp -p 1\nHeard=Heard\nTopicManager.Proxy=x:tcp -p 2\nn=1\n"
+    ),
+    "speech/flat.conf": (
+        'Endpoints.Speech="tcp -p 10301"\nProxies.Mouth="mouth:tcp -p 1"\nProxies.HeardPubPrefix="robot1"\nn=1\n'
+    ),
+    "speech/own.conf": "EyeProxy=mouth:tcp -h 10.0.0.9 -p 4\nProxies.HeardPubPrefix=robot1\nPeriod.Compute=7\n",
+    "speech/v.config.yaml": (
+        "endpoints: {Speech: tcp -p 10302}\nproxies: {Mouth: {proxy: 'mouth:tcp -p 1', key: Lips}}\n"
+        "topics: {prefix: {HeardPub: robot1}}\n"
+    ),
     "tool.conf": "a=1\nMouthProxy=mouth:tcp -p 5\n",
     "rcyaml.yaml": "lint: {RC4403: 'off', RC4404: 'off'}\n",
 }
@@ -64,6 +75,16 @@ components:
 groups:
   lips: {components: [mouth], expose: {Mouth: {member: mouth, rate: 5, allow: [moveTo]}}}
   face: {components: [other], expose: {Mouth: other}}
+""",
+    "old configurations": """\
+services: {storm: {icestorm: {}}}
+components:
+  classic: {component: speech, config: classic.conf, connect: {Mouth: mouth, Eye: mouth}, topics: {Heard: said}, port: 10200}
+  flat: {component: speech, config: flat.conf, connect: {Mouth: mouth, Eye: mouth}, topics: {Heard: said}}
+  own: {component: speech, config: own.conf, connect: {Mouth: mouth, Eye: "mouth:tcp -h 10.0.0.9 -p 4"}}
+  values: {component: speech, config: v.config.yaml, connect: {Mouth: mouth, Eye: mouth}, topics: {Heard: said}}
+  mouth: {component: mouth, topics: {Heard: said}}
+  hears: {component: mouth, topics: {Heard: robot1/Heard}}
 """,
     "includes": """\
 hosts: {onboard: 10.0.0.2, head: 10.0.0.3}

@@ -67,6 +67,11 @@ CASES: dict[str, tuple[str, str, str]] = {
     "no line end at the end": ("parameters:\n  n: 5", "t", "b"),
     "a document with an end": ("parameters:\n  n: 5\n...\n", "t", "b"),
     "comments below": ("parameters:\n  n: 5\n  # about n\n\n# about all\n", "t", "b"),
+    "behind a text of several lines": ("parameters:\n  t: >-\n    a\n    b\n", "n", "6"),
+    "behind a text of several lines, and more": ("parameters:\n  t: >-\n    a\nlegacy: {file: config}\n", "n", "6"),
+    "behind a nested block": ("parameters:\n  g:\n    h:\n      y: 1\n  # about t\n", "g.x", "6"),
+    "a key in quotes": ('parameters:\n  "n": 5\n', "n", "6"),
+    "below comments only": ("parameters:\n  # nothing yet\n  # nor here\n", "n", "6"),
 }
 
 

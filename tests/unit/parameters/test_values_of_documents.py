@@ -160,3 +160,57 @@ def test_all_judges_say_the_same(values: str) -> None:
     data = tree(f"{{need: 1, {values}}}").data
     said = verdicts(component.parameters.parameters, data)
     assert set(said.values()) == {values in FITTING}, said
+
+
+@pytest.mark.parametrize(
+    ("values", "places"),
+    [
+        ("n:\n  a: 1\nneed: 1", [("n", "n must be a whole number, and is a mapping")]),
+        ("ls:\n- 1\n- 2\n- 3\n- 4\nneed: 1", [("ls", "ls has 4 entries, and must have from 1 to 3")]),
+        ("m:\n  a: 1\n  b: 2\n  c: 3\nneed: 1", [("m", "m has 3 entries, and must have at most 2")]),
+        ("m:\n- 1\n- 2\nneed: 1", [("m", "m must be a mapping of names to values, and is a list")]),
+        ("ls:\n  a: 1\n  b: 2\nneed: 1", [("ls", "ls must be a list, and is a mapping")]),
+        ("first:\n- a\n- b\nneed: 1", [("first", "first must be a mapping of name, max, tag, and is a list")]),
+        ("g:\n- a\n- b\nneed: 1", [("g", "g must be a mapping of low, in, and is a list")]),
+        ("m:\n  a:\n  - 1\n  - 2\nneed: 1", [("a", "m.a must be a number (s), and is a list")]),
+        ("first:\n  name: a\n  max:\n    x: 1\nneed: 1", [("max", "first.max must be a number (A), and is a mapping")]),
+        ("one: |\n  r\n  s\nneed: 1", [("one", "one is 'r\\ns\\n', and must be one of p, q")]),
+        ("m: {a: null, b: x}\nneed: 1", [("x", "m.b must be a number (s), and is the text 'x'")]),
+        ("m: {a: x, b: null, c: y}\nneed: 1", [
+            ("x", "m.a must be a number (s), and is the text 'x'"), ("y", "m.c must be a number (s), and is the text 'y'"),
+        ]),
+        ("x-mine: {a: 1}\nneed: 1", []),
+        ("need: null", [("parameters", "need has no value, and no default")]),
+        ("motors: [{name: a, max: null}]\nneed: 1", [("{name: a, max: null}", "motors[0].max has no value, and no default")]),
+        ("ll: [[1], null]\nneed: 1", [("null", "ll[1] must be a list, and is empty")]),
+    ],
+)  # fmt: skip
+def test_what_fills_lines_is_told_at_its_key(values: str, places: list[tuple[str, str]]) -> None:
+    inside = "\n".join(f"  {line}" for line in values.splitlines())
+    text = f"component: c.cdsl.yaml\nparameters:\n{inside}\n"
+    found = said({**DOCUMENTS, "c.config.yaml": text}, "c.config.yaml")
+    assert [(one.at, one.message) for one in found] == places
+
+
+@pytest.mark.parametrize(
+    ("values", "missing"),
+    [
+        ("a: [{x: null}]", ["a[0].x"]),
+        ("a: [{x: 1, y: null, z: null}]", []),
+        ("a: [{x: 1}, {x: null, y: 1}]", ["a[1].x"]),
+        ("m: {k: [{x: null}]}", ["m.k[0].x"]),
+        ("l: [[{x: null}]]", ["l[0][0].x"]),
+        ("d: [{in: {x: null}}]", ["d[0].in.x"]),
+        ("d: [{in: null}]", ["d[0].in"]),
+        ("s: {in: null}", ["s.in"]),
+        ("s: null", []),
+    ],
+)
+def test_null_is_as_good_as_nothing_also_inside_of_lists(values: str, missing: list[str]) -> None:
+    """So that a default holds, and what has none has no value: a component would not start with it."""
+    documents = pdsl(
+        "a: {list: T, default: []}, m: {map: {list: T}, default: {}}, l: {list: {list: T}, default: []}, "
+        "d: {list: D, default: []}, s: {type: D, default: {in: {x: 1}}}",
+        "T: {struct: {x: int, y: {type: int, default: 2}, z: {type: int, optional: true}}}, D: {struct: {in: T}}",
+    )
+    assert refused(documents, values) == [f"{path} has no value, and no default" for path in missing]
