@@ -10,16 +10,14 @@ from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.source.discover import kind_of
 
 if TYPE_CHECKING:
-    from robocomp_yaml.api.workspace import Workspace
     from robocomp_yaml.emit.graphs.picture import Picture
     from robocomp_yaml.pipeline import Analysis
 
 
-def draw(workspace: Workspace, form: str, path: str) -> str:
+def draw(analysis: Analysis, form: str, path: str) -> str:
     """The picture of what is at a path, in a form."""
     from robocomp_yaml.emit.graphs.forms import draw, forms
 
-    analysis = workspace.analysis
     inside = os.path.join(path, "") if os.path.isdir(path) else path  # as a document, whose workspace decides
     plugins = analysis.linker.workspace_of(inside).plugins
     if form not in forms(plugins):

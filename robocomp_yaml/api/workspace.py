@@ -94,7 +94,7 @@ class Workspace:
         Faulty where errors leave nothing to show."""
         from robocomp_yaml.api.drawing import draw
 
-        return draw(self, form, path or self._paths[0])
+        return draw(self.analysis, form, path or self._paths[0])
 
     def _deployment_at(self, path: str) -> str:
         """The document of the deployment that is meant, if it comes to a network."""
