@@ -28,8 +28,17 @@ LANGUAGE = TargetLanguage(
     members=frozenset(("change", "listen", "now", "set", "stderr", "stdin", "stdout")),
     states="generated/component.cmake",
     runtime=("cmake", "machine", "qt", "robocomp", "runtime"),
+    made_of={
+        "CMakeLists.txt": (),
+        "generated": (".cpp", ".h", ".cmake", "CMakeLists.txt"),
+        "src": (
+            ".c", ".cc", ".cmake", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp", ".qrc", ".tpp", ".ui"
+        ),
+        "slice": (".ice",),
+    },
     build=(("cmake", "-S", "{folder}", "-B", "{folder}/build"), ("cmake", "--build", "{folder}/build")),
     suffixes=("h", "hpp", "cpp"),
+    has_building=True,
     has_checks=True,
     warns_others=True,
 )
