@@ -47,21 +47,23 @@ def units(analysis: Analysis, documents: Iterable[str] = ()) -> list[Unit]:
 
 
 def build(
-    analysis: Analysis, documents: Sequence[str], *, type: str = RELEASE, jobs: int | None = None,  # noqa: A002
+    analysis: Analysis, documents: Sequence[str], *, build_type: str = RELEASE, jobs: int | None = None,
     defines: Sequence[str] = (), report: Callable[[Event], None] | None = None,
 ) -> Built:  # fmt: skip
-    if type not in TYPES:
-        meant = suggest(type, TYPES)
-        raise Refused(f"there is no build type '{type}'; " + (f"did you mean '{meant}'?" if meant else ", ".join(TYPES)))
+    if build_type not in TYPES:
+        meant = suggest(build_type, TYPES)
+        raise Refused(
+            f"there is no build type '{build_type}'; " + (f"did you mean '{meant}'?" if meant else ", ".join(TYPES))
+        )
     before = _cpu()
 
     def told(event: Event) -> None:
         if report is not None:
             report(analysis.veiled([event])[0] if isinstance(event, Diagnostic) else event)
 
-    job = Job(type, jobs or len(os.sched_getaffinity(0)), told, tuple(defines))
+    job = Job(build_type, jobs or len(os.sched_getaffinity(0)), told, tuple(defines))
     found = builder.build(job, units(analysis, documents))
-    return Built(type, tuple(found), tuple(analysis.veiled(job.told)), round(_cpu() - before, 2))
+    return Built(build_type, tuple(found), tuple(analysis.veiled(job.told)), round(_cpu() - before, 2))
 
 
 def to_build(analysis: Analysis) -> list[str]:
@@ -79,7 +81,6 @@ def _cpu() -> float:
     return used.user + used.system + used.children_user + used.children_system
 
 
-
 def documents(names: Sequence[str]) -> list[str]:
     """The documents of the components that are meant: by name, folder or document; without any, all below the working
     folder. Raises Refused."""
@@ -93,8 +94,12 @@ def documents(names: Sequence[str]) -> list[str]:
 
 
 def clean(
-    analysis: Analysis, documents: Sequence[str], type: str | None = None, *, everything: bool = False  # noqa: A002
+    analysis: Analysis,
+    documents: Sequence[str],
+    build_type: str | None = None,
+    *,
+    everything: bool = False,
 ) -> list[str]:
     """Takes the build trees of these components away; the folders that are gone. Of `everything` that was asked for,
     whole trees."""
-    return builder.clean(units(analysis, documents), everything, type)
+    return builder.clean(units(analysis, documents), everything, build_type)

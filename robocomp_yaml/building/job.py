@@ -67,7 +67,9 @@ class Job(msgspec.Struct):
 
     def failed(self, unit: Unit, reason: str, *, hint: str = "", more: Iterable[str] = ()) -> None:
         """Says why a component is not built, where no compiler has."""
-        self.tell([codes.FAILED.at(Span(unit.document), name=unit.name, reason=reason, hint=hint, more="\n".join(more))])
+        self.tell(
+            [codes.FAILED.at(Span(unit.document), name=unit.name, reason=reason, hint=hint, more="\n".join(more))]
+        )
 
 
 Builder = Callable[[Job, list[Unit]], Mapping[Unit, Made]]

@@ -20,7 +20,8 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.source.regular import text as text_of
 
 _PLACED = re.compile(
-    r"(?P<file>[^\s:][^:\n]*?):(?P<line>\d+):(?:(?P<column>\d+):)? (?:(?P<kind>(?:fatal )?error|warning|note): )?(?P<text>\S.*)"
+    r"(?P<file>[^\s:][^:\n]*?):(?P<line>\d+):(?:(?P<column>\d+):)? "
+    r"(?:(?P<kind>(?:fatal )?error|warning|note): )?(?P<text>\S.*)"
 )
 _MARKS = re.compile(r"(?P<lead> +(?:\| )?)(?P<before> *)(?P<marks>~*\^~*)")
 _SLICE = ".ice"
@@ -57,7 +58,9 @@ class Said:
 
     def _is_one(self, placed: re.Match[str]) -> bool:
         """What names a place without saying what it is, is an error of the Slice compilers, or of the linker."""
-        return bool(placed["kind"]) or placed["file"].endswith(_SLICE) or placed["text"].startswith("undefined reference")
+        return (
+            bool(placed["kind"]) or placed["file"].endswith(_SLICE) or placed["text"].startswith("undefined reference")
+        )
 
     def _span(self, placed: re.Match[str]) -> Span:
         file, number = self._path(placed["file"]), int(placed["line"])

@@ -94,7 +94,10 @@ def keep(unit: Unit, taken: Stamp) -> None:
         return
     with contextlib.suppress(OSError):
         os.makedirs(unit.path(FOLDER), exist_ok=True)
-        with contextlib.suppress(FileExistsError), open(unit.path(f"{FOLDER}/.gitignore"), "x", encoding="utf-8") as own:
+        with (
+            contextlib.suppress(FileExistsError),
+            open(unit.path(f"{FOLDER}/.gitignore"), "x", encoding="utf-8") as own,
+        ):
             own.write("*\n")
         text = json.dumps(msgspec.to_builtins(msgspec.structs.replace(taken, program=program)), separators=(",", ":"))
         whole_file.put(unit.path(_NAME), text.encode("utf-8", "surrogateescape"))

@@ -7,6 +7,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Sequence
 from types import TracebackType
+from typing import TypeVar
 
 import click
 import msgspec
@@ -20,6 +21,7 @@ from robocomp_yaml.diag.render import text
 from robocomp_yaml.diag.render.json import as_data, dumps
 from robocomp_yaml.pipeline import Analysis, analyse
 
+T = TypeVar("T")
 _COLORS = {BUILT: "32", FAILED: "31", CURRENT: "2"}
 
 
@@ -29,7 +31,7 @@ def build(
 ) -> None:  # fmt: skip
     analysis, documents = _read(components, include)
     built = run(ctx, format_, lambda report: building.build(
-        analysis, documents, type=type_, jobs=jobs, defines=defines, report=report,
+        analysis, documents, build_type=type_, jobs=jobs, defines=defines, report=report,
     ), "interrupted: what was built stays, and the next build goes on from there")  # fmt: skip
     if format_ == "json":
         terminal.data(dumps(data(built)), json=True)
@@ -50,9 +52,7 @@ def clean(
     ctx.exit(0)
 
 
-def run(
-    ctx: click.Context, format_: str, work: Callable[[Callable[[Event], None]], building.Built], on_interrupt: str
-) -> building.Built:  # fmt: skip
+def run(ctx: click.Context, format_: str, work: Callable[[Callable[[Event], None]], T], on_interrupt: str) -> T:
     """A build that is shown; Ctrl-C ends the command."""
     try:
         with _View(ctx, format_) as view:

@@ -1,8 +1,9 @@
 """C++ components built: all of a workspace by one run of CMake and Ninja, in one tree for each build type.
 
-The tree is `build/TYPE/` in the workspace; its CMakeLists.txt adds the folder of each component. A component that cannot
-be configured in the company of others, or whose CMakeLists.txt speaks of itself as the top, has a tree of its own below
-it, so that whatever CMake builds by itself is built here, too. A component in no workspace is built in its `build/`.
+The tree is `build/TYPE/` in the workspace; its CMakeLists.txt adds the folder of each component. A component that
+cannot be configured in the company of others, or whose CMakeLists.txt speaks of itself as the top, has a tree of its
+own below it, so that whatever CMake builds by itself is built here, too. A component in no workspace is built in its
+`build/`.
 """
 
 from __future__ import annotations
@@ -16,8 +17,9 @@ from robocomp_yaml.building.inputs import state
 from robocomp_yaml.building.job import Job, Made
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.languages.cpp import commands_file, whole_tree
-from robocomp_yaml.languages.cpp.tree import Failure, Tree
+from robocomp_yaml.languages.cpp.tree import Failure, Tree, source_of
 from robocomp_yaml.languages.cpp.whole_tree import WholeTree
+
 
 def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
     done: dict[Unit, Made] = {}
@@ -82,7 +84,7 @@ def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
                     done[unit] = Made(False)
                 break
         for unit in [unit for unit in units if unit not in done]:
-            made_alone = _in_own_tree(job, unit, Tree(whole_tree.source_of(unit), whole.own(unit), unit.root))
+            made_alone = _in_own_tree(job, unit, Tree(source_of(unit), whole.own(unit), unit.root))
             whole.remember(unit, is_fit=made_alone is not None)
             done[unit] = made_alone or Made(False)
         whole.save()

@@ -57,7 +57,11 @@ class Failure(msgspec.Struct, frozen=True):
     def tell(self, job: Job, unit: Unit) -> None:
         """At the user's own line where it is one, else at the component's document."""
         folder = os.path.abspath(unit.folder)
-        if self.places and _is_below(self.places[0][0], folder) and not _is_below(self.places[0][0], f"{folder}/generated"):
+        if (
+            self.places
+            and _is_below(self.places[0][0], folder)
+            and not _is_below(self.places[0][0], f"{folder}/generated")
+        ):
             path, line = self.places[0]
             text = (text_of(path) or "").splitlines()[line - 1 : line]
             end = len(text[0].rstrip()) + 1 if text else 2

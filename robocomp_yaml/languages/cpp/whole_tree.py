@@ -132,7 +132,9 @@ def _is_top(unit: Unit) -> bool:
     """Whether its CMake takes its own folder for the top, which it is not in company."""
     source = source_of(unit)
     names = glob.glob(os.path.join(glob.escape(source), "*.cmake"))
-    return any(_TOP.search(text_of(path) or "") for path in (os.path.join(source, LISTS), *names) if source == unit.folder)
+    return any(
+        _TOP.search(text_of(path) or "") for path in (os.path.join(source, LISTS), *names) if source == unit.folder
+    )
 
 
 def _has_lists(path: str) -> bool:

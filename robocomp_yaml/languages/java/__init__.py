@@ -22,9 +22,7 @@ LANGUAGE = TargetLanguage(
     members=frozenset(("change", "listen", "now", "set")),
     build=(("{folder}/generated/build",),),
     loaded={"build": (".jar",)},
-    made_of={
-        "generated": (".java", ".sh", "build", "start"), "src": (".java",), "slice": (".ice",), "lib": (".jar",)
-    },
+    made_of={"generated": (".java", ".sh", "build", "start"), "src": (".java",), "slice": (".ice",), "lib": (".jar",)},
     suffixes=("java",),
     has_checks=True,
 )

@@ -14,9 +14,9 @@ from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.languages.python.trial import MARK
+from robocomp_yaml.languages.python import LANGUAGE
 
-_TRIAL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "trial.py")
+_MARK = "\x1ercyaml "
 _LAST = 10  # lines that are shown of what fails outside of the user's code
 
 
@@ -31,7 +31,7 @@ def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
                 found = list(_diagnostics(lines))
                 job.tell(found)
                 if code and not has_errors(found):
-                    said = [line for line in lines if not line.startswith(MARK)]
+                    said = [line for line in lines if not line.startswith(_MARK)]
                     job.failed(unit, "its code cannot be imported", more=said[-_LAST:])
                 done[unit] = Made(code == 0, cpu)
         except BaseException:
@@ -45,7 +45,9 @@ def _tried(job: Job, unit: Unit) -> tuple[int, float, list[str]]:
     python = shutil.which("python3") or sys.executable
     try:
         ended = job.processes.run(
-            [python, _TRIAL, os.path.abspath(unit.folder)], lines.append, env={"QT_QPA_PLATFORM": "offscreen"}
+            [python, os.path.join(LANGUAGE.templates, "trial.py"), os.path.abspath(unit.folder), _MARK],
+            lines.append,
+            env={"QT_QPA_PLATFORM": "offscreen"},
         )
     except OSError as error:
         return 1, 0.0, [f"{python} cannot be started: {error.strerror or error}"]
@@ -54,8 +56,8 @@ def _tried(job: Job, unit: Unit) -> tuple[int, float, list[str]]:
 
 def _diagnostics(lines: Iterable[str]) -> Iterator[Diagnostic]:
     for line in lines:
-        if line.startswith(MARK):
-            said = json.loads(line.removeprefix(MARK))
+        if line.startswith(_MARK):
+            said = json.loads(line.removeprefix(_MARK))
             code = codes.ERROR_OF_COMPILER if said["kind"] == "error" else codes.WARNING_OF_COMPILER
             column = max(1, said["column"])
             end = max(column + 1, said["end"])

@@ -1,7 +1,7 @@
-"""Compiles a component's Python to bytecode and imports it once, as its launcher would: `trial.py FOLDER`.
+"""Compiles a component's Python to bytecode and imports it once, as its launcher would: `trial.py FOLDER MARK`.
 
-Runs in the Python that the component runs in, from 3.9 on. Each thing that is wrong is a line of JSON behind MARK; what
-the user's code prints is between them.
+`rcyaml build` runs it in the Python that the component runs in, from 3.9 on. Each thing that is wrong is a line of JSON
+behind MARK; what the user's code prints is between them.
 """
 
 from __future__ import annotations
@@ -15,13 +15,11 @@ import sys
 import traceback
 import warnings
 
-MARK = "\x1ercyaml "
-
 
 def main(root: str) -> int:
     source = os.path.join(root, "src")
     sys.path[:0] = [root, source]
-    from generated.runtime import interpreter  # type: ignore[import-not-found]  # the component's
+    from generated.runtime import interpreter
 
     try:
         interpreter.settle(root, sys.argv)
@@ -65,11 +63,11 @@ def _end(error: SyntaxError) -> int | None:
 
 
 def _imports(source: str) -> bool:
-    from generated.component import COMPONENT  # type: ignore[import-not-found]
-    from generated.runtime.errors import StartError  # type: ignore[import-not-found]
-    from generated.runtime.settings import Settings  # type: ignore[import-not-found]
-    from generated.runtime.stage import Stage  # type: ignore[import-not-found]
-    from generated.runtime.stopping import Stopping  # type: ignore[import-not-found]
+    from generated.component import COMPONENT
+    from generated.runtime.errors import StartError
+    from generated.runtime.settings import Settings
+    from generated.runtime.stage import Stage
+    from generated.runtime.stopping import Stopping
 
     try:
         (COMPONENT.stage or Stage)(COMPONENT, Settings([], []), Stopping(), True).worker_class()
@@ -100,7 +98,7 @@ def _warned(message: object, category: type, filename: str, lineno: int, *_: obj
 
 def _say(kind: str, path: str, line: int | None, column: int | None, text: str, end: int | None = None) -> None:
     said = {"kind": kind, "file": path, "line": line or 1, "column": column or 1, "end": end or 0, "text": text}
-    print(MARK + json.dumps(said), flush=True)
+    print(sys.argv[2] + json.dumps(said), flush=True)
 
 
 if __name__ == "__main__":
