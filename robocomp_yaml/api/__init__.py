@@ -38,16 +38,17 @@ if TYPE_CHECKING:
     from robocomp_yaml.parameters.editing.show import Value
 
 __all__ = [
-    "ERROR", "NOTE", "WARNING", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty", "File", "Fixing",
-    "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span", "Status", "Value", "Values",
-    "Workspace", "load", "migrate",
+    "ERROR", "NOTE", "WARNING", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty", "File",
+    "Fixing", "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span", "Status",
+    "Value", "Values", "Workspace", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {
-    "Built": "api.building", "Change": "api.values", "Compilation": "api.compiling", "Deployment": "api.deploying", "File": "api.outcome",
-    "Fixing": "api.fixing", "Line": "deploy.engine", "Migration": "api.migrating", "Network": "network.network",
-    "Outcome": "api.outcome", "Plan": "deploy.plan", "Result": "deploy.operations", "Status": "deploy.operations",
-    "Value": "parameters.editing.show", "Values": "api.values", "Workspace": "api.workspace",
+    "Built": "api.building", "Change": "api.values", "Compilation": "api.compiling", "Deployment": "api.deploying",
+    "File": "api.outcome", "Fixing": "api.fixing", "Line": "deploy.engine", "Migration": "api.migrating",
+    "Network": "network.network", "Outcome": "api.outcome", "Plan": "deploy.plan", "Result": "deploy.operations",
+    "Status": "deploy.operations", "Value": "parameters.editing.show", "Values": "api.values",
+    "Workspace": "api.workspace",
 }  # fmt: skip
 
 

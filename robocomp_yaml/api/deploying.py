@@ -118,8 +118,8 @@ class Deployment:
         build_type: str | None = None,
         report: Callable[[Event], None] | None = None,
     ) -> list[Built]:
-        """Builds what is `stale`, each as it was built last unless `build_type` says how; what came of it, for each type. What
-        is wrong is among its diagnostics."""
+        """Builds what is `stale`, each as it was built last unless `build_type` says how; what came of it, for each
+        type."""
         from robocomp_yaml.api.building import build
 
         by_type: dict[str, list[str]] = {}

@@ -33,7 +33,7 @@ def _told(job: Job, unit: Unit, future: Future[tuple[int, float, list[str]]]) ->
     except OSError as error:
         job.failed(unit, (error.strerror or str(error)).lower())
         return Made(False)
-    found: list[Diagnostic] = list(Said(unit.folder).diagnostics(lines))
+    found: list[Diagnostic] = list(Said(unit.folder, f"the {unit.language.title} compiler").diagnostics(lines))
     job.tell(found)
     if code == 0 and os.path.exists(unit.program):
         return Made(True, cpu)

@@ -25,14 +25,15 @@ _PLACED = re.compile(
 )
 _MARKS = re.compile(r"(?P<lead> +(?:\| )?)(?P<before> *)(?P<marks>~*\^~*)")
 _SLICE = ".ice"
+_UNDEFINED = "undefined reference"
 _NOTES = 3  # that are shown with an error: of a template, there may be dozens
 
 
 class Said:
-    """Reads what a compiler writes, whose paths are relative to `folder`."""
+    """Reads what a compiler writes, whose paths are relative to `folder`; `compiler` is what it is called."""
 
-    def __init__(self, folder: str) -> None:
-        self._folder, self._lines = folder, dict[str, list[str]]()
+    def __init__(self, folder: str, compiler: str) -> None:
+        self._folder, self._compiler, self._lines = folder, compiler, dict[str, list[str]]()
 
     def diagnostics(self, lines: Iterable[str]) -> Iterator[Diagnostic]:
         """In the compiler's order, each once."""
@@ -49,12 +50,17 @@ class Said:
                 if last is not None:
                     found[last] = None
                 code = codes.WARNING_OF_COMPILER if placed["kind"] == "warning" else codes.ERROR_OF_COMPILER
-                last = code.at(self._span(placed), text=placed["text"])
+                last = code.at(self._span(placed), tool=self._tool(placed), text=placed["text"])
             elif last is not None and not last.related and (marks := _MARKS.fullmatch(line)):
                 last = replace(last, span=self._marked(last.span, marks))
         if last is not None:
             found[last] = None
         return iter(found)
+
+    def _tool(self, placed: re.Match[str]) -> str:
+        if placed["text"].startswith(_UNDEFINED):
+            return "the linker"
+        return "the Slice compiler" if placed["file"].endswith(_SLICE) else self._compiler
 
     def _is_one(self, placed: re.Match[str]) -> bool:
         """What names a place without saying what it is, is an error of the Slice compilers, or of the linker."""

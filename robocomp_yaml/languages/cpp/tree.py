@@ -67,7 +67,7 @@ class Failure(msgspec.Struct, frozen=True):
             end = len(text[0].rstrip()) + 1 if text else 2
             begin = len(text[0]) - len(text[0].lstrip()) + 1 if text else 1
             span = Span(_shown(path), line, begin, line, max(end, begin + 1))
-            job.tell([codes.ERROR_OF_COMPILER.at(span, text=self.text, more="\n".join(self.more))])
+            job.tell([codes.ERROR_OF_COMPILER.at(span, tool="CMake", text=self.text, more="\n".join(self.more))])
         else:
             job.failed(unit, self.text, more=self.more)
 
@@ -164,7 +164,7 @@ class _Run:
         self.is_unconfigured = False
         self._tree, self._job, self._parts = tree, job, parts
         self._piece: list[str] = []
-        self._said = Said(tree.folder)
+        self._said = Said(tree.folder, "the C++ compiler")
         self._unheard: list[str] = []
 
     def line(self, line: str) -> None:

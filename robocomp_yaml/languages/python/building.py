@@ -63,4 +63,4 @@ def _diagnostics(lines: Iterable[str]) -> Iterator[Diagnostic]:
             end = max(column + 1, said["end"])
             path = os.path.relpath(said["file"])
             file = said["file"] if path.startswith(os.pardir) else path
-            yield code.at(Span(file, said["line"], column, said["line"], end), text=said["text"])
+            yield code.at(Span(file, said["line"], column, said["line"], end), tool="Python", text=said["text"])
