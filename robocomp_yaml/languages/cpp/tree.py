@@ -25,6 +25,7 @@ _STATUS = re.compile(r"\[ *(\d+)(?:/(\d+)|%)\] (.*)")
 _FAILED = re.compile(r"FAILED: (.*)")
 _ERROR = re.compile(r"CMake Error(?: at (?P<file>.*?):(?P<line>\d+) \(.*\)| in (?P<folder>.*?))?: ?(?P<text>.*)")
 _CALL = re.compile(r"  (?P<file>\S.*?):(?P<line>\d+) \(.*\)")
+_UNDEFINED = re.compile(r"undefined reference to [`‘'](.*)['’]")
 _LAST = 10  # lines that are shown of what failed without a word that is understood
 
 
@@ -204,7 +205,9 @@ class _Run:
         lines = self.failed.get(unit, self._unheard)
         if lines or not has_errors(self._job.told):
             said = [line for line in lines if line.strip() and not line.startswith("collect2:")]
-            self._job.failed(unit, "a step of its build failed", more=said[-_LAST:])
+            missing = next((match[1] for line in said if (match := _UNDEFINED.search(line))), "")
+            reason = f"the linker finds no definition of {missing}" if missing else "a step of its build failed"
+            self._job.failed(unit, reason, more=said[-_LAST:])
 
     def _owner(self, outputs: list[str]) -> Unit | None:
         for unit, part in self._parts.items():
