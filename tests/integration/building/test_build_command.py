@@ -114,7 +114,7 @@ def test_what_python_refuses_stands_at_its_line_and_keeps_no_other(workspace: Pa
 
 def test_what_user_code_prints_is_no_finding(workspace: Path, rcyaml: Rcyaml) -> None:
     code = workspace / "leg" / "src" / "specificworker.py"
-    code.write_text(f"print('src/x.py:1:1: error: not one')\n{code.read_text()}")
+    code.write_text(f"{code.read_text()}\nprint('src/x.py:1:1: error: not one')\n")
     result = rcyaml("build", "leg")
     assert result.exit_code == 0 and "not one" not in result.stdout
 
