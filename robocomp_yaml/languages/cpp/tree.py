@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import re
 import shutil
-from collections.abc import Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 
 import msgspec
 
@@ -121,7 +121,9 @@ class Tree(msgspec.Struct, frozen=True):
         is_ninja = self.cache.get("CMAKE_GENERATOR") != MAKE
         targets = [f"{part}/all" if part else "all" for part in parts.values()]
         before = ninja_log.read(self.folder)
-        ended = job.processes.run(self._command(job, targets, is_ninja), run.line, cwd=self.folder, env=_ENVIRONMENT)
+        command = self._command(job, targets, is_ninja)
+        with self._kept(parts):
+            ended = job.processes.run(command, run.line, cwd=self.folder, env=_ENVIRONMENT)
         run.flush()
         if run.is_unconfigured:
             return _failure(run.lines, os.path.abspath(self.source))
@@ -140,6 +142,25 @@ class Tree(msgspec.Struct, frozen=True):
                 is_made = False
             done[unit] = Made(is_made, cpu, tuple(sorted(files)))
         return done
+
+    @contextmanager
+    def _kept(self, units: Iterable[Unit]) -> Iterator[None]:
+        """Puts programs back that a linker took away, and did not make again."""
+        kept = {unit.program: os.path.join(self.folder, f"{unit.name}.kept") for unit in units}
+        for program, other in kept.items():
+            with suppress(OSError):
+                os.unlink(other)
+            with suppress(OSError):
+                os.link(program, other, follow_symlinks=False)
+        try:
+            yield
+        finally:
+            for program, other in kept.items():
+                with suppress(OSError):
+                    if not os.path.lexists(program):
+                        os.link(other, program, follow_symlinks=False)
+                with suppress(OSError):
+                    os.unlink(other)
 
     def _command(self, job: Job, targets: list[str], is_ninja: bool) -> list[str]:
         if is_ninja:
