@@ -27,6 +27,7 @@ COMMANDS = {
     "new": "Write a new document of any kind, which already checks.",
     "check": "Report everything that is wrong with the documents.",
     "compile": "Write Slice and components; only what changed.",
+    "build": "Build components; only what is not what it is made of.",
     "migrate": "Carry legacy files over to YAML, losing nothing.",
     "config": "Values of parameters: check, show, change, export.",
     "graph": "A picture of a deployment, or of components.",

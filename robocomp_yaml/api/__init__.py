@@ -23,6 +23,7 @@ from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
 
 if TYPE_CHECKING:
+    from robocomp_yaml.api.building import Built
     from robocomp_yaml.api.compiling import Compilation
     from robocomp_yaml.api.deploying import Deployment
     from robocomp_yaml.api.fixing import Fixing
@@ -38,13 +39,13 @@ if TYPE_CHECKING:
     from robocomp_yaml.parameters.editing.show import Value
 
 __all__ = [
-    "ERROR", "NOTE", "WARNING", "Attached", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty", "File",
+    "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty", "File",
     "Fixing", "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span", "Status",
     "Value", "Values", "Workspace", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {
-    "Attached": "deploy.attached", "Change": "api.values", "Compilation": "api.compiling",
+    "Attached": "deploy.attached", "Built": "api.building", "Change": "api.values", "Compilation": "api.compiling",
     "Deployment": "api.deploying", "File": "api.outcome", "Fixing": "api.fixing", "Line": "deploy.engine",
     "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Plan": "deploy.plan",
     "Result": "deploy.operations", "Status": "deploy.operations", "Value": "parameters.editing.show",

@@ -102,7 +102,12 @@ class Compilation:
                 made_already.keep(
                     taken, self._paths, self._include, self._output, self._targets, standalone=self._standalone
                 )
-        return outcome
+        return replace(outcome, to_build=self._to_build()) if outcome.dirty and self._output is None else outcome
+
+    def _to_build(self) -> tuple[str, ...]:
+        from robocomp_yaml.api.building import to_build  # a compile with nothing to write does not need it
+
+        return tuple(to_build(self._analysis))
 
     def _prepare(self, own: Review, others: Sequence[str]) -> Changes:
         return writer.prepare(self._built.plans, adopt=self._adopt, others=others, merges=own.merges)

@@ -6,10 +6,11 @@ import asyncio
 import os
 from collections.abc import Callable, Collection, Coroutine, Iterable
 from contextlib import ExitStack
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
 
+from robocomp_yaml.building.job import RELEASE
 from robocomp_yaml.deploy import folder, operations
 from robocomp_yaml.deploy.attached import Attached, attached
 from robocomp_yaml.deploy.carry_out import Report
@@ -17,17 +18,22 @@ from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed, Line
 from robocomp_yaml.deploy.engines import ENGINES, LOCAL, make_engine
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
-from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan
+from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
 from robocomp_yaml.deploy.probe import Found
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
-from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.network import Network
 from robocomp_yaml.pipeline import Analysis
+
+if TYPE_CHECKING:
+    from robocomp_yaml.api.building import Built
+    from robocomp_yaml.building.job import Event
+    from robocomp_yaml.deploy.stale import Stale
 
 T = TypeVar("T")
 
@@ -97,9 +103,43 @@ class Deployment:
             found |= members or {one.name for one in [process] if one}
         return found
 
+    def stale(self, *names: str) -> list[Stale]:
+        """The components whose programs are not there, or are older than what they are made of, of those that are
+        built and start here; of NAMEs, with all that they need."""
+        from robocomp_yaml.api.building import units
+        from robocomp_yaml.deploy.stale import stale
+
+        wanted = with_dependences(self.network, self.chosen(names)) if names else self.enabled
+        return stale(self.network, units(self._analysis), wanted)
+
+    def build(
+        self,
+        *names: str,
+        build_type: str | None = None,
+        report: Callable[[Event], None] | None = None,
+    ) -> list[Built]:
+        """Builds what is `stale`, each as it was built last unless `build_type` says how; what came of it, for each
+        type."""
+        from robocomp_yaml.api.building import build
+
+        by_type: dict[str, list[str]] = {}
+        for one in self.stale(*names):
+            by_type.setdefault(build_type or one.look.type or RELEASE, []).append(one.unit.document)
+        return [
+            build(self._analysis, documents, build_type=type_, report=report) for type_, documents in by_type.items()
+        ]
+
+    def _tell_stale(self, names: Iterable[str], severity: str = ERROR) -> bool:
+        from robocomp_yaml.deploy import stale
+
+        found = [one.as_severity(severity) for one in stale.told(self.network, self.stale(*names))]
+        self._told += self._analysis.shown(found)
+        return bool(found)
+
     def plan(self, *names: str) -> Plan:
         """What `up` would start, stop, restart and change, and why; what stands in the way is among the diagnostics."""
         wanted = self.chosen(names)
+        self._tell_stale(names)
 
         async def work() -> Plan:
             reached = await self._engine.open(self.network, create=False)
@@ -124,6 +164,8 @@ class Deployment:
         if isinstance(on_failure, str):
             _one_of("way", on_failure, (STOP_THEM, ROLL_BACK, KEEP_GOING))
         wanted, limit = self.chosen(names), TimeLimit(timeout)
+        if self._tell_stale(names):
+            raise Faulty(self.diagnostics)
         forced = (wanted or self.enabled) if restart else set[str]()
 
         async def decided(result: Result) -> str:
@@ -151,6 +193,8 @@ class Deployment:
     def status(self, *names: str) -> list[Status]:
         """How the processes are now."""
         wanted = self.chosen(names)
+        if not self.unread:
+            self._tell_stale(names, WARNING)
 
         async def work() -> list[Status]:
             reached = await self._engine.open(self.network, create=False)

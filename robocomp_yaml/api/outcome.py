@@ -32,7 +32,8 @@ class File(msgspec.Struct, frozen=True):
 
 class Outcome(msgspec.Struct, frozen=True):
     """`documents` were looked at, `asked` of them named by the user; of these, some were `left_out`, by path: whether
-    they have errors themselves. `planned` when nothing was written, since only a look was wanted."""
+    they have errors themselves. `planned` when nothing was written, since only a look was wanted. `to_build` are the
+    components whose programs are older now than what they are made of."""
 
     diagnostics: tuple[Diagnostic, ...]
     files: tuple[File, ...]
@@ -40,6 +41,7 @@ class Outcome(msgspec.Struct, frozen=True):
     asked: int
     left_out: dict[str, bool]
     planned: bool = False
+    to_build: tuple[str, ...] = ()
 
     @property
     def has_errors(self) -> bool:

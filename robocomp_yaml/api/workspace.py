@@ -11,10 +11,12 @@ from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.pipeline import Analysis, analyse
 
 if TYPE_CHECKING:
+    from robocomp_yaml.api.building import Built
     from robocomp_yaml.api.compiling import Compilation
     from robocomp_yaml.api.deploying import Deployment
     from robocomp_yaml.api.fixing import Fixing
     from robocomp_yaml.api.values import Values
+    from robocomp_yaml.building.job import Event
     from robocomp_yaml.network.network import Network
 
 
@@ -71,6 +73,20 @@ class Workspace:
             merge=merge,
             standalone=standalone,
         )
+
+    def build(
+        self, *names: str, build_type: str = "Release", jobs: int | None = None, defines: Sequence[str] = (),
+        report: Callable[[Event], None] | None = None,
+    ) -> Built:  # fmt: skip
+        """Builds the components that were asked for, or those NAMEs (a component's name, folder or document): those
+        that are not what they are made of. `build_type` is CMake's, `jobs` how much is done at once, `defines`
+        are variables for CMake (`NAME=VALUE`); `report` is told of each step. Builds what was compiled last, whatever
+        the documents say now."""
+        from robocomp_yaml.api import which
+        from robocomp_yaml.api.building import build
+
+        wanted = [which.component(name) for name in names]
+        return build(self.analysis, wanted, build_type=build_type, jobs=jobs, defines=defines, report=report)
 
     def fix(self, *, unsafe: bool = False, environment: bool = False) -> Fixing:
         """What applying the fixes of diagnostics comes to: those that leave only one possible meaning, and with

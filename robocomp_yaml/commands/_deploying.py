@@ -69,6 +69,24 @@ def plan(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
     end(ctx, opened)
 
 
+def build(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
+    """Ends the command where something cannot be built: nothing is started then."""
+    from robocomp_yaml.commands import _building
+
+    built = _building.run(
+        ctx, opened.format_, lambda report: opened.deployment.build(*names, report=report),
+        "interrupted: nothing was started; what was built stays",
+    )  # fmt: skip
+    if any(one.has_errors for one in built):
+        told = [one for each in built for one in each.diagnostics]
+        if opened.format_ == "json":
+            head = {"deployment": opened.network.name, "engine": opened.deployment.engine}
+            terminal.data(dumps({**head, "diagnostics": [as_data(one) for one in told]}), json=True)
+        else:
+            terminal.say(f"{opened.network.name}: nothing was touched")
+        ctx.exit(1)
+
+
 def up(
     ctx: click.Context, opened: Opened, names: tuple[str, ...], on_failure: str, timeout: float | None, *,
     restart: bool = False, attach: bool = False,

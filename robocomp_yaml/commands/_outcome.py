@@ -39,7 +39,8 @@ def report(
             {"path": file.path, "action": file.action, **({"orig": file.orig} if file.orig else {})}
             for file in outcome.files
         ]
-        terminal.data(dumps({**run_as_data(told, outcome.documents), "files": files}), json=True)
+        to_build = {"build": list(outcome.to_build)} if outcome.to_build else {}
+        terminal.data(dumps({**run_as_data(told, outcome.documents), "files": files, **to_build}), json=True)
     elif format_ == "sarif":
         tell("sarif", told, outcome.documents)
     else:
@@ -50,7 +51,7 @@ def report(
         if told:
             tell("text", told, outcome.documents, color)
         if ctx.obj.verbosity >= 0 and not diff:
-            terminal.say(*_left_out(outcome), _summary(outcome))
+            terminal.say(*_left_out(outcome), _summary(outcome), *_to_build(outcome))
         fail_on.explain(told)
     ctx.exit(1 if check and outcome.dirty else fail_on.code(told))
 
@@ -96,6 +97,14 @@ def _summary(outcome: Outcome) -> str:
     compiled = outcome.asked - len(outcome.left_out)
     left_out = f", {len(outcome.left_out)} left out" if outcome.left_out else ""
     return f"{compiled} document{'' if compiled == 1 else 's'} compiled{left_out}: {', '.join(parts)}"
+
+
+def _to_build(outcome: Outcome) -> Iterator[str]:
+    names = outcome.to_build
+    if names:
+        more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+        command = terminal.typed("rcyaml", "build", *(names if len(names) == 1 else ()))
+        yield f"build again: {', '.join(names[:SHOWN])}{more}: `{command}`"
 
 
 def _left_out(outcome: Outcome) -> Iterator[str]:

@@ -87,15 +87,18 @@ def plan(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | No
     help="What becomes of what was started when a process fails; asked on a terminal, else stop.",
 )
 @timeout
+@click.option("--build", is_flag=True, help="Build first what is not built, or is older than what it is made of.")
 @click.option("--attach", is_flag=True, help="Stay, show what they print, and take them down at the end.")
 @click.pass_context
 def up(ctx: click.Context, ddsl: str, names: tuple[str, ...], engine: str | None, on_failure: str,
-       timeout: float | None, attach: bool, include: tuple[str, ...], format_: str) -> None:  # fmt: skip
+       timeout: float | None, build: bool, attach: bool, include: tuple[str, ...], format_: str) -> None:  # fmt: skip
     """Bring the network about: start each process when all that it needs are ready, restart what changed, stop what is
     no longer part of it. NAMEs limit it to some, with all that they need."""
     from robocomp_yaml.commands import _deploying
 
     opened = _deploying.open_(ctx, ddsl, include, format_, engine)
+    if build:
+        _deploying.build(ctx, opened, names)
     _deploying.up(ctx, opened, names, on_failure, timeout, attach=attach)
 
 

@@ -12,6 +12,7 @@ from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import SLICE, STATED, fingerprint, stated
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
+from robocomp_yaml.link.workspace import named_from_here
 from robocomp_yaml.source.regular import text
 
 
@@ -30,11 +31,16 @@ def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
         if changed:
             yield deploying.OUTDATED.at(
                 instance.entry.span, name=instance.name, document=changed[0].module.path,
-                hint=f"`{typed('rcyaml', 'compile', component.component.path)}`" + (
-                    ", and build it again" if component.component.language.target.build else ""
-                ),
+                hint=f"`{typed('rcyaml', 'compile', component.component.path)}`" + _then_build(component),
                 related=[Related("changed since", module.module.span) for module in changed],
             )  # fmt: skip
+
+
+def _then_build(linked: LinkedComponent) -> str:
+    component = linked.component
+    if not component.language.target.build:
+        return ""
+    return f", then `{typed('rcyaml', 'build', named_from_here(component.name, component.path))}`"
 
 
 class _Texts:

@@ -27,7 +27,8 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     """A language that components are written in.
 
     `name` is what documents say, `title` what is said of it. `package` holds its parts, modules that are imported when
-    they are asked for: `plan` always; `code` where it has MERGING; `uses` for libraries; `checks` for names that it
+    they are asked for: `plan` always; `code` where it has MERGING; `uses` for libraries; `building` where it
+    `has_building`, for builds that are more than the commands of `build`; `checks` for names that it
     cannot have, where it `has_checks`: they are run where a component is in the language, or always if it
     `warns_others` (then with `has_taken(module)`, for documents that are migrated). Its templates stand there too, in
     `templates/`.
@@ -47,7 +48,8 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
 
     `program` is what is started, relative to the component's folder, with {name} for the component's. `build` are the
     commands that make it, with {folder} for that folder; none where `compile` writes it. `loaded` are the files that
-    the program reads when it starts: folders, and how the names of the files there end. `suffixes` are those of code,
+    the program reads when it starts: folders, and how the names of the files there end; `made_of` are those that it is
+    built from, in the same way. `suffixes` are those of code,
     which `code` reads where it has MERGING, and `comment` is how a line of comment begins there.
     """
 
@@ -68,8 +70,10 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     program: str = "bin/{name}"
     build: tuple[tuple[str, ...], ...] = ()
     loaded: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+    made_of: Mapping[str, tuple[str, ...]] = MappingProxyType({"generated": (), "src": (), "slice": (".ice",)})
     suffixes: tuple[str, ...] = ()
     comment: str = "//"
+    has_building: bool = False
     has_checks: bool = False
     warns_others: bool = False
 

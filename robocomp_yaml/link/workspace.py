@@ -55,6 +55,13 @@ def root_above(folder: str, disk: Disk | None = None) -> str | None:
     return None
 
 
+def named_from_here(name: str, document: str) -> str:
+    """A component as a command takes it that is typed here: by its name in its own workspace, else by its document."""
+    here, there = root_above(""), root_above(os.path.dirname(document))
+    is_here = here is not None and there is not None and os.path.realpath(here) == os.path.realpath(there)
+    return name if is_here else document
+
+
 def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnostic]]:
     """The workspace that `root/rcyaml.yaml` declares; an empty file is one without settings."""
     disk = disk or Disk()

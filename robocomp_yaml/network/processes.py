@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.link.workspace import named_from_here
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
@@ -94,12 +95,10 @@ def _build(draft: Draft) -> str:
         return f"build it, or correct `executable: {executable.text}`"
     path = component.component.path
     compile_ = f"`{typed('rcyaml', 'compile', path)}`"
-    build = component.component.language.target.build
-    if not build:
+    if not component.component.language.target.build:
         return f"{compile_} writes it"
-    folder = os.path.dirname(path) or "."
-    commands = (typed(*(word.format(folder=folder) for word in command)) for command in build)
-    return f"{compile_}, then `{' && '.join(commands)}`"
+    name = named_from_here(component.component.name, path)
+    return f"{compile_}, then `{typed('rcyaml', 'build', name)}`"
 
 
 def _program(component: LinkedComponent) -> str:

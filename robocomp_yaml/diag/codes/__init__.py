@@ -2,7 +2,8 @@
 `docs/diagnostics/`.
 
 RC0xxx files and YAML · RC1xxx IDSL · RC2xxx CDSL · RC3xxx PDSL and values · RC4xxx DDSL · RC5xxx migration ·
-RC6xxx emitting · RC7xxx deploying. Within a family the number says nothing; a retired number stays retired.
+RC6xxx emitting · RC7xxx deploying · RC8xxx building. Within a family the number says nothing; a
+retired number stays retired.
 """
 
 from __future__ import annotations

@@ -24,6 +24,7 @@ LANGUAGE = TargetLanguage(
     runtime=("runtime",),
     build=(("{folder}/generated/build",),),
     loaded={"build": (".jar",)},
+    made_of={"generated": (".java", ".sh", "build", "start"), "src": (".java",), "slice": (".ice",), "lib": (".jar",)},
     suffixes=("java",),
     has_checks=True,
 )

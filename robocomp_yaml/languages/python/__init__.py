@@ -23,6 +23,8 @@ LANGUAGE = TargetLanguage(
     runtime=("machine", "qt", "robocomp", "runtime", "robocomp_yaml.semantics"),
     runtime_root="generated",
     loaded={"src": (".py", ".ui"), "generated": (".py",), "slice": (".ice",)},
+    made_of={"generated": (".py",), "src": (".py", ".ui"), "slice": (".ice",)},
+    has_building=True,
     suffixes=("py",),
     comment="#",
 )

@@ -1,0 +1,105 @@
+"""Components built, as data."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from robocomp_yaml.building import builder, stamps
+from robocomp_yaml.building.inputs import Inputs
+from robocomp_yaml.building.job import FAILED, RELEASE, TYPES, Event, Job, Result
+from robocomp_yaml.building.unit import Unit, unit_of
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.errors import Faulty, Refused
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.source.discover import of_kind
+
+if TYPE_CHECKING:
+    from robocomp_yaml.pipeline import Analysis
+
+
+class Built(msgspec.Struct, frozen=True):
+    """What came of a build: its components in the order of their documents, what compilers and others said, and the
+    seconds of processors that it took."""
+
+    type: str
+    components: tuple[Result, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    cpu: float
+
+    @property
+    def has_errors(self) -> bool:
+        return has_errors(self.diagnostics) or any(one.state == FAILED for one in self.components)
+
+
+def units(analysis: Analysis, documents: Iterable[str] = ()) -> list[Unit]:
+    """The components of these documents; without any, all that were asked for. Faulty where one cannot be read."""
+    program, workspace_of = analysis.program, analysis.linker.workspace_of
+    wanted = [os.path.realpath(path) for path in documents]
+    if any(real not in program.components for real in wanted):
+        raise Faulty(analysis.diagnostics, program.documents)
+    found = [program.components[real] for real in wanted or program.asked_components()]
+    found.sort(key=lambda linked: linked.component.path)
+    return [unit_of(linked, workspace_of(linked.component.path)) for linked in found]
+
+
+def build(
+    analysis: Analysis, documents: Sequence[str], *, build_type: str = RELEASE, jobs: int | None = None,
+    defines: Sequence[str] = (), report: Callable[[Event], None] | None = None,
+) -> Built:  # fmt: skip
+    if build_type not in TYPES:
+        meant = suggest(build_type, TYPES)
+        raise Refused(
+            f"there is no build type '{build_type}'; " + (f"did you mean '{meant}'?" if meant else ", ".join(TYPES))
+        )
+    before = _cpu()
+
+    def told(event: Event) -> None:
+        if report is not None:
+            report(analysis.veiled([event])[0] if isinstance(event, Diagnostic) else event)
+
+    job = Job(build_type, jobs or len(os.sched_getaffinity(0)), told, tuple(defines))
+    found = builder.build(job, units(analysis, documents))
+    return Built(build_type, tuple(found), tuple(analysis.veiled(job.told)), round(_cpu() - before, 2))
+
+
+def to_build(analysis: Analysis) -> list[str]:
+    """The components whose programs are there, and are older than what they are made of."""
+    inputs = Inputs()
+    return [
+        unit.name
+        for unit in units(analysis)
+        if unit.language.build and (found := stamps.look(unit, inputs)).is_there and found.changed
+    ]
+
+
+def _cpu() -> float:
+    used = os.times()
+    return used.user + used.system + used.children_user + used.children_system
+
+
+def documents(names: Sequence[str]) -> list[str]:
+    """The documents of the components that are meant: by name, folder or document; without any, all below the working
+    folder. Raises Refused."""
+    from robocomp_yaml.api import which
+
+    found: dict[str, None] = {}
+    for name in names or (".",):
+        below = of_kind(name, "cdsl") if os.path.isdir(name) else []
+        found |= dict.fromkeys(below or ([which.component(name)] if names else []))
+    return list(found)
+
+
+def clean(
+    analysis: Analysis,
+    documents: Sequence[str],
+    build_type: str | None = None,
+    *,
+    everything: bool = False,
+) -> list[str]:
+    """Takes the build trees of these components away; the folders that are gone. Of `everything` that was asked for,
+    whole trees."""
+    return builder.clean(units(analysis, documents), everything, build_type)

@@ -1,0 +1,90 @@
+"""Builds components: those whose programs are not what they are made of, language by language."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterable, Mapping, Sequence
+
+from robocomp_yaml.building import commands, stamps
+from robocomp_yaml.building.inputs import Inputs
+from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, Builder, Job, Made, Result
+from robocomp_yaml.building.unit import Unit
+from robocomp_yaml.diag.codes import building as codes
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.diag.terminal import typed
+from robocomp_yaml.emit.layout import GENERATED, SOURCES
+from robocomp_yaml.languages.record import TargetLanguage
+
+
+def build(job: Job, units: Sequence[Unit]) -> list[Result]:
+    """What came of each, in their order."""
+    inputs, done = Inputs(), dict[Unit, Result]()
+    wanted: list[Unit] = []
+    for unit in units:
+        if not unit.is_compiled:
+            _not_compiled(job, unit)
+            done[unit] = _result(unit, FAILED)
+        elif not job.defines and _is_current(job, unit, inputs):
+            done[unit] = _result(unit, CURRENT)
+        else:
+            wanted.append(unit)
+    for result in done.values():
+        job.report(result)
+    try:
+        for language in dict.fromkeys(unit.language for unit in wanted):
+            group = [unit for unit in wanted if unit.language is language]
+            for unit, made in _made(job, language, group, inputs).items():
+                done[unit] = _result(unit, BUILT if made.is_built else FAILED, made.cpu)
+                job.report(done[unit])
+    finally:
+        job.processes.end()
+    return [done[unit] for unit in units]
+
+
+def clean(units: Sequence[Unit], everything: bool, type_: str | None) -> list[str]:
+    """Takes away what builds have made on the way, and never a program; the folders that are gone. `everything` says
+    that these are all that there are."""
+    gone: list[str] = []
+    for language in dict.fromkeys(unit.language for unit in units):
+        group = [unit for unit in units if unit.language is language]
+        if language.has_building and (clean := getattr(language.part("building"), "clean", None)):
+            gone += clean(group, everything, type_)
+    for unit in units:
+        stamps.forget(unit)
+    return gone
+
+
+def _is_current(job: Job, unit: Unit, inputs: Inputs) -> bool:
+    found = stamps.look(unit, inputs)
+    return found.is_current and found.is_known and found.type == job.type
+
+
+def _not_compiled(job: Job, unit: Unit) -> None:
+    missing = next(name for name in (GENERATED, SOURCES) if not os.path.isdir(unit.path(name)))
+    hint = f"`{typed('rcyaml', 'compile', unit.document)}`"
+    job.tell([codes.NOT_COMPILED.at(Span(unit.document), name=unit.name, folder=unit.path(missing), hint=hint)])
+
+
+def _made(job: Job, language: TargetLanguage, units: list[Unit], inputs: Inputs) -> Mapping[Unit, Made]:
+    """Has the language build them, and keeps the stamps of those that are."""
+    taken = {unit: stamps.take(unit, inputs, job.type) for unit in units}
+    began = time.time_ns()
+    builder: Builder = language.part("building").build if language.has_building else commands.build
+    done = builder(job, units)
+    for unit, made in done.items():
+        if made.is_built and _still(made.read, began):
+            stamps.keep(unit, stamps.with_more(unit, taken[unit], inputs, made.read))
+    return done
+
+
+def _still(files: Iterable[str], began: int) -> bool:
+    """Whether none of these changed meanwhile."""
+    try:
+        return all(os.stat(path).st_mtime_ns < began for path in files)
+    except OSError:
+        return False
+
+
+def _result(unit: Unit, state: str, cpu: float = 0.0) -> Result:
+    return Result(unit.name, unit.language.name, unit.folder, unit.program, state, round(cpu, 2))

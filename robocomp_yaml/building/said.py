@@ -1,0 +1,105 @@
+"""What compilers say, as diagnostics: GCC and Clang, javac, slice2cpp and slice2java, the linker.
+
+    FILE:LINE:COLUMN: error: TEXT        FILE:LINE: error: TEXT        FILE:LINE: TEXT
+
+with the line itself and a line of marks below, which tell how long the place is; notes belong to what stands above.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator
+
+from msgspec.structs import replace
+
+from robocomp_yaml.diag.codes import building as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source.regular import text as text_of
+
+_PLACED = re.compile(
+    r"(?P<file>[^\s:][^:\n]*?):(?P<line>\d+):(?:(?P<column>\d+):)? "
+    r"(?:(?P<kind>(?:fatal )?error|warning|note): )?(?P<text>\S.*)"
+)
+_MARKS = re.compile(r"(?P<lead> +(?:\| )?)(?P<before> *)(?P<marks>~*\^~*)")
+_SLICE = ".ice"
+_UNDEFINED = "undefined reference"
+_NOTES = 3  # that are shown with an error: of a template, there may be dozens
+
+
+class Said:
+    """Reads what a compiler writes, whose paths are relative to `folder`; `compiler` is what it is called."""
+
+    def __init__(self, folder: str, compiler: str) -> None:
+        self._folder, self._compiler, self._lines = folder, compiler, dict[str, list[str]]()
+
+    def diagnostics(self, lines: Iterable[str]) -> Iterator[Diagnostic]:
+        """In the compiler's order, each once."""
+        found: dict[Diagnostic, None] = {}
+        last: Diagnostic | None = None
+        for line in lines:
+            placed = _PLACED.fullmatch(line)
+            if placed and self._is_one(placed):
+                if placed["kind"] == "note":
+                    if last is not None and len(last.related) < _NOTES:
+                        note = Related(placed["text"], self._span(placed))
+                        last = replace(last, related=(*last.related, note))
+                    continue
+                if last is not None:
+                    found[last] = None
+                code = codes.WARNING_OF_COMPILER if placed["kind"] == "warning" else codes.ERROR_OF_COMPILER
+                last = code.at(self._span(placed), tool=self._tool(placed), text=placed["text"])
+            elif last is not None and not last.related and (marks := _MARKS.fullmatch(line)):
+                last = replace(last, span=self._marked(last.span, marks))
+        if last is not None:
+            found[last] = None
+        return iter(found)
+
+    def _tool(self, placed: re.Match[str]) -> str:
+        if placed["text"].startswith(_UNDEFINED):
+            return "the linker"
+        return "the Slice compiler" if placed["file"].endswith(_SLICE) else self._compiler
+
+    def _is_one(self, placed: re.Match[str]) -> bool:
+        """What names a place without saying what it is, is an error of the Slice compilers, or of the linker."""
+        return (
+            bool(placed["kind"]) or placed["file"].endswith(_SLICE) or placed["text"].startswith("undefined reference")
+        )
+
+    def _span(self, placed: re.Match[str]) -> Span:
+        file, number = self._path(placed["file"]), int(placed["line"])
+        column = self._character(file, number, int(placed["column"])) if placed["column"] else 1
+        length = 1 if placed["column"] else max(1, len(self._line(file, number).rstrip()))
+        return Span(file, number, column, number, column + length)
+
+    def _marked(self, span: Span, marks: re.Match[str]) -> Span:
+        """With the length that marks have; those of javac tell the column, too."""
+        has_rail = "|" in marks["lead"]
+        if not has_rail:
+            column = self._character(span.file, span.line, len(marks["lead"]) + len(marks["before"]) + 1)
+            return replace(span, column=column, end_column=column + len(marks["marks"]))
+        return replace(span, end_column=span.column + len(marks["marks"]) - marks["marks"].index("^"))
+
+    def _path(self, named: str) -> str:
+        path = os.path.relpath(os.path.join(self._folder, named))
+        return os.path.abspath(path) if path.startswith(os.pardir) else path
+
+    def _line(self, file: str, number: int) -> str:
+        if file not in self._lines:
+            self._lines[file] = (text_of(file) or "").splitlines()
+        lines = self._lines[file]
+        return lines[number - 1] if number <= len(lines) else ""
+
+    def _character(self, file: str, number: int, column: int) -> int:
+        """The character at a column of a terminal, which is what GCC counts."""
+        line = self._line(file, number)
+        if line.isascii() and "\t" not in line:
+            return column
+        at = 1
+        for count, character in enumerate(line, 1):
+            at += 8 - (at - 1) % 8 if character == "\t" else 2 if unicodedata.east_asian_width(character) in "WF" else 1
+            if at > column:
+                return count
+        return column

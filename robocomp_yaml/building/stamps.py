@@ -1,0 +1,116 @@
+"""The stamp of a build: what a program was made of, so that one is known that is older than that.
+
+It stands in the component's `.rcyaml/builds/`, which no repository holds. Where the program is the one that the stamp
+knows, contents are compared, and a file that was but touched is as it was. Another one, as by CMake itself, must be
+younger than all that it is made of.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+from collections.abc import Iterable, Mapping
+
+import msgspec
+
+from robocomp_yaml.building.inputs import Inputs, State, state
+from robocomp_yaml.building.unit import Unit
+from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.source.regular import regular
+from robocomp_yaml.transactions import whole_file
+
+FOLDER = ".rcyaml/builds"
+_NAME = f"{FOLDER}/stamp.json"
+
+
+class Stamp(msgspec.Struct, frozen=True):
+    """`program` is the state of what was built, `inputs` the files that it was made of, relative to the component's
+    folder, with state and digest; `more` of these are such as only the build knew."""
+
+    type: str
+    program: State
+    inputs: dict[str, tuple[State, str]]
+    more: tuple[str, ...] = ()
+
+
+class Look(msgspec.Struct, frozen=True):
+    """How a component is: whether its program `is_there`, and which files `changed` since it was made. `type` is how
+    it was built last, '' where nobody knows; `is_known` says that the program is the one of the last build."""
+
+    is_there: bool
+    changed: tuple[str, ...] = ()
+    type: str = ""
+    is_known: bool = False
+
+    @property
+    def is_current(self) -> bool:
+        return self.is_there and not self.changed
+
+
+def look(unit: Unit, inputs: Inputs) -> Look:
+    program, stamp = state(unit.program), load(unit)
+    type_ = stamp.type if stamp else ""
+    if program is None:
+        return Look(False, type=type_)
+    if stamp is None or stamp.program != program:
+        return Look(True, tuple(sorted(_younger(unit, inputs, program))), type_)
+    here = {path: os.path.normpath(os.path.join(unit.folder, path)) for path in stamp.inputs}
+    now = inputs.of(unit, (here[path] for path in stamp.more))
+    changed = set(here.values()) ^ now.keys()
+    for path, (known, known_digest) in stamp.inputs.items():
+        file = here[path]
+        if file in now and now[file] != known and inputs.digest(file, now[file]) != known_digest:
+            changed.add(file)
+    return Look(True, tuple(sorted(changed)), type_, is_known=True)
+
+
+def _younger(unit: Unit, inputs: Inputs, program: State) -> list[str]:
+    return [path for path, (_, changed, _) in inputs.of(unit).items() if changed > program[1]]
+
+
+def take(unit: Unit, inputs: Inputs, type_: str) -> Stamp:
+    """Of a build that begins now."""
+    return Stamp(type_, (0, 0, 0), _known(unit, inputs, inputs.of(unit)))
+
+
+def with_more(unit: Unit, taken: Stamp, inputs: Inputs, more: Iterable[str]) -> Stamp:
+    """With files that the build read besides."""
+    others = {path: found for path in more if (found := state(path)) is not None}
+    known = _known(unit, inputs, others)
+    return msgspec.structs.replace(
+        taken, inputs={**known, **taken.inputs}, more=tuple(sorted(known.keys() - taken.inputs.keys()))
+    )
+
+
+def _known(unit: Unit, inputs: Inputs, files: Mapping[str, State]) -> dict[str, tuple[State, str]]:
+    return {os.path.relpath(path, unit.folder): (found, inputs.digest(path, found)) for path, found in files.items()}
+
+
+def keep(unit: Unit, taken: Stamp) -> None:
+    """Keeps it, with the program as it is now. Where that cannot be, the next build only looks again."""
+    program = state(unit.program)
+    if program is None or not stays_inside(unit.folder, _NAME):
+        return
+    with contextlib.suppress(OSError):
+        os.makedirs(unit.path(FOLDER), exist_ok=True)
+        with (
+            contextlib.suppress(FileExistsError),
+            open(unit.path(f"{FOLDER}/.gitignore"), "x", encoding="utf-8") as own,
+        ):
+            own.write("*\n")
+        text = json.dumps(msgspec.to_builtins(msgspec.structs.replace(taken, program=program)), separators=(",", ":"))
+        whole_file.put(unit.path(_NAME), text.encode("utf-8", "surrogateescape"))
+
+
+def load(unit: Unit) -> Stamp | None:
+    try:
+        with open(unit.path(_NAME), "rb", opener=regular) as file:
+            return msgspec.convert(json.loads(file.read().decode("utf-8", "surrogateescape")), Stamp)
+    except (OSError, ValueError, RecursionError):
+        return None
+
+
+def forget(unit: Unit) -> None:
+    with contextlib.suppress(OSError):
+        os.unlink(unit.path(_NAME))

@@ -1,0 +1,12 @@
+"""RC8xxx: building. What compilers say of a component, and what keeps it from being built."""
+
+from __future__ import annotations
+
+from robocomp_yaml.diag.code import Family
+
+_PAGE = Family("building")
+
+ERROR_OF_COMPILER = _PAGE.code("RC8001")
+WARNING_OF_COMPILER = _PAGE.code("RC8002")
+FAILED = _PAGE.code("RC8003")
+NOT_COMPILED = _PAGE.code("RC8004")

@@ -1,0 +1,292 @@
+"""A build tree of CMake: configured, and made by Ninja, or by make where there is no Ninja."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+
+import msgspec
+
+from robocomp_yaml.building.job import Job, Made, Step
+from robocomp_yaml.building.said import Said
+from robocomp_yaml.building.unit import Unit
+from robocomp_yaml.diag.codes import building as codes
+from robocomp_yaml.diag.diagnostic import has_errors
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.languages.cpp import ninja_log
+from robocomp_yaml.source.regular import text as text_of
+
+NINJA, MAKE = "Ninja", "Unix Makefiles"
+LISTS, _CACHE = "CMakeLists.txt", "CMakeCache.txt"
+_STATUS = re.compile(r"\[ *(\d+)(?:/(\d+)|%)\] (.*)")
+_FAILED = re.compile(r"FAILED: (.*)")
+_ERROR = re.compile(r"CMake Error(?: at (?P<file>.*?):(?P<line>\d+) \(.*\)| in (?P<folder>.*?))?: ?(?P<text>.*)")
+_CALL = re.compile(r"  (?P<file>\S.*?):(?P<line>\d+) \(.*\)")
+_UNDEFINED = re.compile(r"undefined reference to [`‘'](.*)['’]")
+_LAST = 10  # lines that are shown of what failed without a word that is understood
+
+
+def source_of(unit: Unit) -> str:
+    """The folder of the CMakeLists.txt that builds it: its own, unless that is one of RoboComp's."""
+    own = text_of(unit.path(LISTS))
+    generated = unit.path("generated")
+    if (own is None or "component.cmake" not in own) and os.path.isfile(os.path.join(generated, LISTS)):
+        return generated
+    return unit.folder
+
+
+class Failure(msgspec.Struct, frozen=True):
+    """What kept CMake from configuring a tree: what it says, and the places that led to it, the innermost first."""
+
+    text: str
+    more: tuple[str, ...]
+    places: tuple[tuple[str, int], ...]
+
+    def is_in(self, source: str) -> bool:
+        """Whether it is about the component with this CMakeLists.txt."""
+        folder = os.path.dirname(source) if os.path.basename(source) == "generated" else source
+        return any(_is_below(path, folder) for path, _ in self.places)
+
+    @property
+    def is_of_all(self) -> bool:
+        """Whether each of them would fail so: there is no compiler, or no Ice."""
+        return bool(self.places) and os.path.basename(self.places[0][0]) == "rcyaml.cmake"
+
+    def tell(self, job: Job, unit: Unit) -> None:
+        """At the user's own line where it is one, else at the component's document."""
+        folder = os.path.abspath(unit.folder)
+        if (
+            self.places
+            and _is_below(self.places[0][0], folder)
+            and not _is_below(self.places[0][0], f"{folder}/generated")
+        ):
+            path, line = self.places[0]
+            text = (text_of(path) or "").splitlines()[line - 1 : line]
+            end = len(text[0].rstrip()) + 1 if text else 2
+            begin = len(text[0]) - len(text[0].lstrip()) + 1 if text else 1
+            span = Span(_shown(path), line, begin, line, max(end, begin + 1))
+            job.tell([codes.ERROR_OF_COMPILER.at(span, tool="CMake", text=self.text, more="\n".join(self.more))])
+        else:
+            job.failed(unit, self.text, more=self.more)
+
+
+class Tree(msgspec.Struct, frozen=True):
+    """`source` is the folder of its CMakeLists.txt, `folder` the tree itself, `root` what is built there at most: what
+    compilers read elsewhere is not the user's."""
+
+    source: str
+    folder: str
+    root: str
+
+    @classmethod
+    def own_of(cls, unit: Unit) -> Tree:
+        """Of a component in no workspace."""
+        return cls(source_of(unit), unit.path("build"), unit.folder)
+
+    @property
+    def cache(self) -> dict[str, str]:
+        """What CMake remembers."""
+        lines = (text_of(os.path.join(self.folder, _CACHE)) or "").splitlines()
+        pairs = (line.partition("=") for line in lines if line[:1].isalpha())
+        return {name.partition(":")[0]: value for name, _, value in pairs}
+
+    @property
+    def is_configured(self) -> bool:
+        return any(os.path.isfile(os.path.join(self.folder, name)) for name in ("build.ninja", "Makefile"))
+
+    def configure(self, job: Job) -> Failure | None:
+        """Raises FileNotFoundError where there is no CMake."""
+        job.report(Step(0, 0, f"Configuring {_shown(self.folder)}"))
+        cache, source = self.cache, os.path.abspath(self.source)
+        if cache and os.path.realpath(cache.get("CMAKE_HOME_DIRECTORY", "")) != os.path.realpath(source):
+            with suppress(OSError):  # it was moved
+                os.unlink(os.path.join(self.folder, _CACHE))
+                shutil.rmtree(os.path.join(self.folder, "CMakeFiles"))
+            cache = {}
+        generator = [] if cache else ["-G", NINJA if shutil.which("ninja") else MAKE]
+        lines: list[str] = []
+        ended = job.processes.run(
+            ["cmake", "-S", source, "-B", os.path.abspath(self.folder), *generator, f"-DCMAKE_BUILD_TYPE={job.type}",
+             "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", *(f"-D{define}" for define in job.defines)], lines.append,
+        )  # fmt: skip
+        return _failure(lines, source) if ended.code else None
+
+    def make(self, job: Job, parts: Mapping[Unit, str]) -> dict[Unit, Made] | Failure:
+        """Makes components: `parts` are their folders in the tree, '' for all that is in it. A failure where CMake was
+        to run again for it, and could not."""
+        run = _Run(self, job, parts)
+        is_ninja = self.cache.get("CMAKE_GENERATOR") != MAKE
+        targets = [f"{part}/all" if part else "all" for part in parts.values()]
+        before = ninja_log.read(self.folder)
+        command = self._command(job, targets, is_ninja)
+        with self._kept(parts):
+            ended = job.processes.run(command, run.line, cwd=self.folder, env=_ENVIRONMENT)
+        run.flush()
+        if run.is_unconfigured:
+            return _failure(run.lines, os.path.abspath(self.source))
+        shares = ninja_log.shares(before, ninja_log.read(self.folder), ended.cpu)
+        read = ninja_log.read_files(job.processes, self.folder, self.root) if is_ninja else {}
+        done: dict[Unit, Made] = {}
+        for unit, part in parts.items():
+            is_made = not ended.code or (unit not in run.failed and self._is_made(job, unit, part, is_ninja))
+            mine = (part and f"{part}/", os.path.realpath(unit.program))
+            cpu = sum(share for path, share in shares.items() if _is_of(path, *mine))
+            files = {file for path, files in read.items() if _is_of(path, *mine) for file in files}
+            if not is_made:
+                run.explain(unit)
+            elif not os.path.exists(unit.program):
+                job.failed(unit, f"its build left no {unit.program}")
+                is_made = False
+            done[unit] = Made(is_made, cpu, tuple(sorted(files)))
+        return done
+
+    @contextmanager
+    def _kept(self, units: Iterable[Unit]) -> Iterator[None]:
+        """Puts programs back that a linker took away, and did not make again."""
+        kept = {unit.program: os.path.join(self.folder, f"{unit.name}.kept") for unit in units}
+        for program, other in kept.items():
+            with suppress(OSError):
+                os.unlink(other)
+            with suppress(OSError):
+                os.link(program, other, follow_symlinks=False)
+        try:
+            yield
+        finally:
+            for program, other in kept.items():
+                with suppress(OSError):
+                    if not os.path.lexists(program):
+                        os.link(other, program, follow_symlinks=False)
+                with suppress(OSError):
+                    os.unlink(other)
+
+    def _command(self, job: Job, targets: list[str], is_ninja: bool) -> list[str]:
+        if is_ninja:
+            return ["ninja", "-k", "0", "-j", str(job.jobs), *targets]
+        makefile = [] if targets == ["all"] else ["-f", "CMakeFiles/Makefile2"]
+        return ["make", "-k", "-j", str(job.jobs), *makefile, *targets]
+
+    def _is_made(self, job: Job, unit: Unit, part: str, is_ninja: bool) -> bool:
+        """Of a component of which nothing failed, beside some of which something did: what it shares may have."""
+        target = [f"{part}/all" if part else "all"]
+        return job.processes.run(self._command(job, target, is_ninja), lambda line: None, cwd=self.folder).code == 0
+
+
+_ENVIRONMENT = {"NINJA_STATUS": "[%f/%t] "}
+
+
+class _Run:
+    """What a run of Ninja or make says, piece by piece."""
+
+    def __init__(self, tree: Tree, job: Job, parts: Mapping[Unit, str]) -> None:
+        self.lines: list[str] = []
+        self.failed: dict[Unit, list[str]] = {}
+        self.is_unconfigured = False
+        self._tree, self._job, self._parts = tree, job, parts
+        self._piece: list[str] = []
+        self._said = Said(tree.folder, "the C++ compiler")
+        self._unheard: list[str] = []
+
+    def line(self, line: str) -> None:
+        self.lines.append(line)
+        status = _STATUS.fullmatch(line)
+        if status or line.startswith("ninja: "):
+            self.flush()
+        if status:
+            done, total, what = int(status[1]), int(status[2] or 100), status[3]
+            self._job.report(Step(done, total, what))
+        elif line.startswith("ninja: error: rebuilding") or "cmake_check_build_system] Error" in line:
+            self.is_unconfigured = True
+        else:
+            self._piece.append(line)
+
+    def flush(self) -> None:
+        """A piece has come to its end: it is what one step says."""
+        piece, self._piece = self._piece, []
+        if not piece:
+            return
+        found = list(self._said.diagnostics(piece))
+        self._job.tell(found)
+        outputs = next((match[1] for line in piece if (match := _FAILED.match(line))), None)
+        if outputs is None:
+            self._unheard += piece
+            return
+        said = piece[2:]  # without the command
+        owner = self._owner(outputs.split())
+        if owner is not None:
+            lines = self.failed.setdefault(owner, [])
+            lines += [] if has_errors(found) else said
+        elif not has_errors(found):
+            self._unheard += said
+
+    def explain(self, unit: Unit) -> None:
+        """Why a component is not built, where no compiler has told it."""
+        lines = self.failed.get(unit, self._unheard)
+        if lines or not has_errors(self._job.told):
+            said = [line for line in lines if line.strip() and not line.startswith("collect2:")]
+            missing = next((match[1] for line in said if (match := _UNDEFINED.search(line))), "")
+            reason = f"the linker finds no definition of {missing}" if missing else "a step of its build failed"
+            self._job.failed(unit, reason, more=said[-_LAST:])
+
+    def _owner(self, outputs: list[str]) -> Unit | None:
+        for unit, part in self._parts.items():
+            program = os.path.realpath(unit.program)
+            if any(_is_of(os.path.join("", path), part and f"{part}/", program) for path in outputs):
+                return unit
+        return None
+
+
+def _is_of(path: str, part: str, program: str) -> bool:
+    """Whether an output of a tree is a component's; in a tree of its own, each is."""
+    if "rcyaml_slice_" in path and part:
+        return False  # it may stand in any folder
+    return not part or path.startswith(part) or path == program
+
+
+def _failure(lines: list[str], source: str) -> Failure:
+    """The first error that CMake tells."""
+    text: list[str] = []
+    places: list[tuple[str, int]] = []
+    for line in lines:
+        if match := _ERROR.fullmatch(line):
+            if text or places:
+                break
+            if match["file"]:
+                places.append((os.path.join(source, match["file"]), int(match["line"])))
+            elif match["folder"]:
+                places.append((os.path.join(source, match["folder"]), 1))
+            text += [match["text"]] if match["text"] else []
+        elif (text or places) and (call := _CALL.fullmatch(line)):
+            places.append((os.path.join(source, call["file"]), int(call["line"])))
+        elif (text or places) and (line.startswith("  ") or not line) and not line.startswith("Call Stack"):
+            text.append(line.strip() and line[2:])
+        elif (text or places) and not line.startswith("Call Stack"):
+            break
+    head, more = _parted(text)
+    return Failure(head or "CMake fails", tuple(more or (() if head else lines[-_LAST:])), tuple(places))
+
+
+def _parted(text: list[str]) -> tuple[str, list[str]]:
+    """The first sentence, of which CMake has made lines, and what stands below."""
+    lines = list(_without_ends(text))
+    end = next((at for at, line in enumerate(lines) if not line or line.startswith(" ")), len(lines))
+    return " ".join(lines[:end]).rstrip(":"), [line for line in lines[end:] if line]
+
+
+def _without_ends(lines: list[str]) -> Iterator[str]:
+    while lines and not lines[-1].strip():
+        lines = lines[:-1]
+    while lines and not lines[0].strip():
+        lines = lines[1:]
+    yield from lines
+
+
+def _is_below(path: str, folder: str) -> bool:
+    return path == folder or path.startswith(f"{folder}/")
+
+
+def _shown(path: str) -> str:
+    relative = os.path.relpath(path)
+    return path if relative.startswith(os.pardir) else relative

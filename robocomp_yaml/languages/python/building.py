@@ -1,0 +1,66 @@
+"""Python components "built": compiled to bytecode and imported once, by the Python that runs them."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+
+from robocomp_yaml.building.job import Job, Made, Step
+from robocomp_yaml.building.unit import Unit
+from robocomp_yaml.diag.codes import building as codes
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.languages.python import LANGUAGE
+
+_MARK = "\x1ercyaml "
+_LAST = 10  # lines that are shown of what fails outside of the user's code
+
+
+def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
+    done: dict[Unit, Made] = {}
+    with ThreadPoolExecutor(job.jobs) as pool:
+        try:
+            running = {unit: pool.submit(_tried, job, unit) for unit in units}
+            for number, (unit, future) in enumerate(running.items()):
+                job.report(Step(number, len(units), f"Trying {unit.name}"))
+                code, cpu, lines = future.result()
+                found = list(_diagnostics(lines))
+                job.tell(found)
+                if code and not has_errors(found):
+                    said = [line for line in lines if not line.startswith(_MARK)]
+                    job.failed(unit, "its code cannot be imported", more=said[-_LAST:])
+                done[unit] = Made(code == 0, cpu)
+        except BaseException:
+            job.processes.end()
+            raise
+    return done
+
+
+def _tried(job: Job, unit: Unit) -> tuple[int, float, list[str]]:
+    lines: list[str] = []
+    python = shutil.which("python3") or sys.executable
+    try:
+        ended = job.processes.run(
+            [python, os.path.join(LANGUAGE.templates, "trial.py"), os.path.abspath(unit.folder), _MARK],
+            lines.append,
+            env={"QT_QPA_PLATFORM": "offscreen"},
+        )
+    except OSError as error:
+        return 1, 0.0, [f"{python} cannot be started: {error.strerror or error}"]
+    return ended.code, ended.cpu, lines
+
+
+def _diagnostics(lines: Iterable[str]) -> Iterator[Diagnostic]:
+    for line in lines:
+        if line.startswith(_MARK):
+            said = json.loads(line.removeprefix(_MARK))
+            code = codes.ERROR_OF_COMPILER if said["kind"] == "error" else codes.WARNING_OF_COMPILER
+            column = max(1, said["column"])
+            end = max(column + 1, said["end"])
+            path = os.path.relpath(said["file"])
+            file = said["file"] if path.startswith(os.pardir) else path
+            yield code.at(Span(file, said["line"], column, said["line"], end), tool="Python", text=said["text"])

@@ -1,0 +1,228 @@
+"""`rcyaml build` with components in Python, and in languages whose build is a command."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from conftest import write_tree
+
+pytestmark = pytest.mark.processes
+pytest.importorskip("Ice", reason="Ice's Python module is not installed")
+Rcyaml = Callable[..., Result]
+
+DOCUMENTS = {
+    "rcyaml.yaml": "interfaces: [.]\n",
+    "Arm.idsl.yaml": "module: RoboCompArm\ninterfaces: {Arm: {methods: {lift: {in: {by: float}}}}}\n",
+    "arm/arm.cdsl.yaml": "component: ArmComp\nlanguage: python\nimports: [Arm]\nimplements: [Arm]\n",
+    "leg/leg.cdsl.yaml": "component: LegComp\nlanguage: python\nimports: [Arm]\nrequires: [Arm]\n",
+}
+# What a component in Java looks like to a build: a command, code and a program.
+JAVA = {
+    "eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: java\n", "eye/src/SpecificWorker.java": "class SpecificWorker {}\n",
+    "eye/generated/Main.java": "class Main {}\n",
+}  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def _ice_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("RCYAML_PYTHON", sys.executable)
+
+
+@pytest.fixture
+def workspace(rcyaml: Rcyaml, tmp_path: Path) -> Path:
+    write_tree(tmp_path, DOCUMENTS)
+    assert rcyaml("compile").exit_code == 0
+    return tmp_path
+
+
+def command(folder: Path, text: str) -> None:
+    script = folder / "eye" / "generated" / "build"
+    script.write_text(f"#!/bin/sh\ncd {folder}/eye\n{text}\n")
+    script.chmod(0o755)
+
+
+def states(rcyaml: Rcyaml, *args: str) -> dict[str, str]:
+    result = rcyaml("build", "--format", "json", *args)
+    return {one["name"]: one["state"] for one in json.loads(result.stdout)["components"]}
+
+
+def test_all_then_nothing_then_what_changed(workspace: Path, rcyaml: Rcyaml) -> None:
+    assert states(rcyaml) == {"ArmComp": "built", "LegComp": "built"}
+    assert states(rcyaml) == {"ArmComp": "up to date", "LegComp": "up to date"}
+    code = workspace / "leg" / "src" / "specificworker.py"
+    code.touch()
+    assert states(rcyaml)["LegComp"] == "up to date"
+    code.write_text(f"{code.read_text()}\n# more\n")
+    assert states(rcyaml) == {"ArmComp": "up to date", "LegComp": "built"}
+    assert list((workspace / "leg" / "src" / "__pycache__").glob("specificworker.*.pyc"))
+
+
+def test_an_interface_concerns_all_that_use_it(workspace: Path, rcyaml: Rcyaml) -> None:
+    states(rcyaml)
+    (workspace / "Arm.idsl.yaml").write_text(DOCUMENTS["Arm.idsl.yaml"].replace("float", "int"))
+    rcyaml("compile")
+    assert states(rcyaml) == {"ArmComp": "built", "LegComp": "built"}
+
+
+@pytest.mark.parametrize("name", ["LegComp", "leg", "leg/leg.cdsl.yaml", "legcomp"])
+def test_who_is_meant(workspace: Path, rcyaml: Rcyaml, name: str) -> None:
+    assert states(rcyaml, name) == {"LegComp": "built"}
+
+
+def test_who_is_meant_from_a_folder(workspace: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(workspace / "leg")
+    assert states(rcyaml) == {"LegComp": "built"}
+    assert states(rcyaml, "..") == {"ArmComp": "built", "LegComp": "up to date"}
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("LegCmop", "there is no component 'LegCmop'; did you mean 'LegComp'?"),
+        ("toe/toe.cdsl.yaml", "there is no document"),
+    ],
+)
+def test_who_is_nobody(workspace: Path, rcyaml: Rcyaml, name: str, said: str) -> None:
+    result = rcyaml("build", name)
+    assert result.exit_code == 2 and said in result.stderr
+
+
+def test_what_python_refuses_stands_at_its_line_and_keeps_no_other(workspace: Path, rcyaml: Rcyaml) -> None:
+    (workspace / "arm" / "src" / "specificworker.py").write_text("import os\n\n\ndef lift(:\n    pass\n")
+    (workspace / "leg" / "src" / "specificworker.py").write_text("import os\n\nnowhere = os.no_such_name\n")
+    result = rcyaml("build")
+    assert result.exit_code == 1
+    assert "arm/src/specificworker.py:4:10" in result.stdout and "SyntaxError" in result.stdout
+    assert "leg/src/specificworker.py:3:1" in result.stdout
+    assert "AttributeError: module 'os' has no attribute 'no_such_name'" in result.stdout
+    assert "2 components: 2 failed" in result.stdout
+    (workspace / "leg" / "src" / "helper.py").write_text("import sys\nsys.exit('no')\n")
+    (workspace / "leg" / "src" / "specificworker.py").write_text("import helper\n")
+    assert "leg/src/helper.py:2:1" in rcyaml("build", "leg").stdout
+
+
+def test_what_user_code_prints_is_no_finding(workspace: Path, rcyaml: Rcyaml) -> None:
+    code = workspace / "leg" / "src" / "specificworker.py"
+    code.write_text(f"{code.read_text()}\nprint('src/x.py:1:1: error: not one')\n")
+    result = rcyaml("build", "leg")
+    assert result.exit_code == 0 and "not one" not in result.stdout
+
+
+def test_what_is_not_compiled(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    write_tree(tmp_path, DOCUMENTS)
+    result = rcyaml("build", "arm")
+    assert result.exit_code == 1
+    assert "error[RC8004]: ArmComp is not compiled yet" in result.stdout
+    assert "`rcyaml compile arm/arm.cdsl.yaml`" in result.stdout
+
+
+def test_no_component_at_all(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    result = rcyaml("build")
+    assert result.exit_code == 0 and result.stdout == "there is no component\n"
+
+
+def test_a_command_that_says_where_it_fails(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    write_tree(tmp_path, JAVA)
+    command(tmp_path, "echo 'src/SpecificWorker.java:1: error: cannot find symbol'; exit 3")
+    result = rcyaml("build")
+    assert "error[RC8001]: the Java compiler refuses this: cannot find symbol" in result.stdout
+    assert "eye/src/SpecificWorker.java:1:1" in result.stdout and "RC8003" not in result.stdout
+    command(tmp_path, "echo no luck; exit 3")
+    result = rcyaml("build")
+    assert "error[RC8003]: EyeComp cannot be built: its build ended with exit code 3" in result.stdout
+    assert "    no luck" in result.stdout
+
+
+def test_a_program_older_than_its_code_is_not_deployed(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    """Whoever built it, and with a hint that works when it is typed."""
+    write_tree(tmp_path, JAVA | {
+        "rcyaml.yaml": "", "robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  eye: {component: eye, ready: {log: up}}\n  left: {component: eye, enabled: false}\n",
+    })  # fmt: skip
+    command(tmp_path, "mkdir -p bin; printf '#!/bin/sh\\necho up; sleep 60\\n' > bin/EyeComp; chmod +x bin/EyeComp")
+    plan = rcyaml("deploy", "plan")
+    assert plan.exit_code == 1 and "then `rcyaml build EyeComp`" in plan.stderr and "RC7016" not in plan.stderr
+    assert rcyaml("build", "EyeComp").exit_code == 0
+    assert rcyaml("deploy", "plan").exit_code == 0
+    code = tmp_path / "eye" / "src" / "SpecificWorker.java"
+    code.write_text("class SpecificWorker { int more; }\n")
+    for command_ in ("plan", "up"):
+        told = rcyaml("deploy", command_)
+        assert told.exit_code == 1
+        assert (
+            "error[RC7016]: the program of 'eye' is older than what it is made of: eye/src/SpecificWorker.java"
+            in told.stderr
+        )
+        assert "`rcyaml build EyeComp`" in told.stderr
+    assert "warning[RC7016]" in rcyaml("deploy", "status").stderr
+    up = rcyaml("deploy", "up", "--build")
+    assert up.exit_code == 0, up.output
+    assert "built       eye/bin/EyeComp" in up.stdout and "eye  ready" in up.stdout
+    code.write_text("class SpecificWorker { int yetMore; }\n")
+    assert rcyaml("deploy", "restart").exit_code == 1
+    assert rcyaml("deploy", "down").exit_code == 0
+    command(tmp_path, "echo 'src/SpecificWorker.java:1: error: no'; exit 1")
+    up = rcyaml("deploy", "up", "--build")
+    assert up.exit_code == 1 and "Robot: nothing was touched" in up.stdout
+
+
+def test_programs_on_other_hosts_and_of_other_names_are_not_judged(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    write_tree(tmp_path, JAVA | {
+        "rcyaml.yaml": "", "eye/bin/EyeComp": "-> /bin/true", "eye/bin/other": "-> /bin/true",
+        "robot.ddsl.yaml": "deployment: Robot\ncomponents:\n  eye: {component: eye, executable: bin/other}\n",
+        "far.ddsl.yaml": "deployment: Far\nhosts: {there: 192.0.2.7}\ncomponents:\n  eye: {component: eye, host: there}\n",
+    })  # fmt: skip
+    for document in ("robot.ddsl.yaml", "far.ddsl.yaml"):
+        assert "RC7016" not in rcyaml("deploy", "plan", document).output
+
+
+def test_compile_says_what_to_build_again(rcyaml: Rcyaml, tmp_path: Path) -> None:
+    write_tree(
+        tmp_path,
+        DOCUMENTS | {"eye/eye.cdsl.yaml": "component: EyeComp\nlanguage: java\nimports: [Arm]\nrequires: [Arm]\n"},
+    )
+    assert "build again" not in rcyaml("compile").stdout, "there is no program yet"
+    (tmp_path / "eye" / "bin" / "EyeComp").symlink_to("/bin/true")
+    (tmp_path / "Arm.idsl.yaml").write_text(DOCUMENTS["Arm.idsl.yaml"].replace("float", "int"))
+    assert rcyaml("compile").stdout.splitlines()[-1] == "build again: EyeComp: `rcyaml build EyeComp`"
+    assert "build again" not in rcyaml("compile").stdout, "nothing was written"
+
+
+def test_ctrl_c_ends_what_is_being_built(tmp_path: Path) -> None:
+    write_tree(tmp_path, JAVA)
+    command(tmp_path, "echo $$ > pid; sleep 60; echo gone on > after")
+    build = subprocess.Popen(
+        [Path(sys.executable).with_name("rcyaml"), "build"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )  # fmt: skip
+    pid = tmp_path / "eye" / "pid"
+    until = time.monotonic() + 30
+    while not (pid.is_file() and pid.read_text().strip()) and time.monotonic() < until:
+        time.sleep(0.05)
+    build.send_signal(signal.SIGINT)
+    out, err = build.communicate(timeout=30)
+    assert build.returncode == 130, out + err
+    assert "interrupted" in err and "Traceback" not in err
+    assert not os.path.exists(f"/proc/{int(pid.read_text())}") and not (tmp_path / "eye" / "after").exists()
+
+
+@pytest.mark.skipif(not shutil.which("cmake"), reason="CMake is not installed")
+def test_without_cmake_it_is_said_what_to_install(
+    rcyaml: Rcyaml, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_tree(tmp_path, {"rcyaml.yaml": "", "arm/arm.cdsl.yaml": "component: ArmComp\nlanguage: cpp\n"})
+    rcyaml("compile")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    result = rcyaml("build")
+    assert result.exit_code == 1
+    assert "error[RC8003]: ArmComp cannot be built: there is no program 'cmake'" in result.stdout
+    assert "sudo apt install cmake" in result.stdout
