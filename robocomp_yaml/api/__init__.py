@@ -39,8 +39,8 @@ if TYPE_CHECKING:
     from robocomp_yaml.parameters.editing.show import Value
 
 __all__ = [
-    "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty", "File",
-    "Fixing", "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span", "Status",
+    "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty",
+    "File", "Fixing", "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span", "Status",
     "Value", "Values", "Workspace", "load", "migrate",
 ]  # fmt: skip
 
