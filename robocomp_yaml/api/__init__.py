@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty",
-    "File", "Fixing", "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span", "Status",
-    "Value", "Values", "Workspace", "load", "migrate",
+    "File", "Fixing", "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span",
+    "Status", "Value", "Values", "Workspace", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {
