@@ -41,12 +41,17 @@ class Compilation:
 
     def __init__(
         self, analysis: Analysis, paths: Sequence[str], include: Sequence[str], output: str | None,
-        targets: Sequence[str], *, adopt: bool, merge: bool,
+        targets: Sequence[str], *, adopt: bool, merge: bool, standalone: bool = False,
     ) -> None:  # fmt: skip
-        self._analysis, self._adopt, self._merge = analysis, adopt, merge
+        self._analysis, self._adopt, self._merge, self._standalone = analysis, adopt, merge, standalone
         self._paths, self._include, self._output, self._targets = tuple(paths), tuple(include), output, tuple(targets)
         options = Options(
-            output, analysis.found.folders, frozenset(targets), analysis.linker.workspace_of, _ports(analysis)
+            output,
+            analysis.found.folders,
+            frozenset(targets),
+            analysis.linker.workspace_of,
+            _ports(analysis),
+            standalone=standalone,
         )
         self._built = build(analysis.program, analysis.diagnostics, options)
         Fences(self._paths, output).keep_inside(self._built)
@@ -94,7 +99,9 @@ class Compilation:
         if not self._merge and not has_errors(one for one in told if one not in lasting):
             taken = self._stamp(own, changes, schemas, outcome.settled(lasting, changes))
             if taken is not None:
-                made_already.keep(taken, self._paths, self._include, self._output, self._targets)
+                made_already.keep(
+                    taken, self._paths, self._include, self._output, self._targets, standalone=self._standalone
+                )
         return outcome
 
     def _prepare(self, own: Review, others: Sequence[str]) -> Changes:

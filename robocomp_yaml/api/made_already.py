@@ -12,10 +12,10 @@ from robocomp_yaml.transactions import stamp
 
 def outcome(
     paths: Sequence[str], include: Sequence[str], output: str | None = None, targets: Sequence[str] = (), *,
-    planned: bool = False,
+    standalone: bool = False, planned: bool = False,
 ) -> Outcome | None:  # fmt: skip
     """What the same compile made again would come to; None where it is to be made."""
-    made = stamp.load(*_place(paths, include, output, targets))
+    made = stamp.load(*_place(paths, include, output, targets, standalone=standalone))
     if made is None or not stamp.is_current(made):
         return None
     if made.plugins:
@@ -39,15 +39,17 @@ def told_of_code(paths: Sequence[str], include: Sequence[str]) -> list[Diagnosti
 
 
 def keep(
-    taken: stamp.Stamp, paths: Sequence[str], include: Sequence[str], output: str | None, targets: Sequence[str]
+    taken: stamp.Stamp, paths: Sequence[str], include: Sequence[str], output: str | None, targets: Sequence[str], *,
+    standalone: bool = False,
 ) -> None:  # fmt: skip
     """Keeps the stamp of a compile with these arguments."""
-    stamp.save(*_place(paths, include, output, targets), taken)
+    stamp.save(*_place(paths, include, output, targets, standalone=standalone), taken)
 
 
 def _place(
-    paths: Sequence[str], include: Sequence[str], output: str | None = None, targets: Sequence[str] = ()
-) -> tuple[str, str]:
+    paths: Sequence[str], include: Sequence[str], output: str | None = None, targets: Sequence[str] = (), *,
+    standalone: bool = False,
+) -> tuple[str, str]:  # fmt: skip
     """The folder below which a compile with these arguments keeps its stamp, and the stamp's name."""
-    name = stamp.key([*paths, "-o", output or "", "-I", *include, "-t", *targets])
+    name = stamp.key([*paths, "-o", output or "", "-I", *include, "-t", *targets, *(["alone"] if standalone else [])])
     return output or (paths[0] if os.path.isdir(paths[0]) else os.path.dirname(paths[0])) or ".", name

@@ -48,14 +48,29 @@ class Workspace:
         return self.analysis.whole(found, environment=environment)
 
     def compile(
-        self, *, output: str | None = None, targets: Sequence[str] = (), adopt: bool = False, merge: bool = False
+        self,
+        *,
+        output: str | None = None,
+        targets: Sequence[str] = (),
+        adopt: bool = False,
+        merge: bool = False,
+        standalone: bool = False,
     ) -> Compilation:
         """What compiling comes to; nothing is written before its `apply`. `output` is a folder to write below;
         `targets` limits what is written (`slice`, `python`, `cpp`, `config`, `docs`); `adopt` takes over files that
         rcyaml did not write, `merge` brings the user's files up to date."""
         from robocomp_yaml.api.compiling import Compilation
 
-        return Compilation(self.analysis, self._paths, self._include, output, targets, adopt=adopt, merge=merge)
+        return Compilation(
+            self.analysis,
+            self._paths,
+            self._include,
+            output,
+            targets,
+            adopt=adopt,
+            merge=merge,
+            standalone=standalone,
+        )
 
     def fix(self, *, unsafe: bool = False, environment: bool = False) -> Fixing:
         """What applying the fixes of diagnostics comes to: those that leave only one possible meaning, and with

@@ -23,6 +23,7 @@ def _targets(plugins: Plugins) -> list[str]:
 @click.command(cls=Command, short_help="Write Slice and components; only what changed.")
 @_options.paths
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR.")
+@click.option("--standalone", is_flag=True, help="Give each component all that it needs, in its own folder.")
 @click.option("--target", "targets", multiple=True, type=Plugged(_targets), help="Write only this; may be repeated.")
 @click.option("--dry-run", is_flag=True, help="Say what would be written, and write nothing.")
 @click.option("--diff", is_flag=True, help="Show what would change in each file, and write nothing.")
@@ -34,8 +35,9 @@ def _targets(plugins: Plugins) -> list[str]:
 @_options.format_
 @click.pass_context
 def command(
-    ctx: click.Context, paths: tuple[str, ...], output: str | None, targets: tuple[str, ...], dry_run: bool,
-    diff: bool, check: bool, adopt: bool, merge: bool, fail_on: _fail_on.FailOn, include: tuple[str, ...], format_: str,
+    ctx: click.Context, paths: tuple[str, ...], output: str | None, standalone: bool, targets: tuple[str, ...],
+    dry_run: bool, diff: bool, check: bool, adopt: bool, merge: bool, fail_on: _fail_on.FailOn,
+    include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Compile the documents at PATHS (by default, below this folder).
 
@@ -50,12 +52,12 @@ def command(
     look_only = dry_run or diff or check
     outcome = None
     if not (diff or merge or ctx.obj.verbosity > 0):
-        outcome = made_already.outcome(paths, include, output, targets, planned=look_only)
+        outcome = made_already.outcome(paths, include, output, targets, standalone=standalone, planned=look_only)
     if outcome is None:
         from robocomp_yaml import api
 
         with _options.progress("reading", paths) as on_read:
             workspace = api.load(*paths, include=include, on_read=on_read)
-        plan = workspace.compile(output=output, targets=targets, adopt=adopt, merge=merge)
+        plan = workspace.compile(output=output, targets=targets, adopt=adopt, merge=merge, standalone=standalone)
         outcome = plan.look(with_diff=diff) if look_only else plan.apply()
     _outcome.report(ctx, outcome, format_, diff=diff, check=check, fail_on=fail_on)

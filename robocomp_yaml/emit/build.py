@@ -21,8 +21,8 @@ from robocomp_yaml.digraph import inner_first, reached
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import Options
+from robocomp_yaml.emit.shared import Shared
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
-from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             yield replace(plain, path=folder + plain.path) if folder else plain
 
     def slice_root(linked: LinkedModule) -> str:
-        return options.output or _slice_folder(options.workspace_of(linked.module.path))
+        return options.output or options.workspace_of(linked.module.path).slice_folder
 
     asked = {program.modules[real]: real for real in program.asked & program.modules.keys()}
 
@@ -70,15 +70,19 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             result.plans.append(RootPlan(root, owner, tuple(slices(needed))))
         else:
             result.left_out.add(asked[linked])
+    shared = Shared(options, slices, program.disk)
     for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if options.only and not options.only(component):
             continue
         if _usable_component(component, state, result):
             # with the targets, which Slice alone needs not
-            from robocomp_yaml.emit.component import component_plan, values_of
+            from robocomp_yaml.emit.component import component_plan, component_root, values_of
 
-            plan = component_plan(component, options, slices, program)
+            place = shared.layout(component, component_root(component.component.path, options))
+            if not options.only:
+                shared.add(component, place)
+            plan = component_plan(component, options, slices, program, place)
             sources = _documents_of(component)
             files = [replace(file, sources=(*sources, *file.sources)) for file in plan.files]
             if any(document.path in state.faulty for document in values_of(component, program)):
@@ -88,6 +92,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             result.plans.append(replace(plan, files=tuple(files)))
         else:
             result.left_out.add(real)
+    result.plans += shared.plans({(plan.root, plan.owner) for plan in result.plans})
     result.left_out |= _unused(program, state, result.left_out)
     return result
 
@@ -107,10 +112,6 @@ def _unused(program: Program, state: _State, left_out: set[str]) -> set[str]:
     paths |= {real: linked.deployment.path for real, linked in program.deployments.items()}
     unread = program.asked - program.modules.keys() - program.components.keys() - paths.keys()
     return unread | broken | {real for real, path in paths.items() if path in state.faulty}
-
-
-def _slice_folder(workspace: Workspace) -> str:
-    return workspace.slice_folder or os.path.join(workspace.root, "slice")
 
 
 class _State(msgspec.Struct):

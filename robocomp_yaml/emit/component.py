@@ -7,10 +7,12 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml import resources
-from robocomp_yaml.emit import config
-from robocomp_yaml.emit.layout import CONFIG
+from robocomp_yaml.emit import config, runtime
+from robocomp_yaml.emit.layout import ALONE, CONFIG, GENERATED, SLICE, Layout
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
@@ -29,20 +31,21 @@ def component_plan(
     options: Options,
     slices: Callable[[Iterable[LinkedModule], str], Iterator[FilePlan]],
     program: Program,
+    layout: Layout,
 ) -> RootPlan:
-    """The plan of one component: Slice, its language, `etc/config` from its values or a first one, docs."""
+    """The plan of one component: its own Slice and run time where it has them, its language, `etc/config` from its
+    values or a first one, docs."""
     component = linked.component
-    root = _component_root(component.path, options)
+    root = component_root(component.path, options)
     files: list[FilePlan] = []
-    if options.wants("slice"):
+    if options.wants("slice") and layout.has_own_slice:
         modules = linked.modules()
-        files += slices(modules, "slice/")
-        if all(scope.module.name != "RoboCompCommonBehavior" for scope in modules):
-            common = resources.text("templates/slice/CommonBehavior.ice")
-            files.append(FilePlan("slice/CommonBehavior.ice", common))
+        files += slices(modules, f"{SLICE}/")
+        if not component.language.target.runtime and all(scope.module.name != BEHAVIOR for scope in modules):
+            files.append(FilePlan(f"{SLICE}/{COMMON}", resources.text(f"templates/slice/{COMMON}")))
     if options.wants(component.language.name):
         with _telling(linked, options):
-            files += component.language.target.part("plan").plan(linked)
+            files += of_language(linked, layout)
             if component.sources or component.libraries:
                 from robocomp_yaml.emit import uses
 
@@ -59,6 +62,21 @@ def component_plan(
         files += _docs(linked)
     owner = os.path.relpath(component.path, root)
     return RootPlan(root, owner, tuple(files), partial=bool(options.targets))
+
+
+def of_language(linked: LinkedComponent, layout: Layout = ALONE) -> list[FilePlan]:
+    """What the component's language makes of it; with the run time, unless that is shared."""
+    target = linked.component.language.target
+    part = target.part("plan")
+    if not target.runtime:
+        return list(part.plan(linked))
+    files = list(part.plan(linked, layout))
+    if layout.has_own_runtime:
+        needs = part.needs(linked)
+        files += [
+            replace(file, path=f"{GENERATED}/{file.path}") for file in runtime.files(target.name) if needs(file.path)
+        ]
+    return files
 
 
 def _telling(linked: LinkedComponent, options: Options) -> AbstractContextManager[None]:
@@ -127,7 +145,7 @@ def _docs(linked: LinkedComponent) -> Iterator[FilePlan]:
     yield FilePlan(EXAMPLE, new_document(parameters, f"../{where}", head, []))
 
 
-def _component_root(path: str, options: Options) -> str:
+def component_root(path: str, options: Options) -> str:
     folder = os.path.dirname(path) or "."
     if options.output is None:
         return folder

@@ -18,7 +18,8 @@ class Options(msgspec.Struct):
     """`output` is `-o DIR` or None; `below` are the folders that were asked for (`-o` mirrors what lies below them);
     `targets` what to emit, all when empty; `workspace_of` the workspace of a document; `ports` those of a
     component's workspace (asked for only where its configuration leaves some open). `only` limits it to some
-    components, for the user's own files there: interfaces and schemas are left out."""
+    components, for the user's own files there: interfaces and schemas are left out. `standalone`: components have
+    all that they need in their own folders, instead of sharing it."""
 
     output: str | None
     below: Sequence[str]
@@ -26,6 +27,7 @@ class Options(msgspec.Struct):
     workspace_of: Callable[[str], Workspace]
     ports: Callable[[LinkedComponent], Ports]
     only: Callable[[LinkedComponent], bool] | None = None
+    standalone: bool = False
 
     def wants(self, target: str) -> bool:
         return not self.targets or target in self.targets

@@ -38,6 +38,13 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     `keywords` are the language's own words; `taken` are names that nothing of the user's can have there, `members` more
     that a parameter cannot have in code.
 
+    `runtime` are the folders that are its run time: the same for all of its components, copied as they stand, and
+    shared by those of a workspace; of its templates, or packages of the compiler where they are named with a dot. Where
+    it has some, `plan` is told where they are, and `needs(component)` which files one needs that stands alone.
+    `runtime_root` is where they stand below the workspace's folder for the language.
+
+    `states` is the generated file that says which Slice the component was made for, where it may share that.
+
     `program` is what is started, relative to the component's folder, with {name} for the component's. `build` are the
     commands that make it, with {folder} for that folder; none where `compile` writes it. `loaded` are the files that
     the program reads when it starts: folders, and how the names of the files there end. `suffixes` are those of code,
@@ -55,6 +62,9 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
     keywords: frozenset[str] = frozenset()
     taken: frozenset[str] = frozenset()
     members: frozenset[str] = frozenset()
+    runtime: tuple[str, ...] = ()
+    runtime_root: str = ""
+    states: str = ""
     program: str = "bin/{name}"
     build: tuple[tuple[str, ...], ...] = ()
     loaded: Mapping[str, tuple[str, ...]] = MappingProxyType({})

@@ -10,7 +10,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
-from robocomp_yaml.model.build_interface import entries, items, text
+from robocomp_yaml.model.build_interface import entries, items
 from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
@@ -23,15 +23,25 @@ SUFFIX = ".idsl.yaml"
 
 class Workspace(msgspec.Struct, frozen=True):
     """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
-    look for imports in, `slice_folder` is where Slice goes (both joined with the root), `lint` a severity (or
-    'off') by code; `plugins` are those that it names."""
+    look for imports in, `output` those of outputs where it names some (both joined with the root), `lint` a severity
+    (or 'off') by code; `plugins` are those that it names."""
 
     root: str
     declared: bool = False
     interfaces: tuple[str, ...] = ()
-    slice_folder: str = ""
+    output: Map[str, str] = {}
     lint: Map[str, str] = {}
     plugins: Plugins = NONE
+
+    @property
+    def slice_folder(self) -> str:
+        """Where the Slice of its interfaces goes."""
+        return self.output.get("slice") or os.path.join(self.root, "slice")
+
+    @property
+    def runtime_folder(self) -> str:
+        """Where the run time goes that its components share, a folder for each language."""
+        return self.output.get("runtime") or os.path.join(self.root, "runtime")
 
 
 def root_above(folder: str, disk: Disk | None = None) -> str | None:
@@ -63,13 +73,13 @@ def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnosti
     if diagnostics or not isinstance(tree, Mapping):
         return workspace, diagnostics
     named = (node.lexeme for node in items(tree, "interfaces") if isinstance(node, Scalar))
-    slice_folder = text(tree.get("output"), "slice")
+    output = ((key.lexeme, node.lexeme) for key, node in entries(tree, "output") if isinstance(node, Scalar))
     plugins, said = _plugins(tree)
     workspace = Workspace(
         root,
         True,
         tuple(os.path.normpath(os.path.join(root, folder)) for folder in named),
-        os.path.normpath(os.path.join(root, slice_folder)) if slice_folder else "",
+        {kind: os.path.normpath(os.path.join(root, folder)) for kind, folder in output if folder},
         {key.lexeme: str(value.data) for key, value in entries(tree, "lint") if value.data is not None},
         plugins,
     )

@@ -10,6 +10,7 @@ from pathlib import Path
 from robocomp_yaml import pipeline, resources
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.emit import slice as slice_target
+from robocomp_yaml.emit.component import of_language
 
 
 @dataclass(frozen=True)
@@ -49,11 +50,10 @@ def build(documents: Mapping[str, str], folder: Path, *search: Path) -> dict[str
     for linked in analysis.program.components.values():
         component = linked.component
         root = Path(component.path).parent
-        files = [
-            (file.path, file.text, file.executable) for file in component.language.target.part("plan").plan(linked)
-        ]
+        files = [(file.path, file.text, file.executable) for file in of_language(linked)]
         files += [(f"slice/{slice_target.file_name(m)}", slice_target.text(m), False) for m in linked.modules()]
-        files.append(("slice/CommonBehavior.ice", resources.text("templates/slice/CommonBehavior.ice"), False))
+        if not component.language.target.runtime:
+            files.append(("slice/CommonBehavior.ice", resources.text("templates/slice/CommonBehavior.ice"), False))
         for path, text, executable in files:
             (root / path).parent.mkdir(parents=True, exist_ok=True)
             (root / path).write_text(text, encoding="utf-8")

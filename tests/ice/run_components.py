@@ -43,14 +43,13 @@ def main() -> None:
 
 def run(root: Path) -> tuple[list[str], int]:
     """What went wrong, and how many calls were made."""
-    import generated.runtime.slices
+    import generated.runtime
     from generated.runtime.application import Application
     from generated.runtime.settings import Settings
     from generated.runtime.stage import Stage
     from generated.runtime.stopping import Stopping
 
     generated.__path__[:] = [str(root / "generated")]
-    generated.runtime.slices.FOLDER = root / "slice"
     sys.path[:1] = [str(root), str(root / "src")]
     wrong: list[str] = []
     calls: list[str] = []

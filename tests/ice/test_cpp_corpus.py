@@ -18,7 +18,7 @@ from robocomp_yaml import resources
 from robocomp_yaml.cli import group
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.emit import slice as slice_target
-from robocomp_yaml.languages.cpp import plan as cpp
+from robocomp_yaml.emit.component import of_language
 from robocomp_yaml.languages.cpp.ports import Ports
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import Component, Language, Use
@@ -107,7 +107,7 @@ def test_a_sample_compiles(modules: list[LinkedModule], tmp_path: Path) -> None:
     big = sorted((m for m in modules if m.module.all_interfaces), key=lambda linked: len(slice_target.text(linked)))
     for linked in big[:: len(big) // SAMPLE][:SAMPLE]:
         folder = tmp_path / linked.module.stem
-        for file in cpp.plan(component(linked)):
+        for file in of_language(component(linked)):
             (folder / file.path).parent.mkdir(parents=True, exist_ok=True)
             (folder / file.path).write_text(file.text, encoding="utf-8")
         sources = ("generated/genericworker.cpp", "src/specificworker.cpp", "generated/main.cpp")

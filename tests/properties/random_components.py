@@ -10,7 +10,7 @@ from typing import Any
 
 from robocomp_yaml import pipeline
 from robocomp_yaml.diag.diagnostic import ERROR
-from robocomp_yaml.languages import table
+from robocomp_yaml.emit.component import of_language
 from robocomp_yaml.transactions.plan import ONCE, RootPlan
 
 TYPES = ("int", "string", "bool", "float", "Pose", "Names", "Side")
@@ -65,7 +65,7 @@ def plan(model: Model, language: str, folder: Path, root: Path) -> RootPlan:
     analysis = pipeline.analyse([str(folder)])
     assert not [d for d in analysis.diagnostics if d.severity == ERROR], analysis.diagnostics
     (linked,) = analysis.program.components.values()
-    files = tuple(file for file in table()[language].part("plan").plan(linked) if file.policy == ONCE)
+    files = tuple(file for file in of_language(linked) if file.policy == ONCE)
     return RootPlan(str(root), "robot.cdsl.yaml", files)
 
 

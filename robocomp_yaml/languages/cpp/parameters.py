@@ -96,12 +96,6 @@ def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]
     return {f"parameters.{suffix}": render(f"cpp/parameters.{suffix}.j2", view) for suffix in ("h", "cpp")}
 
 
-def unused_runtime(parameters: Parameters) -> frozenset[str]:
-    """The files of the run time that these parameters do not need."""
-    unused = set() if pattern_count(parameters.root) else {"pattern.cpp", "pattern.h"}
-    return frozenset(unused if parameters.constraints else {*unused, "expressions.cpp", "expressions.h"})
-
-
 def _view(parameters: Parameters, name: str, source: str) -> View:
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]

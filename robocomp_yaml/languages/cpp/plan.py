@@ -1,31 +1,33 @@
 """The C++ target: a component that is built with CMake and needs Ice 3.7 alone.
 
-Most of it is the same for every component and is copied as it stands (`templates/runtime/`); what differs are a
-small generated part, the user's skeleton and the files for CMake.
+Most of it is the same for every component: the run time, which is compiled once. What differs are a small generated
+part, the user's skeleton and the files for CMake.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from types import ModuleType
 from typing import TYPE_CHECKING
 
 import msgspec
 
-from robocomp_yaml.emit import windows
-from robocomp_yaml.emit.copied import copied
-from robocomp_yaml.emit.lowering.component import lower
+from robocomp_yaml.emit import runtime, windows
+from robocomp_yaml.emit.layout import Layout, stated
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, lower
+from robocomp_yaml.emit.lowering.kinds import pattern_count
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.languages.cpp import LANGUAGE, parameters, qt
 from robocomp_yaml.languages.cpp.ports import AccessorView, Ports, ServiceView
 from robocomp_yaml.languages.cpp.qt import QtView, RobocompView
 from robocomp_yaml.languages.cpp.text import comment, one_line, quoted
-from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.machines.views import MachineView
 
-_TOPICS = frozenset(("topics.cpp", "topics.h"))  # of the run time, only where a component has topics
 # Targets that CMake makes by itself.
 _CMAKE_TARGETS = frozenset(
     "all clean depend edit_cache help install package package_source preinstall rebuild_cache test".split()
@@ -50,9 +52,12 @@ class View(msgspec.Struct, frozen=True):
     has_topics: bool
     target: str
     standard: int
-    ice_components: str
-    libraries: str
-    slice_stems: str
+    runtime: str
+    version: str
+    slice: str
+    made_for: str
+    slices: list[str]
+    parts: str
     sources: list[str]
     qt: QtView | None
     robocomp: RobocompView | None
@@ -60,15 +65,13 @@ class View(msgspec.Struct, frozen=True):
     base: str
 
 
-def plan(component: LinkedComponent) -> list[FilePlan]:
-    """The component's files but for `slice/` and `etc/`."""
-    of_qt = windows.files(component, of_machines=qt.MACHINE_FILES, of_windows=qt.WINDOW_FILES)
-    parts = [*(_machine().files(component.machine) if component.machine else []), *of_qt]
-    view = _view(component, parts)
+def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
+    """The component's files but for `slice/`, `etc/` and the run time."""
+    parts = [*(_machine().files(component.machine) if component.machine else []), *windows.form_of(component)]
+    view = _view(component, layout)
     if view.robocomp:
         return _robocomp(component, view, parts)
     return [
-        *copied("cpp", "runtime", _unused(component)),
         *parameters.plan(component),
         *parts,
         *(
@@ -88,10 +91,10 @@ def _machine() -> ModuleType:
     return statemachine
 
 
-def _unused(component: LinkedComponent) -> frozenset[str]:
-    """The files of the run time that the component does not need."""
-    unused = parameters.unused_runtime(component.parameters.parameters)
-    return unused if component.publishes or component.subscribes else unused | _TOPICS
+def needs(component: LinkedComponent) -> Callable[[str], bool]:
+    """Which files of the run time a component needs that stands alone."""
+    folders = {"cmake", "runtime", "slice", *windows.folders(component)}
+    return lambda path: path.partition("/")[0] in folders
 
 
 def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> list[FilePlan]:
@@ -111,7 +114,6 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         "CMakeLists.txt": "CMakeLists.txt",
     }
     return [
-        *copied("cpp", "runtime", _unused(component)),
         *parameters.plan(component),
         *parts,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
@@ -126,17 +128,16 @@ def _ignored(view: View) -> FilePlan:
     return FilePlan("bin/.gitignore", f"{head}\n/{view.name}\n", ONCE)
 
 
-def _view(linked: LinkedComponent, parts: list[FilePlan]) -> View:
+def _view(linked: LinkedComponent, layout: Layout) -> View:
     component = linked.component
     ports = Ports(linked)
     has_topics = bool(ports.publishes or ports.subscribes)
     has_services = bool(ports.implements or ports.subscribes)
     lowered = lower(linked)
-    files = lowered.files
+    is_needed = linked.component.compatibility or not lowered.is_common
+    files = [file for file in lowered.files if is_needed or file != COMMON]
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
     services = "services" if has_services else "/*services*/"
-    sources = [file.path.removeprefix("generated/") for file in (*copied("cpp", "runtime", _unused(linked)), *parts)]
-    ice = ["Ice++11", "IceStorm++11"] if has_topics else ["Ice++11"]
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
         source=one_line(lowered.source),
@@ -154,15 +155,51 @@ def _view(linked: LinkedComponent, parts: list[FilePlan]) -> View:
         has_topics=has_topics,
         target=f"{component.name}_component" if is_taken else component.name,
         standard=component.language.standard or LANGUAGE.standards[0],
-        ice_components=" ".join(ice),
-        libraries=" ".join(f"Ice::{name}" for name in ice),
-        slice_stems=" ".join(quoted(file.removesuffix(".ice")) for file in files),
-        sources=["genericworker.cpp", "parameters.cpp", *(path for path in sources if path.endswith(".cpp"))],
+        runtime=layout.runtime,
+        version=runtime.version("cpp"),
+        slice=layout.slice,
+        made_for=stated(layout.made_for) if layout.made_for else "",
+        slices=_slices(linked),
+        parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics)),
+        sources=["genericworker.cpp", "parameters.cpp", *(["statemachine.cpp"] if linked.machine else [])],
         machine=_machine().view(linked.machine) if linked.machine else None,
         base=_base(linked),
         qt=qt.qt_view(linked),
         robocomp=qt.robocomp_view(linked, ports),
     )
+
+
+def _slices(linked: LinkedComponent) -> list[str]:
+    """Each Slice file of the component's own modules, with those that it includes, as words of CMake; CommonBehavior
+    stands in the run time."""
+
+    def stem(scope: LinkedModule) -> str:
+        return file_name(scope).removesuffix(".ice")
+
+    return [
+        " ".join(quoted(stem(one)) for one in (scope, *(other for other in scope.closure() if other is not scope)))
+        for scope in linked.modules()
+        if scope.module.name != BEHAVIOR or not runtime.has_common(linked)
+    ]
+
+
+def _parts(linked: LinkedComponent, has_topics: bool) -> Iterator[str]:
+    """The libraries of the run time that it needs."""
+    if linked.component.compatibility:
+        yield "robocomp"
+    if linked.component.gui:
+        yield "widgets"
+    elif linked.component.compatibility:
+        yield "qt"
+    if linked.machine:
+        yield "machine"
+    if has_topics:
+        yield "topics"
+    if linked.parameters.parameters.constraints:
+        yield "expressions"
+    if pattern_count(linked.parameters.parameters.root):
+        yield "pattern"
+    yield "core"
 
 
 def _base(linked: LinkedComponent) -> str:

@@ -15,9 +15,6 @@ from robocomp_yaml.languages.cpp.types import input_type, type_name
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
 
-WINDOW_FILES = frozenset(("windowworker.h",))  # of the folder qt, only for windows whose worker has its own thread
-MACHINE_FILES = frozenset(("machine.cpp", "machine.h"))  # of the folder robocomp, only where there is a machine
-
 
 class QtView(msgspec.Struct, frozen=True):
     """What a component needs of Qt: `modules` for find_package, `libraries` to link, `base` the class of its window."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import msgspec
 
-from robocomp_yaml.emit.copied import copied
 from robocomp_yaml.emit.machines import lower, views
 from robocomp_yaml.emit.machines.views import EventView, MachineView
 from robocomp_yaml.emit.render import render
@@ -26,14 +25,13 @@ def view(machine: StateMachine) -> MachineView:
 
 
 def files(machine: StateMachine) -> list[FilePlan]:
-    """The interpreter, and the tables of the component's machine."""
+    """The tables of the component's machine."""
     shown = TablesView(
         source=one_line(machine.path.rpartition("/")[2]),
         events=views.events(machine, parameter),
         functions=machine_text.functions(lower.lower(machine), "makeTables"),
     )
     return [
-        *copied("cpp", "machine"),
         FilePlan("generated/statemachine.h", render("cpp/statemachine.h.j2", shown)),
         FilePlan("generated/statemachine.cpp", render("cpp/statemachine.cpp.j2", shown)),
     ]

@@ -1,22 +1,23 @@
 """The Python target: a component that runs with Python 3.9 and Ice 3.7 alone.
 
-Most of it is the same for every component and is copied as it stands (`templates/runtime/`, `semantics`); what differs
-are a few small generated files, the user's skeleton and a launcher.
+Most of it is the same for every component: the run time (`templates/runtime/`, `semantics`). What differs are a few
+small generated files, the user's skeleton and a launcher.
 """
 
 from __future__ import annotations
 
 import json
+import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from types import ModuleType
 from typing import TYPE_CHECKING
 
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.emit import windows
-from robocomp_yaml.emit.copied import copied, shared
+from robocomp_yaml.emit import runtime, windows
+from robocomp_yaml.emit.layout import Layout, stated
 from robocomp_yaml.emit.lowering.component import BEHAVIOR, lower
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.python import parameters, qt
@@ -48,6 +49,10 @@ class View(msgspec.Struct, frozen=True):
     """
 
     source: str
+    runtime: str
+    version: str
+    slice: str
+    made_for: str
     name: str
     title: str
     docstring: str
@@ -74,9 +79,9 @@ class View(msgspec.Struct, frozen=True):
     spread: tuple[str, ...] = ()
 
 
-def plan(component: LinkedComponent) -> list[FilePlan]:
-    """The component's files but for `slice/` and `etc/`."""
-    view = _view(component)
+def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
+    """The component's files but for `slice/`, `etc/` and the run time."""
+    view = _view(component, layout)
     methods = [method for port in view.served for method in port.new_methods]
     proxies = [port.proxy for port in view.accessors]
     signatures = [method.signature for method in methods]
@@ -84,13 +89,13 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
     table += [method.throws for port in view.implements for method in port.methods]
     stubs = [*signatures, *(method.value for method in methods)]
     return [
-        *_runtime(),
+        FilePlan("generated/__init__.py", _rendered("__init__.py", view)),
         *(_machine().files(component.machine, component.component.name) if component.machine else []),
         FilePlan("generated/interfaces.py", _rendered("interfaces.py", view)),
         FilePlan("generated/interfaces.pyi", _rendered("interfaces.pyi", view)),
         parameters.plan(component),
         FilePlan("generated/component.py", _rendered("component.py", view, table)),
-        *windows.files(component, of_machines=qt.MACHINE_FILES),
+        *windows.form_of(component),
         *(
             _robocomp(view)
             if component.component.compatibility
@@ -101,6 +106,9 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
         ),
         FilePlan(f"bin/{view.name}", _rendered("launcher", view), ONCE, executable=True),
     ]
+
+
+_SCRIPTING = "machine/scripting.py"  # it evaluates what documents say
 
 
 def _machine() -> ModuleType:
@@ -127,19 +135,23 @@ def _rendered(template: str, view: View, code: Iterable[str] = ()) -> str:
     return render(f"python/{template}.j2", replace(view, imports=imports))
 
 
-def _runtime() -> tuple[FilePlan, ...]:
-    """The files that are the same in every component."""
-    files = copied("python", "runtime")
-    package = next(file for file in files if file.path.endswith("/__init__.py"))
-    return (replace(package, path="generated/__init__.py"), *files, *shared())
+def needs(component: LinkedComponent) -> Callable[[str], bool]:
+    """Which files of the run time a component needs that stands alone."""
+    folders = {"runtime", "slice", *windows.folders(component)}
+    left_out = set() if component.machine and _machine().scripts(component.machine) else {_SCRIPTING}
+    return lambda path: path.partition("/")[0] in folders and path not in left_out
 
 
-def _view(linked: LinkedComponent) -> View:
+def _view(linked: LinkedComponent, layout: Layout) -> View:
     component = linked.component
     ports = Ports(linked)
     lowered = lower(linked)
     return View(
         source=one_line(lowered.source),
+        runtime="" if layout.has_own_runtime else os.path.normpath(f"../{layout.runtime}/.."),
+        version=runtime.version("python"),
+        slice=os.path.normpath(f"../{layout.slice}"),
+        made_for=stated(layout.made_for) if layout.made_for else "",
         name=lowered.name,
         title=docstring(lowered.doc, ""),
         docstring=docstring(lowered.doc, "    "),

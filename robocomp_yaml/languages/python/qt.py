@@ -7,7 +7,6 @@ from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.model.interface import Sequence
 
 QT_STAGE, ROBOCOMP_STAGE = "generated.qt.stage", "generated.robocomp.stage"
-MACHINE_FILES = frozenset(("machine.py",))  # of the folder robocomp, only for components with a state machine
 
 
 def stage(linked: LinkedComponent) -> str:

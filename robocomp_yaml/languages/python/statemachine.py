@@ -1,7 +1,4 @@
-"""The state machine of a Python component: its tables and events, and the interpreter that is copied along.
-
-The part that evaluates Python text is copied only where the machine's data model asks for it.
-"""
+"""The state machine of a Python component: its tables and events."""
 
 from __future__ import annotations
 
@@ -11,7 +8,6 @@ from dataclasses import MISSING, fields, is_dataclass
 
 import msgspec
 
-from robocomp_yaml.emit.copied import copied
 from robocomp_yaml.emit.machines import lower, views
 from robocomp_yaml.emit.machines.views import EventView, MachineView
 from robocomp_yaml.emit.render import render
@@ -50,9 +46,6 @@ def _sequence(items: list[str], indent: str) -> str:
     return "(\n" + "".join(f"{inner}{item},\n" for item in items) + f"{indent})"
 
 
-_SCRIPTING = "scripting.py"
-
-
 class TablesView(msgspec.Struct, frozen=True):
     source: str
     name: str
@@ -67,9 +60,8 @@ def view(machine: StateMachine) -> MachineView:
 
 
 def files(machine: StateMachine, component: str) -> list[FilePlan]:
-    """The interpreter, and the tables of the component's machine."""
-    without = frozenset() if _scripts(machine) else frozenset((_SCRIPTING,))
-    return [*copied("python", "machine", without), FilePlan("generated/statemachine.py", tables(machine, component))]
+    """The tables of the component's machine."""
+    return [FilePlan("generated/statemachine.py", tables(machine, component))]
 
 
 def tables(machine: StateMachine, component: str) -> str:
@@ -80,7 +72,7 @@ def tables(machine: StateMachine, component: str) -> str:
         TablesView(
             source=one_line(machine.path.rpartition("/")[2]),
             name=component,
-            scripting=_scripts(machine),
+            scripting=scripts(machine),
             tables=", ".join(sorted(set(re.findall(r"\b([A-Z][a-z]+)\(", _without_texts(literal))))),
             events=views.events(machine, python_name),
             machine=literal,
@@ -92,6 +84,6 @@ def _without_texts(literal: str) -> str:
     return re.sub(r"""'(?:[^'\\\n]|\\.)*'|"(?:[^"\\\n]|\\.)*\"""", "''", literal)
 
 
-def _scripts(machine: StateMachine) -> bool:
+def scripts(machine: StateMachine) -> bool:
     """Whether it, or a machine that it invokes, has expressions of Python."""
-    return machine.datamodel == PYTHON or any(map(_scripts, MachineIndex(machine).invoked()))
+    return machine.datamodel == PYTHON or any(map(scripts, MachineIndex(machine).invoked()))

@@ -3,10 +3,16 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
+
+from generated.runtime.errors import StartError
+
+VERSION = "@RUNTIME_VERSION@"
+"""Which run time this is: it is made of all its files."""
 
 
 @dataclass(frozen=True)
@@ -63,11 +69,13 @@ class Subscribed:
 
 @dataclass(frozen=True)
 class Component:
-    """`period` is in milliseconds; `behavior` is the Slice module RoboCompCommonBehavior; `stage` is a subclass of
-    `Stage`, where the worker does not live in the usual one; `base` is the class of Qt that its window is of."""
+    """`period` is in milliseconds; `runtime` is the version that it was generated for; `behavior` is the Slice module
+    RoboCompCommonBehavior; `stage` is a subclass of `Stage`, where the worker does not live in the usual one; `base` is
+    the class of Qt that its window is of."""
 
     name: str
     period: int
+    runtime: str
     behavior: ModuleType
     implements: tuple[Implemented, ...] = ()
     requires: tuple[Required, ...] = ()
@@ -75,3 +83,8 @@ class Component:
     subscribes: tuple[Subscribed, ...] = ()
     stage: Callable[..., Any] | None = None
     base: str = ""
+
+    def __post_init__(self) -> None:
+        if self.runtime != VERSION:
+            where = os.path.dirname(__file__)
+            raise StartError(f"it was compiled for another run time than the one in {where}: compile it again")

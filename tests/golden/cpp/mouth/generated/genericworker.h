@@ -3,7 +3,7 @@
 
 #include "interfaces.h"
 #include "parameters.h"
-#include "runtime/worker.h"
+#include <runtime/worker.h>
 
 #include <memory>
 #include <stdexcept>

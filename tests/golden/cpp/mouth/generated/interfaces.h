@@ -4,4 +4,3 @@
 // What slice2cpp makes of the files in slice/.
 #include <Types.ice.h>
 #include <Mouth.ice.h>
-#include <CommonBehavior.ice.h>

@@ -7,6 +7,7 @@ from generated.runtime.ports import Component, Implemented, Method, Published, R
 COMPONENT = Component(
     name="SpeechComp",
     period=50,
+    runtime="VERSION",
     behavior=RoboCompCommonBehavior,
     implements=(
         Implemented(

@@ -3,7 +3,7 @@
 
 #include "interfaces.h"
 #include "parameters.h"
-#include "machine/worker.h"
+#include <machine/worker.h>
 #include "statemachine.h"
 
 #include <memory>

@@ -1,0 +1,69 @@
+"""The run time of a language: the files that are the same in all of its components, as they are copied.
+
+It is known by its version, which is made of all that is in it; what is generated says which one it is for.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from functools import cache
+from importlib import import_module
+
+from robocomp_yaml import resources
+from robocomp_yaml.emit import slice as slice_target
+from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON
+from robocomp_yaml.languages import language
+from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.source.digest import digest
+from robocomp_yaml.transactions.plan import FilePlan
+
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\s+", re.DOTALL)
+VERSION = "@RUNTIME_VERSION@"
+"""Stands in a file of the run time for its version."""
+
+
+@cache
+def files(name: str) -> tuple[FilePlan, ...]:
+    """The run time of the language called `name`, below its folder."""
+    version_ = version(name)
+    return tuple(
+        FilePlan(path, text.replace(VERSION, version_) if VERSION in text else text) for path, text in _texts(name)
+    )
+
+
+@cache
+def version(name: str) -> str:
+    """What tells one run time of a language from another."""
+    return digest("\0".join(part for file in _texts(name) for part in file).encode())[:12]
+
+
+@cache
+def _texts(name: str) -> tuple[tuple[str, str], ...]:
+    target = language(name)
+    texts = []
+    for folder in target.runtime:
+        package, _, last = folder.rpartition(".")
+        source = os.path.dirname(import_module(folder).__file__ or "") if package else f"{target.templates}/{folder}"
+        place = f"runtime/{last}" if package else folder
+        texts += [(f"{place}/{file}", text) for file, text in resources.files(source)]
+    return (*texts, (f"slice/{COMMON}", _common()))
+
+
+def has_common(linked: LinkedComponent) -> bool:
+    """Whether the run time's CommonBehavior is also the component's, if it names one itself."""
+    return all(
+        slice_target.file_name(scope) == COMMON and _meaning(slice_target.text(scope)) == _meaning(_common())
+        for scope in linked.modules()
+        if scope.module.name == BEHAVIOR
+    )
+
+
+@cache
+def _common() -> str:
+    return resources.text(f"templates/slice/{COMMON}")
+
+
+def _meaning(text: str) -> str:
+    """Slice without comments, blanks and guards."""
+    return _COMMENT.sub("", re.sub(r"^\s*#.*$", "", text, flags=re.MULTILINE))
