@@ -120,6 +120,7 @@ def test_a_migrated_document_is_not_refused(diagnostics: Check) -> None:
 TAKEN = {
     "a macro": "enum Kind { EOF, OK };",
     "a macro of windows": "struct Pose { float Q_x; };",
+    "a macro of windows as a type": "struct Q_Pose { float x; };",
     "a macro as a method": "interface Chart { void assert(int x); };",
     "a type hidden": "enum Kind { a }; interface Map { void f(Kind Kind, Kind other); };",
     "a result": "enum Kind { a }; interface Map { int f(out Kind Kind); };",
