@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 COMPONENT = Path(__file__).resolve().parent / "talkinghead" / "components" / "speech"
-SLICE = COMPONENT / "slice"
+SLICE = COMPONENT.parents[1] / "slice"
 sys.path.insert(0, str(COMPONENT))
 
 
