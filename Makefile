@@ -26,7 +26,7 @@ help:
 	@echo "make demo   install into $(VENV), and run the example: migrate, check, compile, deploy, call"
 	@echo "make test   install what the tests need, and run them all"
 	@echo "make test-long  the same with all C++ builds and more random cases: more than half an hour"
-	@echo "make unit   the tests of parts by themselves: some 20 seconds"
+	@echo "make unit   the tests of parts by themselves: some 30 seconds"
 	@echo "make fast   the tests that need neither C++ builds nor an editor"
 	@echo "make fuzz   look for new failing examples, for FUZZ_MINUTES=10 minutes"
 	@echo "make mutants  MUTANTS=60 small changes of what the code means, SEED=1: which the unit tests notice"

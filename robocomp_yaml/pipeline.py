@@ -35,21 +35,22 @@ from robocomp_yaml.network.networks import Derived, networks_of
 from robocomp_yaml.source.allowances import Allowance
 from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.spelled import spelled
+from robocomp_yaml.source.spelled import Texts, spelled
 
 if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
 
 class Analysis(msgspec.Struct, frozen=True):
-    """A program with its diagnostics, sorted, the disk that they were read from, and its networks; `used` are the
-    comments that allow some of what was found."""
+    """A program with its diagnostics, sorted, the disk that they were read from, its texts as they were read, and its
+    networks; `used` are the comments that allow some of what was found."""
 
     program: Program
     linker: Linker
     found: Found
     disk: Disk
     derived: Derived
+    texts: Texts
     allowed: Allowed
     diagnostics: tuple[Diagnostic, ...] = ()
     used: frozenset[Allowance] = frozenset()
@@ -79,7 +80,7 @@ class Analysis(msgspec.Struct, frozen=True):
     def shown(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics as users get them: at the severities that the workspaces ask for, with fixes that say what to
         write, and without secrets."""
-        return self.veiled(spelled(_with_lint(diagnostics, self.linker), self.disk.contents))
+        return self.veiled(spelled(_with_lint(diagnostics, self.linker), self.texts))
 
     def veiled(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics without the secrets that the documents hold."""
@@ -117,8 +118,9 @@ def analyse(
         said += check(program)
     said += of_networks(derived, program)
     said += secrets.check(program, linker.documents.read.values())
-    allowed = Allowed.of(disk.contents, program.plugins_of)
-    analysis = Analysis(program, linker, found, disk, derived, allowed)
+    texts = Texts(disk.contents, linker.documents.trees())
+    allowed = Allowed.of(texts, program.plugins_of)
+    analysis = Analysis(program, linker, found, disk, derived, texts, allowed)
     judged = analysis.judged([*said, *analysis.allowed.said])
     return replace(analysis, diagnostics=tuple(in_order(analysis.shown(judged.told))), used=judged.used)
 

@@ -12,6 +12,7 @@ from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.parameters.resolution.resolve import resolve
 from robocomp_yaml.parameters.specification import build as build_parameters
 from robocomp_yaml.parameters.types import Parameters
+from robocomp_yaml.parameters.writing.properties import Section
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.tree import Mapping, Node, parse
 from robocomp_yaml.source.yaml_text import flow
@@ -45,6 +46,11 @@ def values(of: LinkedParameters, data: Data, **more: Any) -> LinkedValues:
     root = tree(flow({"parameters": data, **more}), "x.config.yaml")
     assert isinstance(root, Mapping)
     return LinkedValues(build_parameters.build_values(root, "x.config.yaml"), parameters=of)
+
+
+def as_dict(sections: list[Section]) -> dict[str, str]:
+    """The properties of a file, without its sections."""
+    return {made.key: made.value for section in sections for made in section.properties}
 
 
 # Documents of parameters with values that fit them, and values that may not.

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.outcome import File, Outcome
     from robocomp_yaml.api.values import Change, Values
     from robocomp_yaml.api.workspace import Workspace
+    from robocomp_yaml.deploy.attached import Attached
     from robocomp_yaml.deploy.engine import Line
     from robocomp_yaml.deploy.operations import Result, Status
     from robocomp_yaml.deploy.plan import Plan
@@ -38,17 +39,17 @@ if TYPE_CHECKING:
     from robocomp_yaml.parameters.editing.show import Value
 
 __all__ = [
-    "ERROR", "NOTE", "WARNING", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty", "File",
-    "Fixing", "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span", "Status",
-    "Value", "Values", "Workspace", "load", "migrate",
+    "ERROR", "NOTE", "WARNING", "Attached", "Built", "Change", "Compilation", "Deployment", "Diagnostic", "Faulty",
+    "File", "Fixing", "Line", "Migration", "Network", "Outcome", "Plan", "Refused", "Related", "Result", "Span",
+    "Status", "Value", "Values", "Workspace", "load", "migrate",
 ]  # fmt: skip
 
 _HOMES = {
-    "Built": "api.building", "Change": "api.values", "Compilation": "api.compiling", "Deployment": "api.deploying",
-    "File": "api.outcome", "Fixing": "api.fixing", "Line": "deploy.engine", "Migration": "api.migrating",
-    "Network": "network.network", "Outcome": "api.outcome", "Plan": "deploy.plan", "Result": "deploy.operations",
-    "Status": "deploy.operations", "Value": "parameters.editing.show", "Values": "api.values",
-    "Workspace": "api.workspace",
+    "Attached": "deploy.attached", "Built": "api.building", "Change": "api.values", "Compilation": "api.compiling",
+    "Deployment": "api.deploying", "File": "api.outcome", "Fixing": "api.fixing", "Line": "deploy.engine",
+    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Plan": "deploy.plan",
+    "Result": "deploy.operations", "Status": "deploy.operations", "Value": "parameters.editing.show",
+    "Values": "api.values", "Workspace": "api.workspace",
 }  # fmt: skip
 
 

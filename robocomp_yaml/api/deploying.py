@@ -252,7 +252,10 @@ class Deployment:
 
         plugins = self._analysis.program.plugins_of(self.path)
         _one_of("export", form, exports.forms(plugins))
-        files, told = exported.files(self.network, form, plugins, reveal=reveal)
+        try:
+            files, told = exported.files(self.network, form, plugins, reveal=reveal)
+        except Faulty as error:  # of a plug-in
+            files, told = {}, [*error.diagnostics]
         self._told += told
         if has_errors(told):
             raise Faulty(self.diagnostics)

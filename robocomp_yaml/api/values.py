@@ -140,7 +140,7 @@ class Values:
         found = show.find(values, steps)
         if found is None:
             return None
-        return copy.deepcopy(found[0]) if reveal else show.hidden_at(values.parameters.root, steps, found[0])
+        return copy.deepcopy(found) if reveal else show.hidden_at(values.parameters.root, steps, found)
 
     def export(self, form: str = "ice", *, reveal: bool = True) -> str:
         """All effective values as a property file for Ice (`ice`) or as TOML (`toml`). Programs get the values as they

@@ -110,12 +110,22 @@ class Workspace:
         there is none, or several; Faulty where its errors leave no network."""
         return self.networks[self._deployment_at(path)]
 
-    def deployment(self, path: str = "", *, engine: str | None = None) -> Deployment:
+    def deployment(self, path: str = "", *, engine: str | None = None, lenient: bool = False) -> Deployment:
         """The same deployment as it is carried out: planned, brought up, watched and taken down. `engine` is what runs
-        it (`local`, `icegrid`); without one, what its hosts call for. Faulty where the documents have errors."""
+        it (`local`, `icegrid`); without one, what its hosts call for. Faulty where the documents have errors; `lenient`
+        lets those pass that leave the network readable, and where they do not, at a path, takes what runs of it."""
         from robocomp_yaml.api.deploying import Deployment
 
-        return Deployment(self.analysis, self._deployment_at(path), engine)
+        document = path if path and lenient else self._deployment_at(path)
+        return Deployment(self.analysis, document, engine, lenient=lenient)
+
+    def draw(self, form: str = "text", path: str = "") -> str:
+        """A picture in one of the forms of `rcyaml graph`: of the deployment at a path, or of what a folder has, which
+        is its deployment or else its components. Raises Refused where there are several, or a document is none, and
+        Faulty where errors leave nothing to show."""
+        from robocomp_yaml.api.drawing import draw
+
+        return draw(self.analysis, form, path or self._paths[0])
 
     def _deployment_at(self, path: str) -> str:
         """The document of the deployment that is meant, if it comes to a network."""

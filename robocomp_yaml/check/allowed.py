@@ -12,7 +12,7 @@ from robocomp_yaml.diag.codes import row_of
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.allowances import OURS, Allowance, allowances
-from robocomp_yaml.source.spelled import Text, text_of
+from robocomp_yaml.source.spelled import Text, Texts
 
 _ABOUT_THEM = ("RC0060", "RC0061", "RC0062", "RC0063", "RC0064")
 
@@ -33,16 +33,16 @@ class Allowed(msgspec.Struct, frozen=True):
     texts: Mapping[str, Text] = {}
 
     @classmethod
-    def of(cls, contents: Mapping[str, bytes], plugins_of: Callable[[str], Plugins]) -> Allowed:
+    def of(cls, texts: Texts, plugins_of: Callable[[str], Plugins]) -> Allowed:
         """Those of the YAML documents among these files; `plugins_of` says which plug-ins count for one."""
-        by_file, said, texts = {}, [], {}
-        for path, raw in contents.items():
-            if path.endswith(".yaml") and OURS.search(raw) and (text := text_of(path, raw)) is not None:
+        by_file, said, having = {}, [], {}
+        for path, raw in texts.contents.items():
+            if path.endswith(".yaml") and OURS.search(raw) and (text := texts.get(path)) is not None:
                 plugins = plugins_of(path)
                 found, wrong = allowances(text, plugins.codes, whole=plugins.whole)
-                by_file[path], texts[path] = tuple(found), text
+                by_file[path], having[path] = tuple(found), text
                 said += wrong
-        return cls(by_file, tuple(said), texts)
+        return cls(by_file, tuple(said), having)
 
     def judge(self, diagnostics: Iterable[Diagnostic], lint: Callable[[str], Mapping[str, str]]) -> Judged:
         """Which of these are told. `lint` gives the severities that a file's workspace asks for: an error that it makes

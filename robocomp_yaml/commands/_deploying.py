@@ -13,12 +13,11 @@ from typing import TypeVar
 import click
 import msgspec
 
-from robocomp_yaml.api.deploying import Deployment
+from robocomp_yaml import api
 from robocomp_yaml.api.deployments import document
 from robocomp_yaml.commands import _deploy_views as views
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._progress import Progress
-from robocomp_yaml.deploy.attached import Attached
 from robocomp_yaml.deploy.engine import Line
 from robocomp_yaml.deploy.operations import Result
 from robocomp_yaml.diag import terminal
@@ -35,7 +34,7 @@ class Opened(msgspec.Struct):
     """A deployment as a command works on it; of its diagnostics some have been `shown`. `ended_by` is the exit code
     where the user had enough of what was brought up."""
 
-    deployment: Deployment
+    deployment: api.Deployment
     format_: str
     shown: list[Diagnostic] = []
     ended_by: int = 0
@@ -51,11 +50,9 @@ def open_(
     """Reads the document and all that belongs to it. Ends the command where it has errors; `lenient` lets those pass
     that leave the network readable, and takes what runs where they do not: it can be taken down whatever became of its
     documents."""
-    from robocomp_yaml.pipeline import analyse
-
     path = os.path.normpath(document(ddsl, include))
     try:
-        deployment = Deployment(analyse([path], include), path, engine, lenient=lenient)
+        deployment = api.load(path, include=include).deployment(path, engine=engine, lenient=lenient)
     except Faulty as faulty:
         _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
         raise
@@ -120,7 +117,7 @@ def up(
     end(ctx, opened)
 
 
-def _attached(ctx: click.Context, opened: Opened, progress: Progress) -> Attached:
+def _attached(ctx: click.Context, opened: Opened, progress: Progress) -> api.Attached:
     """The user, who sees what the processes print and has enough with Ctrl-C."""
     view = views.LogView(opened.deployment.enabled, _options.colored(ctx), times=False)
 
@@ -138,7 +135,7 @@ def _attached(ctx: click.Context, opened: Opened, progress: Progress) -> Attache
         if opened.format_ == "text" and ctx.obj.verbosity >= 0:
             terminal.say(f"{opened.network.name}: Ctrl-C takes it down")
 
-    return Attached(on_up, on_line if opened.format_ == "text" else None)
+    return api.Attached(on_up, on_line if opened.format_ == "text" else None)
 
 
 def status(ctx: click.Context, opened: Opened, names: tuple[str, ...]) -> None:
@@ -189,8 +186,10 @@ def carried_out(ctx: click.Context, opened: Opened, work: Callable[[], T], on_in
     what runs."""
     try:
         return work()
-    except Faulty:
-        end(ctx, opened)
+    except Faulty as faulty:
+        known = opened.deployment.diagnostics
+        if all(told in known for told in faulty.diagnostics):
+            end(ctx, opened)
         raise
     except KeyboardInterrupt as error:
         if on_interrupt is None:

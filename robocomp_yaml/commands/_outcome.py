@@ -57,17 +57,20 @@ def report(
 
 
 def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
-    """One line a file; of many alike in one folder, one line for all. What did not change is for the curious, and so
-    is what is the user's, where nothing beside it changed."""
+    """One line a file; of many alike in one folder of a component, or in what components share, one line for all. What
+    did not change is for the curious, and so is what is the user's, where nothing beside it changed."""
     words = _WOULD if outcome.planned else _DONE
-    groups: dict[tuple[str, str, str], list[File]] = {}
     changed = {file.root for file in outcome.files if file.action in CHANGED}
-    for file in outcome.files:
-        idle = file.action == "unchanged" or (file.action == "kept" and file.root not in changed)
-        if file.action == "refused" or (idle and not verbose):
-            continue
-        top, slash, _ = os.path.relpath(file.path, file.root).partition("/")
-        folder = os.path.normpath(os.path.join(file.root, top)) if slash else file.root
+    listed = [file for file in outcome.files if _is_listed(file, changed, verbose=verbose)]
+    if not listed:
+        return
+    from robocomp_yaml.emit.layout import GENERATED  # a run with nothing to do imports little
+
+    tops = {file: os.path.relpath(file.path, file.root).partition("/") for file in listed}
+    parted = {file.root for file, (top, _, _) in tops.items() if top == GENERATED}
+    groups: dict[tuple[str, str, str], list[File]] = {}
+    for file, (top, slash, _) in tops.items():
+        folder = os.path.normpath(os.path.join(file.root, top)) if slash and file.root in parted else file.root
         groups.setdefault((file.root, file.action, folder), []).append(file)
     width = max(11 if outcome.planned else 7, *(len(words[action]) for _, action, _ in groups), 0)
     for (_, action, folder), group in groups.items():
@@ -77,6 +80,11 @@ def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
         for file in group:
             kept = f" (yours is {file.orig})" if file.orig else " (yours)" if action == "kept" else ""
             yield f"{words[action]:<{width}}  {file.path}{kept}"
+
+
+def _is_listed(file: File, changed: set[str], *, verbose: bool) -> bool:
+    idle = file.action == "unchanged" or (file.action == "kept" and file.root not in changed)
+    return file.action != "refused" and (verbose or not idle)
 
 
 def _summary(outcome: Outcome) -> str:

@@ -6,11 +6,8 @@ import os
 
 import click
 
-from robocomp_yaml import languages
 from robocomp_yaml.commands import _workspace
 from robocomp_yaml.diag import terminal
-
-EXAMPLE = "Hello"
 
 
 @click.command(short_help="Make a folder a workspace that already checks.")
@@ -22,19 +19,10 @@ def command(ctx: click.Context, folder: str, bare: bool) -> None:
 
     Nothing that is there is overwritten. A folder without documents gets an example of each kind.
     """
-    from robocomp_yaml.api import new as documents
-    from robocomp_yaml.commands import new
-    from robocomp_yaml.source.discover import documents_below
+    from robocomp_yaml.api.new import workspace
 
-    empty = not os.path.isdir(folder) or not list(documents_below(folder))
-    try:
-        _workspace.make(ctx, folder)
-        if empty and not bare:
-            new.write(ctx, documents.interface_document(folder, EXAMPLE))
-            example = {"implements": [EXAMPLE]}
-            new.write(ctx, documents.component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example))
-    except OSError as error:
-        raise _workspace.unwritable(error) from error
+    with _workspace.writing():
+        workspace.init(folder, _workspace.tell, bare=bare)
     if ctx.obj.verbosity >= 0:
         is_here = os.path.realpath(folder) == os.getcwd()
         there = "" if is_here else f"{terminal.typed('cd', os.path.normpath(folder))}, then "

@@ -3,7 +3,6 @@ there is no workspace yet, this folder becomes one."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +14,6 @@ from robocomp_yaml.commands import _options, _workspace
 from robocomp_yaml.commands._command import Group
 from robocomp_yaml.commands._plugged import Plugged
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.transactions import whole_file
 
 if TYPE_CHECKING:
     from robocomp_yaml.plugins import Plugins
@@ -40,8 +38,9 @@ def interface(ctx: click.Context, name: str) -> None:
 def _names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[str]:
     """Shell completion: the interfaces that the workspace defines."""
     from robocomp_yaml.api.new.imports import interfaces_of
+    from robocomp_yaml.link.workspace import root_above
 
-    root = _root()
+    root = root_above(".")
     return [name for name in interfaces_of(root) if name.startswith(incomplete)] if root else []
 
 
@@ -91,32 +90,10 @@ def deployment(ctx: click.Context, name: str) -> None:
     _create(ctx, lambda root: new.deployment_document(root, name), "deploy plan")
 
 
-def write(ctx: click.Context, document: new.NewDocument) -> None:
-    """Writes a document where nothing stands yet."""
-    os.makedirs(os.path.dirname(document.path) or ".", exist_ok=True)
-    whole_file.create(document.path, document.text)
-    _workspace.tell(ctx, "wrote", document.path)
-
-
 def _create(ctx: click.Context, make: Callable[[str], new.NewDocument], next_: str = "compile") -> None:
-    from robocomp_yaml.link import workspace_files
+    from robocomp_yaml.api.new import workspace
 
-    root = _root()
-    try:
-        if root is None:
-            root = "."
-            make(root)  # what is refused leaves no workspace behind
-            _workspace.make(ctx, root)
-        document = make(root)
-        write(ctx, document)
-        workspace_files.install(root)
-    except OSError as error:
-        raise _workspace.unwritable(error) from error
+    with _workspace.writing():
+        path = workspace.create(make, _workspace.tell)
     if ctx.obj.verbosity >= 0:
-        terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), document.path)}")
-
-
-def _root() -> str | None:
-    from robocomp_yaml.link.workspace import root_above
-
-    return root_above(".")
+        terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), path)}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 
 import click
 from click.shell_completion import CompletionItem
@@ -11,9 +10,6 @@ from click.shell_completion import CompletionItem
 from robocomp_yaml.commands import _plugged
 from robocomp_yaml.commands._command import Command
 from robocomp_yaml.diag import terminal
-from robocomp_yaml.source.regular import regular, whole
-
-_MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
 
 
 def _kinds(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
@@ -41,72 +37,30 @@ def command(ctx: click.Context, kind: str | None) -> None:
 
 def _list() -> None:
     """The kinds, and where this workspace keeps the schema of each."""
+    from robocomp_yaml.api.schemas import installed
     from robocomp_yaml.link.workspace import root_above
-    from robocomp_yaml.link.workspace_files import GLOBS, schema_path
+    from robocomp_yaml.link.workspace_files import GLOBS
 
-    root = root_above(".")
+    paths = installed(root_above(".") or ".")
     for name, globs in GLOBS.items():
-        installed = os.path.normpath(os.path.join(root or ".", schema_path(name)))
-        terminal.say(f"{name:<10} {', '.join(globs):<28} {installed if os.path.isfile(installed) else ''}".rstrip())
+        terminal.say(f"{name:<10} {', '.join(globs):<28} {paths[name]}".rstrip())
 
 
 def _tell(document: str) -> None:
     """Which schema applies to a document, and by what its editor finds it."""
-    from robocomp_yaml.link.workspace import root_above
-    from robocomp_yaml.link.workspace_files import modeline, schema_path
+    from robocomp_yaml.api.schemas import schema_for
 
-    kind = _kind_of(document)
-    folder = os.path.dirname(document) or "."
-    root = root_above(folder) or folder
-    terminal.say(f"{document} has the schema '{kind}'")
-    named = _named(document)
-    installed = os.path.normpath(os.path.join(root, schema_path(kind)))
-    if named is not None:
-        terminal.say(f"editors find it by the first lines of the document: {named}")
-        _tell_whether_right(kind, os.path.normpath(os.path.join(folder, named)), named, root)
-    elif os.path.isfile(installed):
-        terminal.say(f"editors find it by the workspace's settings: {installed}")
-        _tell_whether_right(kind, installed, installed, root)
+    schema = schema_for(document)
+    init = f"`{terminal.typed('rcyaml', 'init', schema.root)}`"
+    terminal.say(f"{document} has the schema '{schema.kind}'")
+    if schema.named:
+        terminal.say(f"editors find it by the first lines of the document: {schema.named}")
+    elif schema.path:
+        terminal.say(f"editors find it by the workspace's settings: {schema.path}")
     else:
-        init = f"`{terminal.typed('rcyaml', 'init', root)}`"
         terminal.say(f"editors do not find it: {init} installs it, and the document's first line would name it:")
-        terminal.say(modeline(kind, document, root))
-
-
-def _kind_of(document: str) -> str:
-    from robocomp_yaml.diag.suggest import suggest
-    from robocomp_yaml.link.workspace_files import GLOBS
-    from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
-
-    kind = "workspace" if os.path.basename(document) == WORKSPACE_FILE else kind_of(document)
-    if kind is None:
-        meant = suggest(document, GLOBS)
-        hint = f"did you mean '{meant}'?" if meant else f"kinds are {', '.join(GLOBS)}"
-        raise click.UsageError(f"'{document}' is neither a kind nor the name of a document; {hint}")
-    if not os.path.isfile(document):
-        raise click.UsageError(f"there is no file '{document}'")
-    return kind
-
-
-def _named(document: str) -> str | None:
-    """The schema that a document's modeline names."""
-    try:
-        with open(document, encoding="utf-8", errors="replace", opener=regular) as file:
-            head = file.read(10_000)
-    except OSError as error:
-        raise click.UsageError(f"cannot read {document}: {error.strerror}") from error
-    found = _MODELINE.search(head)
-    return found[1] if found else None
-
-
-def _tell_whether_right(kind: str, path: str, named: str, root: str) -> None:
-    from robocomp_yaml.link.workspace_files import schema_of
-
-    init = f"`{terminal.typed('rcyaml', 'init', root)}`"
-
-    if "://" in named:
-        return
-    if not os.path.isfile(path):
+        terminal.say(schema.modeline)
+    if schema.is_missing:
         terminal.say(f"that file is missing: {init} writes it again")
-    elif whole(path)[0] != schema_of(kind, _plugged.here(root)).encode("utf-8"):
+    elif schema.path and schema.is_outdated(_plugged.here(schema.root)):
         terminal.say(f"that file is not this version's schema: {init} writes it again")

@@ -1,1 +1,1 @@
-"""From the program to files: what is to be written (the plan), how it is rendered, and the writing itself."""
+"""From the program to files: what is to be written (the plan), and how it is rendered."""

@@ -70,7 +70,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
             result.plans.append(RootPlan(root, owner, tuple(slices(needed))))
         else:
             result.left_out.add(asked[linked])
-    shared = Shared(options, slices)
+    shared = Shared(options, slices, program.disk)
     for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if options.only and not options.only(component):

@@ -11,14 +11,13 @@ from robocomp_yaml.emit.ports import Ports, interface_key
 from robocomp_yaml.emit.specific.entries import spellings
 from robocomp_yaml.link.program import LinkedComponent, Port
 from robocomp_yaml.network.port_numbers import default_port
+from robocomp_yaml.parameters.defaults import period
 from robocomp_yaml.semantics.connections import MANAGER, endpoints, proxy, topic_endpoints
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source.ice_endpoint import IceEndpoint
 from robocomp_yaml.source.properties import entry_line, read
 from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
-
-DEFAULT_PERIOD = 100
 
 _ICE = (
     ("Ice.Warn.Connections", "0", "1: warn when a connection is lost."),
@@ -141,7 +140,7 @@ def _topics(linked: LinkedComponent) -> Iterator[str]:
 
 def _worker(linked: LinkedComponent) -> Iterator[str]:
     yield "# Milliseconds from one call of compute() to the next."
-    yield entry_line("period.compute", str(linked.component.period or DEFAULT_PERIOD))
+    yield entry_line("period.compute", str(period(linked.parameters.parameters)))
 
 
 def _middleware() -> Iterator[str]:

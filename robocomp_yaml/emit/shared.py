@@ -11,6 +11,7 @@ from robocomp_yaml.emit.options import Options
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.link.workspace import Workspace
 from robocomp_yaml.source.discover import WORKSPACE_FILE
+from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
 
 Slices = Callable[[Iterable[LinkedModule]], Iterator[FilePlan]]
@@ -19,8 +20,8 @@ Slices = Callable[[Iterable[LinkedModule]], Iterator[FilePlan]]
 class Shared:
     """Gathers, component by component, what is to be there for all of them. `slices` renders modules."""
 
-    def __init__(self, options: Options, slices: Slices) -> None:
-        self._options, self._slices = options, slices
+    def __init__(self, options: Options, slices: Slices, disk: Disk) -> None:
+        self._options, self._slices, self._disk = options, slices, disk
         self._runtimes: dict[tuple[str, str], RootPlan] = {}
         self._modules: dict[LinkedModule, str] = {}
 
@@ -30,7 +31,8 @@ class Shared:
         if options.output is not None or options.standalone:
             return ALONE
         workspace = options.workspace_of(linked.component.path)
-        if not all(self._is_of(workspace, scope) for scope in linked.modules()):
+        modules = linked.modules()
+        if not all(self._is_of(workspace, one) and not _is_beside(workspace, one, self._disk) for one in modules):
             return layout(linked, workspace, root, "", "")
         texts = {file.path: file.text for file in self._slices(linked.modules())}
         return layout(linked, workspace, root, workspace.slice_folder, fingerprint(texts))
@@ -58,6 +60,15 @@ class Shared:
             owner = _owner(scope.module.path, root)
             if (root, owner) not in planned:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
+
+
+def _is_beside(workspace: Workspace, scope: LinkedModule, disk: Disk) -> bool:
+    """Whether it stands in front of another document of its name, which others import, and which has the place."""
+    name = os.path.basename(scope.module.path)
+    for folder in workspace.interfaces:
+        if disk.has_file(path := os.path.join(folder, name)):
+            return os.path.realpath(path) != os.path.realpath(scope.module.path)
+    return False
 
 
 def _owner(document: str, root: str) -> str:

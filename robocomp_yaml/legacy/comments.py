@@ -38,11 +38,13 @@ class Placed(msgspec.Struct, frozen=True):
     diagnostics: list[Diagnostic] = []
 
     def of(self, tree: Tree[Token]) -> Notes:
-        return Notes() if tree.meta.empty else self.by_place.get(_key(tree), Notes())
+        found = None if tree.meta.empty else self.by_place.get(_key(tree))
+        return Notes() if found is None else found
 
 
 def _key(tree: Tree[Token]) -> tuple[str, int, int]:
-    return str(tree.data), tree.meta.start_pos, tree.meta.end_pos
+    meta = tree.meta
+    return str(tree.data), meta.start_pos, meta.end_pos
 
 
 def place(tree: Tree[Token], comments: Sequence[Token], source: Source, rules: Rules) -> Placed:

@@ -7,12 +7,16 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 
 import msgspec
 
+from robocomp_yaml.diag.span import Span
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, mapping_at, scalar_at, sequence_at, text_at
 from robocomp_yaml.source.yaml_text import escaped, is_printable, text_of
 
 WIDTH = 120
+_NOWHERE = Span("")
 GAP = None  # an empty line between comments; several are one
 Line = str | None
 
@@ -94,6 +98,29 @@ class Entry(msgspec.Struct):
     key: str
     value: Value
     notes: Notes = msgspec.field(default_factory=Notes)
+
+
+def tree(document: Map) -> Mapping:
+    """What reading the document's text would give, for what needs no places in it."""
+    entries = {entry.key: (_scalar(entry.key), _node(entry.value)) for entry in document.entries}
+    return mapping_at(_NOWHERE, entries)
+
+
+def _node(value: Value) -> Node:
+    if isinstance(value, Name | Doc):
+        return _scalar(value.text)
+    if isinstance(value, str):
+        return _scalar(value)
+    if isinstance(value, Map):
+        return tree(value)
+    if isinstance(value, List):
+        return sequence_at(_NOWHERE, [_node(item.value) for item in value.items])
+    return scalar_at(_NOWHERE, value.lexeme if value else "")
+
+
+@lru_cache(1024)  # most of a document are words that come again
+def _scalar(text: str) -> Scalar:
+    return text_at(_NOWHERE, text)
 
 
 def text(document: Map, around: Notes) -> str:

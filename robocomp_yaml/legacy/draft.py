@@ -182,10 +182,11 @@ class Reader(msgspec.Struct, eq=False):
         lines = self.notes(tree).doc
         if not lines:
             return ""
-        own = "|".join(re.escape(name) for name in names if name)
-        drop = re.compile(self.rules.doc_drop.replace("{name}", f"(?:{own})"))
-        kept = [line.replace("\t", " ") for line in lines if not drop.match(line.strip())]
-        return trimmed(self.rules.doc_strip.sub("", "\n".join(kept)))
+        drop = self.rules.doc_drop
+        if any(re.match(drop.replace("{name}", "(?:.*)"), line.strip()) for line in lines):  # seldom, for any name
+            own = "|".join(re.escape(name) for name in names if name)
+            lines = [line for line in lines if not re.match(drop.replace("{name}", f"(?:{own})"), line.strip())]
+        return trimmed(self.rules.doc_strip.sub("", "\n".join(lines).replace("\t", " ")))
 
     def imports(self, nodes: list[Tree[Token]]) -> tuple[List, list[ImportDraft]]:
         """The list under `imports:`, each file once."""

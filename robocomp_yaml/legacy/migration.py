@@ -31,8 +31,6 @@ from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.migrated import HEADING
-from robocomp_yaml.source.tree import Mapping as Tree
-from robocomp_yaml.source.tree import parse
 
 _IMPORTS = (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id)
 _SAME = {
@@ -174,7 +172,8 @@ def _plan(
         home = known.of(document).root
         gap = "\n" if around.head else ""
         root = run.root(file.root)
-        text = raw or _with_heading(yaml.text(content, around), gap, _modeline(document, home, kind, content), kind)
+        heading = HEADING if kind == "idsl" and _has_taken(content) else ""
+        text = raw or _modeline(document, home, kind, content) + heading + gap + yaml.text(content, around)
         output = root.add(os.path.relpath(document, file.root), text, force=force, sources=(file.path,))
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
@@ -185,15 +184,10 @@ def _plan(
         run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)
 
 
-def _with_heading(text: str, gap: str, modeline: str, kind: str) -> str:
-    """A document below what says where its schema is and, where that counts, that it was migrated."""
-    return modeline + (HEADING if kind == "idsl" and _has_taken(text) else "") + gap + text
-
-
-def _has_taken(text: str) -> bool:
+def _has_taken(content: yaml.Map) -> bool:
     """Whether a document of interfaces has names that some language takes."""
-    tree, _ = parse("", text)
-    if not isinstance(tree, Tree) or schema.validate("idsl", tree):
+    tree = yaml.tree(content)
+    if schema.validate("idsl", tree):
         return False
     module = build(tree, "")
     return any(one.part("checks").has_taken(module) for one in languages.table().values() if one.warns_others)

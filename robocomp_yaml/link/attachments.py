@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
 
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
-from robocomp_yaml.diag.diagnostic import Diagnostic, Related, has_errors
+from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.digraph import reached
 from robocomp_yaml.link import component_references as references
@@ -19,7 +19,7 @@ from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedParameters, LinkedValues, Tables
 from robocomp_yaml.model.component import Component
 from robocomp_yaml.model.interface import Literal
-from robocomp_yaml.parameters.resolution.resolve import of_no_document, resolve
+from robocomp_yaml.parameters.resolution.resolve import hides_types, of_no_document, resolve
 from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
@@ -193,7 +193,7 @@ class Attachments(msgspec.Struct):
                 parameters, found = resolve(document.model)
                 self.diagnostics += found
                 self.tables.parameters[document.real] = LinkedParameters(
-                    parameters, document.model, broken=_hides_types(found)
+                    parameters, document.model, broken=hides_types(found)
                 )
                 self.diagnostics += self._unclaimed(document.model)
         self._join_layers()
@@ -250,7 +250,7 @@ class Attachments(msgspec.Struct):
         elif isinstance(document, ParameterDocument):
             parameters, found = resolve(document, period)
             self.diagnostics += found
-            broken = _hides_types(found)
+            broken = hides_types(found)
             own = LinkedParameters(parameters, document, broken, component=component)
             tie(component, parameters=own, broken=component.broken or broken)
             self.tables.parameters.setdefault(reals[0], component.parameters)
@@ -318,11 +318,6 @@ def _misplaced(linked: LinkedValues, home: list[str], here: Sequence[LinkedCompo
         hint=references.write(home, folder, "component"),
         related=[Related("the component", here[0].component.span)],
     )
-
-
-def _hides_types(found: Iterable[Diagnostic]) -> bool:
-    """Whether some parameters have no usable type; a constraint that cannot be read harms no other."""
-    return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
 
 
 def leads_to(layer: Literal, document: ValuesDocument, real: str) -> bool:

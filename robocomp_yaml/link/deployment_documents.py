@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 import msgspec
 
@@ -49,20 +49,22 @@ class DeploymentDocuments(msgspec.Struct):
                     yield self.documents.get(component)
 
     def _follow_entry(self, model: Deployment, entry: Entry) -> Iterator[Document]:
-        component = ""
-        for target in _counted(entry, entry.target) if entry.kind == COMPONENT else ():
-            found = self._component(model, target)
-            if found is None:
-                return
-            component = found
-            yield self.documents.get(found)
-        for config in _counted(entry, entry.config) if entry.config else ():
-            place = paths.place_of(model, entry, component)
-            found = self._config(model, place, config)
-            if found is None:
-                return
-            if entry.kind == COMPONENT and paths.is_values(found):
-                yield self.documents.get(found, "config")
+        """Each instance has its own component, and its configuration is looked for from there."""
+        found: dict[str, str] = {}
+        for target, config in _counted(entry):
+            if entry.kind == COMPONENT and target.text not in found:
+                component = self._component(model, target)
+                if component is None:
+                    return
+                found[target.text] = component
+                yield self.documents.get(component)
+            if config is not None:
+                place = paths.place_of(model, entry, found.get(target.text, ""))
+                path = self._config(model, place, config)
+                if path is None:
+                    return
+                if entry.kind == COMPONENT and paths.is_values(path):
+                    yield self.documents.get(path, "config")
 
     def _component(self, model: Deployment, target: Text) -> str | None:
         found = paths.components_at(model, target.text, self.documents.disk)
@@ -132,11 +134,18 @@ class DeploymentDocuments(msgspec.Struct):
                     tie(self.tables.deployments[real], is_included=True)
 
 
-def _counted(entry: Entry, text: Text) -> Iterable[Text]:
-    """The texts that an entry's instances have, as long as they differ."""
-    if INDEX not in text.text or entry.instances is None:
-        return (text,)
-    return (Text(text.text.replace(INDEX, str(n)), span=text.span) for n in range(entry.instances))
+def _counted(entry: Entry) -> Iterator[tuple[Text, Text | None]]:
+    """What an entry names as its target and its configuration; where these count, what each instance does."""
+    target, config = entry.target, entry.config
+    if entry.instances is None or INDEX not in target.text + (config.text if config else ""):
+        yield target, config
+        return
+    for number in range(entry.instances):
+        yield _of_instance(target, number), _of_instance(config, number) if config else None
+
+
+def _of_instance(text: Text, number: int) -> Text:
+    return Text(text.text.replace(INDEX, str(number)), span=text.span)
 
 
 MOST = 10_000  # instances of one deployment, all together

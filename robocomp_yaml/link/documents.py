@@ -91,6 +91,10 @@ class Documents(msgspec.Struct):
             self._glanced[real] = self._load(path, real, kind_of(path, self.disk) or kind or "idsl")
         return self._glanced[real][0]
 
+    def trees(self) -> dict[str, Node | None]:
+        """The trees of the documents that were got, by their paths."""
+        return {document.path: document.tree for document in self.read.values()}
+
     def _load(self, path: str, real: str, kind: str) -> tuple[Document, list[Diagnostic]]:
         """Bytes → text → tree → shape → model, as far as it goes."""
         nothing = Document(path, real, kind)

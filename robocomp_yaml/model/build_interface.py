@@ -111,6 +111,8 @@ def _constant(key: Scalar, node: Node) -> Constant:
 
 
 def _member(key: Scalar, node: Node) -> Member:
+    if isinstance(node, Scalar):  # as most: its type alone
+        return Member(key.lexeme, sure(type_ref(node)), span=key.span)
     default = literal(node.get("default"))
     return Member(key.lexeme, sure(type_ref(node)), doc(node), text(node, "unit"), default, span=key.span)
 

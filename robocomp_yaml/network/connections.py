@@ -222,10 +222,7 @@ class Connections(msgspec.Struct):
                     target=offer.owner.name,
                     difference=found.message,
                     hint="let both import the same document",
-                    related=[
-                        Related(f"as '{draft.name}' knows it", found.first),
-                        Related(f"as '{offer.owner.name}' knows it", found.second),
-                    ],
+                    related=found.sides(draft.name, offer.owner.name),
                 )
             )
 

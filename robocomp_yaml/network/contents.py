@@ -11,6 +11,7 @@ from collections.abc import Sequence as Items
 
 import msgspec
 
+from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import Definition, LinkedModule, Port
 from robocomp_yaml.model.interface import (
@@ -32,6 +33,13 @@ class Difference(msgspec.Struct, frozen=True):
     message: str
     first: Span
     second: Span
+
+    def sides(self, first: str, second: str) -> list[Related]:
+        """What processes of these names know."""
+        return [
+            Related(f"as '{first}' knows it", self.first),
+            Related(f"as '{second}' knows it", self.second),
+        ]
 
 
 class Contents(msgspec.Struct):

@@ -166,10 +166,7 @@ class Topics(msgspec.Struct):
                         target=first.draft.name,
                         difference=found.message,
                         hint="let both import the same document, or rename one topic",
-                        related=[
-                            Related(f"as '{first.draft.name}' knows it", found.first),
-                            Related(f"as '{end.draft.name}' knows it", found.second),
-                        ],
+                        related=found.sides(first.draft.name, end.draft.name),
                     )
                 )
         is_closed = self.drafts.complete and not self.drafts.linked.is_included

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
+from robocomp_yaml.parameters.types import ListType, MapType, Parameters, RecordType, Type
+
+PERIOD, EMERGENCY = 100, 500
+"""How often compute() and emergency() run where nobody says it, in milliseconds."""
+
+
+def period(parameters: Parameters) -> int:
+    """How often compute() runs where no values say it, in milliseconds."""
+    given = defaults(parameters.root).get("period")
+    return int(given.get("compute", PERIOD)) if isinstance(given, dict) else PERIOD
 
 
 def defaults(record: RecordType) -> dict[str, Any]:

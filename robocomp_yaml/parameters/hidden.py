@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 from typing import Any
 
 from robocomp_yaml import secrets
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type, below
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.references import is_sound
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
@@ -93,11 +93,7 @@ def _of_member(record: RecordType, key: Scalar, value: Node) -> Iterator[Scalar]
     steps = [key.lexeme] if record.member(key.lexeme) else paths.parse(key.lexeme) or [key.lexeme]
     type_: Type | None = record
     for step in steps:
-        if isinstance(type_, RecordType):
-            member = type_.member(step)
-            type_ = member.type if member is not None else None
-        else:
-            type_ = type_.element if isinstance(type_, ListType | MapType) else None
+        type_ = below(type_, 0 if isinstance(type_, ListType) else step)  # whatever is meant by it, is hidden
     if type_ is not None and not (isinstance(value.data, str) and secrets.is_secret(steps[-1])):
         yield from nodes(type_, value)
     elif type_ is not None or secrets.is_secret(key.lexeme) or _is_close(record, key.lexeme):

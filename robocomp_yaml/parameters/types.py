@@ -29,7 +29,7 @@ from robocomp_yaml.semantics.limits import (
 from robocomp_yaml.source.tree import Node
 
 if TYPE_CHECKING:
-    from robocomp_yaml.parameters.expressions.expression import Expression
+    from robocomp_yaml.parameters.specification.expression import Expression
 
 BASIC_TYPES = ("bool", *LIMITS, "string")
 
@@ -222,6 +222,17 @@ class Parameters(msgspec.Struct, frozen=True):
 
     def spelling(self, path: str) -> Spelling | None:
         return next((spelling for spelling in self.spellings if spelling.path == path), None)
+
+
+def below(type_: Type | None, step: str | int) -> Type | None:
+    """The type one step further down: of a member, or of the entries of a list or map; None where the step leads
+    nowhere. Places in lists are numbers, or their digits."""
+    if isinstance(type_, RecordType):
+        member = type_.member(step) if isinstance(step, str) else None
+        return member.type if member is not None else None
+    if isinstance(type_, ListType):
+        return type_.element if isinstance(step, int) or (step.isascii() and step.isdigit()) else None
+    return type_.element if isinstance(type_, MapType) else None
 
 
 def innermost(type_: Type) -> ScalarType | RecordType:

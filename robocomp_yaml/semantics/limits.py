@@ -65,8 +65,8 @@ def outside(
     return "" if least <= value <= most else LIMIT
 
 
-def limits_in_words(type_: str) -> str:
-    """What its type can hold."""
+def bounds(type_: str) -> str:
+    """What numbers a type can hold: `from -2147483648 to 2147483647 (int)`."""
     least, most = LIMITS[type_]
     return f"from {least} to {most} ({type_})"
 

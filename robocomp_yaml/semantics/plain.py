@@ -132,7 +132,7 @@ class Numeric(Plain):
             return f"be {self.one_of(self.values)}{unit}"
         if fault == limits.RANGE:
             return f"be {limits.range_in_words(**self._ends)}{unit}"
-        return f"be {limits.limits_in_words(self.name)}" if fault else ""
+        return f"be {limits.bounds(self.name)}" if fault else ""
 
 
 class Whole(Numeric):

@@ -18,7 +18,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as MappingNode
-from robocomp_yaml.source.tree import Node, Scalar, end_of, parse
+from robocomp_yaml.source.tree import Node, Scalar, core, end_of, parse
 from robocomp_yaml.source.tree import Sequence as SequenceNode
 from robocomp_yaml.source.yaml_text import quoted, single_quoted
 
@@ -29,37 +29,43 @@ _PLAIN = pattern(r"[\w./](?:[\w ./+-]*[\w./+-])?")  # needs no quotes, unless it
 _ITEM = pattern(r"[ ]*-[ \t]+")
 
 
-def spelled(diagnostics: Iterable[Diagnostic], contents: Mapping[str, bytes]) -> Iterator[Diagnostic]:
-    """The diagnostics with fixes that say what to write; `contents` are the documents' bytes by their paths."""
-    known: dict[str, Text | None] = {}
+def spelled(diagnostics: Iterable[Diagnostic], texts: Texts) -> Iterator[Diagnostic]:
+    """The diagnostics with fixes that say what to write."""
     for told in diagnostics:
         if all(fix.is_spelled for fix in told.fixes):
             yield told
             continue
-        fixes = []
-        for fix in told.fixes:
-            for file in {edit.span.file for edit in fix.edits} - known.keys():
-                known[file] = text_of(file, contents.get(file))
-            if made := _spelled(fix, known):
-                fixes.append(made)
+        fixes = [made for fix in told.fixes if (made := _spelled(fix, texts))]
         yield replace(told, fixes=tuple(dict.fromkeys(fixes)))
 
 
-def text_of(file: str, raw: bytes | None) -> Text | None:
-    """The text of a document's bytes; None where they are none."""
-    text = decode(file, raw)[0] if raw is not None else None
-    return Text(file, text) if text is not None else None
-
-
-def _spelled(fix: Fix, known: Mapping[str, Text | None]) -> Fix | None:
+def _spelled(fix: Fix, texts: Texts) -> Fix | None:
     edits: list[Edit] = []
     for edit in fix.edits:
-        text = known[edit.span.file]
+        text = texts.get(edit.span.file)
         made = [edit] if not edit.how else text.spelled(edit) if text is not None else []
         if not made:
             return None
         edits += made
     return replace(fix, edits=tuple(edits))
+
+
+class Texts:
+    """The texts of a run's documents: `contents` are their bytes by their paths, `trees` those that have been read."""
+
+    def __init__(self, contents: Mapping[str, bytes], trees: Mapping[str, Node | None]) -> None:
+        self.contents, self._trees = contents, trees
+        self._known: dict[str, Text | None] = {}
+
+    def get(self, file: str) -> Text | None:
+        """The text of a document; None where its bytes are none."""
+        if file not in self._known:
+            raw = self.contents.get(file)
+            text = decode(file, raw)[0] if raw is not None else None
+            self._known[file] = made = Text(file, text) if text is not None else None
+            if made is not None and file in self._trees:
+                made.tree = self._trees[file]
+        return self._known[file]
 
 
 class Text:
@@ -290,4 +296,4 @@ def _is_quoted(text: str, start: int) -> bool:
 
 def _is_text(meant: str) -> bool:
     """Whether YAML takes it for this text without quotes, wherever it stands."""
-    return _PLAIN.fullmatch(meant) is not None and getattr(parse("", meant)[0], "data", None) == meant
+    return _PLAIN.fullmatch(meant) is not None and not meant.startswith("...") and core(meant) == meant

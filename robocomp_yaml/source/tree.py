@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from typing import Any, cast
 
 import msgspec
@@ -28,6 +29,7 @@ from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
 MAX_ALIASED = 100_000  # nodes that aliases may add, all together
 
 _INT = re.compile(r"[-+]?[0-9]+\Z")
+_ZEROS = pattern(r"[-+]?0[0-9]+\Z")
 _FLOAT = pattern(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?\Z")
 _NAMED: dict[str, bool | float | None] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
 _NAMED |= {word: word[0] in "tT" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
@@ -43,7 +45,7 @@ class Node:
 
     __slots__ = ("_end", "_start", "data", "file")
 
-    def __init__(self, file: str, node: YamlNode, data: object) -> None:
+    def __init__(self, file: str, node: YamlNode | _Made, data: object) -> None:
         self.file, self._start, self._end, self.data = file, node.start_mark, node.end_mark, data
 
     @property
@@ -74,7 +76,7 @@ class Scalar(Node):
 
     __slots__ = ("lexeme", "quoted")
 
-    def __init__(self, file: str, node: ScalarNode, value: object) -> None:
+    def __init__(self, file: str, node: ScalarNode | _Made, value: object) -> None:
         super().__init__(file, node, value)
         self.lexeme: str = node.value
         self.quoted: bool = node.style is not None and node.style != ""
@@ -85,7 +87,7 @@ class Mapping(Node):
 
     __slots__ = ("entries", "is_flow")
 
-    def __init__(self, file: str, node: MappingNode, entries: dict[str, tuple[Scalar, Node]]) -> None:
+    def __init__(self, file: str, node: MappingNode | _Made, entries: dict[str, tuple[Scalar, Node]]) -> None:
         super().__init__(file, node, {key: value.data for key, (_, value) in entries.items()})
         self.entries = entries
         self.is_flow = bool(node.flow_style)
@@ -104,7 +106,7 @@ class Mapping(Node):
 class Sequence(Node):
     __slots__ = ("is_flow", "items")
 
-    def __init__(self, file: str, node: SequenceNode, items: list[Node]) -> None:
+    def __init__(self, file: str, node: SequenceNode | _Made, items: list[Node]) -> None:
         super().__init__(file, node, [item.data for item in items])
         self.items = items
         self.is_flow = bool(node.flow_style)
@@ -148,6 +150,17 @@ class _Mark(msgspec.Struct, frozen=True):
     index: int = -1
 
 
+class _Made(msgspec.Struct, frozen=True):
+    """What stands for a composed node, of nodes that no document holds."""
+
+    start_mark: _Mark
+    end_mark: _Mark
+    value: str = ""
+    style: str | None = None
+    flow_style: bool | None = None
+
+
+@lru_cache(16)  # many are made for what stands at one place
 def _marks(span: Span) -> tuple[_Mark, _Mark]:
     return _Mark(span.line - 1, span.column - 1), _Mark(span.end_line - 1, span.end_column - 1)
 
@@ -160,15 +173,37 @@ def _last_mark(text: str) -> _Mark:
 
 def text_at(span: Span, text: str) -> Scalar:
     """A text that no document holds, made for what stands at a place."""
-    return Scalar(span.file, ScalarNode(None, text, *_marks(span)), text)
+    return Scalar(span.file, _Made(*_marks(span), text), text)
 
 
 def mapping_at(span: Span, entries: dict[str, tuple[Scalar, Node]]) -> Mapping:
-    return Mapping(span.file, MappingNode(None, [], *_marks(span)), entries)
+    return Mapping(span.file, _Made(*_marks(span)), entries)
 
 
 def sequence_at(span: Span, items: list[Node]) -> Sequence:
-    return Sequence(span.file, SequenceNode(None, [], *_marks(span)), items)
+    return Sequence(span.file, _Made(*_marks(span)), items)
+
+
+def scalar_at(span: Span, lexeme: str) -> Scalar:
+    """A plain scalar, and what it means."""
+    return Scalar(span.file, _Made(*_marks(span), lexeme), core(lexeme))
+
+
+def core(lexeme: str) -> object:
+    """What a plain scalar means by YAML 1.2's core schema."""
+    if lexeme in _NAMED:
+        return _NAMED[lexeme]
+    if _INT.match(lexeme):
+        return int(lexeme) if len(lexeme.lstrip("+-")) <= 4000 else float(lexeme)
+    if _FLOAT.match(lexeme):
+        return float(lexeme)
+    for prefix, base in (("0x", 16), ("0o", 8)):
+        if lexeme.startswith(prefix):
+            try:
+                return int(lexeme[2:], base) if "_" not in lexeme and lexeme[2:].isalnum() else lexeme
+            except ValueError:
+                return lexeme
+    return lexeme
 
 
 def parse(path: str, text: str) -> tuple[Node | None, list[Diagnostic]]:
@@ -262,30 +297,19 @@ class _Builder:
         return Scalar(self.path, node, node.value)
 
     def _core(self, node: ScalarNode, lexeme: str) -> object:
-        """A plain scalar by YAML 1.2's core schema."""
-        if lexeme in _NAMED:
-            return _NAMED[lexeme]
-        if _INT.match(lexeme):
+        """A plain scalar, which has no zeros before a whole number: those of others mean octal."""
+        data = core(lexeme)
+        if _ZEROS.match(lexeme):
             digits = lexeme.lstrip("+-")
-            if digits[0] == "0" and len(digits) > 1:
-                zeros = digits.lstrip("0") or "0"
-                self._say(
-                    codes.LEADING_ZEROS,
-                    node,
-                    lexeme=lexeme,
-                    hint=f'write "{lexeme}" for text, or {lexeme[: len(lexeme) - len(digits)]}{zeros} for a number',
-                    fixes=[quoting(self._span(node), safe=False)],
-                )
-            return int(lexeme) if len(digits) <= 4000 else float(lexeme)
-        if _FLOAT.match(lexeme):
-            return float(lexeme)
-        for prefix, base in (("0x", 16), ("0o", 8)):
-            if lexeme.startswith(prefix):
-                try:
-                    return int(lexeme[2:], base) if "_" not in lexeme and lexeme[2:].isalnum() else lexeme
-                except ValueError:
-                    return lexeme
-        return lexeme
+            zeros = digits.lstrip("0") or "0"
+            self._say(
+                codes.LEADING_ZEROS,
+                node,
+                lexeme=lexeme,
+                hint=f'write "{lexeme}" for text, or {lexeme[: len(lexeme) - len(digits)]}{zeros} for a number',
+                fixes=[quoting(self._span(node), safe=False)],
+            )
+        return data
 
     def _mapping(self, node: MappingNode) -> Mapping:
         entries: dict[str, tuple[Scalar, Node]] = {}

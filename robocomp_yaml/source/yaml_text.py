@@ -6,22 +6,24 @@ import json
 import re
 from typing import Any
 
-_PLAIN = re.compile(r"(?:[A-Za-z_/]|\.\.?/)[A-Za-z0-9_./ -]*[A-Za-z0-9_./-]\Z|[A-Za-z_/]\Z")
-_UNREADABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]")
+from robocomp_yaml.patterns import pattern
+
+_PLAIN = pattern(r"(?:[A-Za-z_/]|\.\.?/)[A-Za-z0-9_./ -]*[A-Za-z0-9_./-]\Z|[A-Za-z_/]\Z")
+_UNREADABLE = pattern("[\x00-\x1f\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]")
 _NOT_TEXT = frozenset(("true", "false", "null", "yes", "no", "on", "off", "y", "n"))
 
 # What a plain scalar must not look like: null, booleans, numbers (also those with leading zeros, which we refuse).
-_READ_OTHERWISE = re.compile(
+_READ_OTHERWISE = pattern(
     r"""(?: ~ | null | Null | NULL | true | True | TRUE | false | False | FALSE | <<
         | [-+]?[0-9]+ | 0x[0-9a-fA-F]+ | 0o[0-7]+
         | [-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?
         | [-+]?\.(?:inf|Inf|INF) | \.(?:nan|NaN|NAN) )""",
     re.VERBOSE,
 )
-_BAD_START = re.compile(r"[-?:](?:\s|$)|[,\[\]{}#&*!|>'\"%@`]|---|\.\.\.|\s")
-_BAD_INSIDE = re.compile(r":(?:\s|$)|\s\#|\s$|[\t\n\r]")
-_BAD_IN_FLOW = re.compile(r"[,\[\]{}:?]|^-")
-_UNPRINTABLE = re.compile("[^\x09\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+_BAD_START = pattern(r"[-?:](?:\s|$)|[,\[\]{}#&*!|>'\"%@`]|---|\.\.\.|\s")
+_BAD_INSIDE = pattern(r":(?:\s|$)|\s\#|\s$|[\t\n\r]")
+_BAD_IN_FLOW = pattern(r"[,\[\]{}:?]|^-")
+_UNPRINTABLE = pattern("[^\x09\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 
 
 def scalar(data: Any) -> str:

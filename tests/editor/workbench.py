@@ -35,7 +35,7 @@ class Proposal:
 
 class Workbench:
     def __init__(self, server: LanguageServer, folder: Path) -> None:
-        workspace_files.install(folder)
+        workspace_files.install(str(folder))
         self.folder = folder
         self._server = server
         self._number = itertools.count()
@@ -88,7 +88,7 @@ class Workbench:
         return self.folder / "documents" / f"{next(self._number)}{SUFFIX[kind]}"
 
     def _with_modeline(self, kind: str, path: Path, text: str) -> str:
-        return f"{workspace_files.modeline(kind, path, self.folder)}\n{text}"
+        return f"{workspace_files.modeline(kind, str(path), str(self.folder))}\n{text}"
 
 
 def _plain(diagnostic: dict[str, Any]) -> tuple[int, int, str]:

@@ -18,10 +18,10 @@ from conftest import ROOT, Tree, read_tree, write_tree
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.legacy import grammar, reading
 from robocomp_yaml.link import deployment_documents
-from robocomp_yaml.parameters.expressions import expression
 from robocomp_yaml.parameters.patterns import match as pattern_match
 from robocomp_yaml.parameters.patterns import pattern
 from robocomp_yaml.parameters.resolution import resolve as parameters
+from robocomp_yaml.parameters.specification import expression
 from robocomp_yaml.source import syntax, text, tree, xml
 
 SPEECH = "module: RoboCompSpeech\ninterfaces: {Speech: {methods: {say: {in: {text: string}}}}}\n"

@@ -115,7 +115,7 @@ def slices(ice: Any, tmp_path_factory: pytest.TempPathFactory) -> None:
 
     folder = tmp_path_factory.mktemp("slices")
     built = build_components({**INTERFACES, "any.cdsl.yaml": cdsl("Any", implements=["Arm"])}, folder)["Any"].root
-    files = [str(built / "slice" / name) for name in ("Arm.ice", "CommonBehavior.ice")]
+    files = [str(built / "slice" / "Arm.ice"), str(built / "generated" / "slice" / "CommonBehavior.ice")]
     Ice.loadSlice("", ["--all", f"-I{built / 'slice'}", *files])
 
 

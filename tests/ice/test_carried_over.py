@@ -79,7 +79,7 @@ def test_a_legacy_component(
         [sys.executable, tmp_path / "comp" / "bin" / "EchoComp"], env={"PYTHONPATH": str(tmp_path / "hidden")}
     )
     running.wait_for("EchoComp is running").wait_for("greeting hello")
-    assert _echo(ice, tmp_path / "comp" / "slice", port).say("ho") == ("ho!", 2)
+    assert _echo(ice, tmp_path / "slice", port).say("ho") == ("ho!", 2)
     assert running.stop() == 0
     del own["comp/etc/config"]  # written from the values that it held
     for path, text in own.items():

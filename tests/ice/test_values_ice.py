@@ -9,10 +9,10 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import accessors
-from parameters import HARD_TEXTS, TEXTS, Data, documents, linked, values
+from parameters import HARD_TEXTS, TEXTS, Data, as_dict, documents, linked, values
 from robocomp_yaml.link.program import LinkedParameters
 from robocomp_yaml.parameters.layers.effective import effective
-from robocomp_yaml.parameters.writing.properties import as_dict, properties, property_text
+from robocomp_yaml.parameters.writing.properties import properties, property_text
 from verdicts import CASES
 
 Ice = pytest.importorskip("Ice", reason="needs Ice's Python module (Debian: python3-zeroc-ice)")

@@ -47,7 +47,7 @@ SLOW = 2.0
 UNFIT = "it could not be put in"
 AT_ONCE = 500
 """Tests that one process looks at."""
-MOST = 400
+MOST = 1000
 """Tests that are asked of a mutant, the fastest ones: what none of them notices counts as a survivor."""
 
 

@@ -31,7 +31,7 @@ from robocomp_yaml.model.interface import (
 )
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.tree import Mapping, Scalar, parse
-from robocomp_yaml.source.yaml_text import text_of as scalar
+from robocomp_yaml.source.yaml_text import text_of
 
 KEYWORDS = {
     "module", "struct", "enum", "exception", "sequence", "dictionary", "interface", "const", "class", "local", "void",
@@ -295,7 +295,11 @@ def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str
 @settings(deadline=None, max_examples=300)
 @given(st.text(st.characters(exclude_categories=["Cs"])) | WORDS | st.from_regex(r"[-+.0-9xo_:~nultrefas]+\Z"))
 def test_a_text_is_read_back_as_it_was(text: str) -> None:
-    for wrapped in (f"a: {scalar(text)}\n", f"a: {{b: {scalar(text, flow=True)}, c: d}}\n", f"{scalar(text)}: 1\n"):
+    for wrapped in (
+        f"a: {text_of(text)}\n",
+        f"a: {{b: {text_of(text, in_flow=True)}, c: d}}\n",
+        f"{text_of(text)}: 1\n",
+    ):
         tree, diagnostics = parse("X.yaml", wrapped)
         assert isinstance(tree, Mapping), (wrapped, diagnostics)
         values = [key for key, _ in tree.items()] if wrapped.endswith(": 1\n") else [tree.get("a")]

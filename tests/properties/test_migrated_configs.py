@@ -9,10 +9,11 @@ from pathlib import Path
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from parameters import as_dict
 from robocomp_yaml.legacy.migration import migrate
 from robocomp_yaml.legacy.settings.plan import Guesses
 from robocomp_yaml.parameters.layers.effective import effective
-from robocomp_yaml.parameters.writing.properties import as_dict, properties
+from robocomp_yaml.parameters.writing.properties import properties
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.source import properties as ice
 

@@ -16,11 +16,11 @@ import of_languages
 import spellings
 from conftest import FUZZING
 from constraints import CASES, CONSTRAINTS, subject
-from parameters import Data, documents, linked, mutated, parameters, values
+from parameters import Data, as_dict, documents, linked, mutated, parameters, values
 from robocomp_yaml.parameters.expressions import evaluate
 from robocomp_yaml.parameters.layers.effective import effective
 from robocomp_yaml.parameters.types import Parameters, RecordType
-from robocomp_yaml.parameters.writing.properties import as_dict, properties
+from robocomp_yaml.parameters.writing.properties import properties
 from verdicts import CPP_DOCUMENTS, verdicts
 
 pytestmark = [pytest.mark.slow, pytest.mark.processes]  # by the compilers, and the programs that they make

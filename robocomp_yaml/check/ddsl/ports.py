@@ -13,7 +13,10 @@ from robocomp_yaml.source.ice_endpoint import parse_endpoint
 
 def check(network: Network) -> Iterator[Diagnostic]:
     seen: dict[tuple[str, bool, int], list[tuple[str, Process, Endpoint]]] = {}
+    named = {name for name, host in network.hosts.items() if host.span.file}
     for process in network.enabled():
+        if named and process.host not in named:
+            continue  # its host is not known, which has been told
         machine = _machine(network.address(process))
         for endpoint in process.endpoints:
             if not endpoint.port:

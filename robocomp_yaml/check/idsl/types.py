@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterator
 
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import NO_HINT, Hint
 from robocomp_yaml.diag.suggest import did_you_mean, meaning
-from robocomp_yaml.link.program import LinkedModule, Program
+from robocomp_yaml.link.program import Definition, LinkedModule, Program
 from robocomp_yaml.link.references import kind_of, types_of
 from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Interface, Module, TypeDefinition, TypeRef
 
@@ -69,30 +70,22 @@ def _type(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnos
             return
         yield codes.UNKNOWN_TYPE.at(ref.span, name=ref.text, hint=_hint(linked, ref, index))
     elif not isinstance(found[1], TypeDefinition):
-        kind = kind_of(found[1])
-        yield codes.NOT_A_TYPE.at(
-            ref.span,
-            name=ref.text,
-            kind=kind,
-            hint="a type is a basic one, or one defined under `types:`",
-            related=[Related(f"the {kind} stands here", found[1].span)],
-        )
+        yield _of_other_kind(codes.NOT_A_TYPE, ref, found[1], "a type is a basic one, or one defined under `types:`")
 
 
 def _exception(linked: LinkedModule, ref: TypeRef, index: _Index, given: set[str]) -> Iterator[Diagnostic]:
     found = None if ref.is_basic else linked.find(ref)
     if found is not None and not isinstance(found[1], ExceptionType):
-        kind = kind_of(found[1])
-        yield codes.NOT_AN_EXCEPTION.at(
-            ref.span,
-            name=ref.text,
-            kind=kind,
-            hint="an exception is defined under `exceptions:`",
-            related=[Related(f"the {kind} stands here", found[1].span)],
-        )
+        yield _of_other_kind(codes.NOT_AN_EXCEPTION, ref, found[1], "an exception is defined under `exceptions:`")
     elif found is None and ref.module not in linked.unresolved:
         hint = _hint(linked, ref, index, given)
         yield codes.UNKNOWN_EXCEPTION.at(ref.span, name=ref.text, hint=hint)
+
+
+def _of_other_kind(code: Code, ref: TypeRef, found: Definition, hint: str) -> Diagnostic:
+    kind = kind_of(found)
+    related = [Related(f"the {kind} stands here", found.span)]
+    return code.at(ref.span, name=ref.text, kind=kind, hint=hint, related=related)
 
 
 def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | None = None) -> Hint:

@@ -1,9 +1,10 @@
-"""Parameters: defaults, alone and together, names in code, constraints, and the legacy table."""
+"""Parameters: defaults, alone and together, names in code, and the legacy table."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import Any
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.codes import pdsl as codes
@@ -13,12 +14,8 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.names import is_identifier
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.expressions import evaluate
-from robocomp_yaml.parameters.expressions.expression import NotInLanguage
-from robocomp_yaml.parameters.expressions.types import check_constraint, is_sound
-from robocomp_yaml.parameters.resolution.limits import inside
-from robocomp_yaml.parameters.types import Constraint, Member, Parameters, RecordType
+from robocomp_yaml.parameters.types import Member, Parameters, RecordType
 from robocomp_yaml.parameters.verdict.specification import default_faults, spelling_faults
-from robocomp_yaml.source.tree import Scalar
 
 Languages = tuple[TargetLanguage, ...]
 
@@ -36,7 +33,6 @@ def check(program: Program) -> Iterator[Diagnostic]:
             continue
         if not faults:
             yield from _defaults_together(parameters)
-        yield from _constraints(parameters)
         yield from spelling_faults(parameters)
 
 
@@ -71,24 +67,20 @@ def _free(name: str) -> str:
     return made if made[:1].isalpha() else f"p{made}"
 
 
+def _take_as_given(record: RecordType, data: dict[str, Any]) -> None:
+    """What has to be given has a value, which is not known: as a reference has."""
+    for member in record.members:
+        if isinstance(member.type, RecordType) and member.is_group:
+            inner = data[member.code_name] = dict(data.get(member.code_name, {}))
+            _take_as_given(member.type, inner)
+        elif member.required:
+            data[member.code_name] = {"env": "GIVEN"}
+
+
 def _defaults_together(parameters: Parameters) -> Iterator[Diagnostic]:
     """Constraints that are broken where nobody gives a value; what has no default is not known here."""
-    data = evaluate.by_code_names(parameters.root, defaults(parameters.root))
+    data = dict(evaluate.by_code_names(parameters.root, defaults(parameters.root)))
+    _take_as_given(parameters.root, data)
     for constraint in parameters.constraints:
-        if is_sound(constraint.expression, parameters.root) and not evaluate.holds(constraint.expression, data):
+        if not evaluate.holds(constraint.expression, data):
             yield codes.DEFAULTS_BREAK.at(constraint.span, message=constraint.message)
-
-
-def _constraints(parameters: Parameters) -> Iterator[Diagnostic]:
-    """They are true or false, and say only what has a meaning."""
-    for constraint in parameters.constraints:
-        try:
-            check_constraint(constraint.expression, parameters.root)
-        except NotInLanguage as refused:
-            yield _in_expression(constraint, refused)
-
-
-def _in_expression(constraint: Constraint, refused: NotInLanguage) -> Diagnostic:
-    assert isinstance(constraint.node, Scalar)
-    place = inside(constraint.node, refused.index)
-    return codes.BAD_EXPRESSION.at(place, problem=str(refused), hint=refused.hint)

@@ -6,8 +6,8 @@ import msgspec
 
 from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.link.program import LinkedComponent
+from robocomp_yaml.parameters.defaults import period
 
-DEFAULT_PERIOD = 100
 BEHAVIOR = "RoboCompCommonBehavior"
 COMMON = "CommonBehavior.ice"
 
@@ -36,7 +36,7 @@ def lower(linked: LinkedComponent) -> Lowered:
         source=component.path.rpartition("/")[2],
         name=component.name,
         doc=f"{component.name}: {component.doc}" if component.doc else component.name,
-        period=component.period or DEFAULT_PERIOD,
+        period=period(linked.parameters.parameters),
         modules=tuple(dict.fromkeys([*(scope.module.name for scope in scopes), BEHAVIOR])),
         files=tuple(dict.fromkeys([*map(file_name, scopes), *common])),
         imported=(*map(file_name, linked.imports), *common),

@@ -6,7 +6,8 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
-from robocomp_yaml.parameters.expressions.expression import (
+from robocomp_yaml.parameters.expressions.types import Scope, type_of
+from robocomp_yaml.parameters.specification.expression import (
     Attribute,
     Binary,
     Call,
@@ -20,7 +21,6 @@ from robocomp_yaml.parameters.expressions.expression import (
     Name,
     Unary,
 )
-from robocomp_yaml.parameters.expressions.types import Scope, type_of
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType
 
 _FUNCTIONS = {"len": "size", "abs": "absolute", "min": "least", "max": "most"}

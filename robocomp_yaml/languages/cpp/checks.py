@@ -35,15 +35,16 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def has_taken(module: Module) -> bool:
     """Whether some component in C++ could not be built with the names of a module."""
-    linked = LinkedModule(module)
-    names = (name.text for definition in module.definitions for group in groups(definition) for name in group)
-    return any(_Module(linked, [], Disk()).check()) or any(name.startswith(FAMILIES) for name in names)
+    return any(_Module(LinkedModule(module), [], Disk(), for_any=True).check())
 
 
 class _Module(msgspec.Struct):
+    """`for_any`: what some component in C++ might meet is said, too, be there one or not."""
+
     linked: LinkedModule
     users: list[LinkedComponent]
     disk: Disk
+    for_any: bool = False
 
     def check(self) -> Iterator[Diagnostic]:
         module = self.linked.module
@@ -76,7 +77,7 @@ class _Module(msgspec.Struct):
         if name.text not in EVER and not name.text.startswith(FAMILIES):
             return  # as nearly all: no user needs to be asked
         hit = [user for user in self.users if _is_macro_for(name.text, user)]
-        if hit or name.text in EVER:
+        if hit or name.text in EVER or self.for_any:
             yield self.said(codes.CPP_MACRO.at(name.span, kind=name.kind, name=name.text, hint=_other(name.text)), hit)
 
     def beside(self) -> Iterator[Diagnostic]:

@@ -8,7 +8,7 @@ from robocomp_yaml.emit.lowering.constraints import Calls
 from robocomp_yaml.languages.cpp import LANGUAGE
 from robocomp_yaml.languages.cpp.literals import value
 from robocomp_yaml.languages.cpp.text import quoted
-from robocomp_yaml.parameters.expressions.expression import Expression
+from robocomp_yaml.parameters.specification.expression import Expression
 from robocomp_yaml.parameters.types import RecordType
 
 VALUE = "const runtime::Value&"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robocomp_yaml.emit.lowering.constraints import Calls
 from robocomp_yaml.languages.java.text import literal, value
-from robocomp_yaml.parameters.expressions.expression import Expression
+from robocomp_yaml.parameters.specification.expression import Expression
 from robocomp_yaml.parameters.types import RecordType
 
 

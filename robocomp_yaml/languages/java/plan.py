@@ -1,15 +1,19 @@
 """The Java target: a component that `generated/build` builds, with the JDK, slice2java and Ice for Java alone.
 
-Most of it is the same for every component and is copied as it stands (`templates/runtime/`); what differs are a small
-generated part, the user's skeleton and two scripts.
+Most of it is the same for every component: the run time (`templates/runtime/`), which is compiled once. What differs
+are a small generated part, the user's skeleton and two scripts.
 """
 
 from __future__ import annotations
 
+import shlex
+from collections.abc import Callable
+
 import msgspec
 
-from robocomp_yaml.emit.copied import copied
-from robocomp_yaml.emit.lowering.component import lower
+from robocomp_yaml.emit import runtime
+from robocomp_yaml.emit.layout import Layout, stated
+from robocomp_yaml.emit.lowering.component import COMMON, lower
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.languages.java import parameters
 from robocomp_yaml.languages.java.ports import AccessorView, Ports, ServiceView
@@ -19,9 +23,15 @@ from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
 
 class View(msgspec.Struct, frozen=True):
-    """What the templates show. `ports` are literals of Java, with commas; `needs_storm` says that there are topics."""
+    """What the templates show. `ports` are literals of Java, with commas; `needs_storm` says that there are topics;
+    `runtime` and `slice` are folders, and `slices` the files there, as words of the shell."""
 
     source: str
+    runtime: str
+    version: str
+    slice: str
+    slices: str
+    made_for: str
     name: str
     comment: str
     period: int
@@ -31,11 +41,15 @@ class View(msgspec.Struct, frozen=True):
     needs_storm: bool
 
 
-def plan(component: LinkedComponent) -> list[FilePlan]:
-    """The component's files but for `slice/` and `etc/`."""
-    view = _view(component)
+def needs(component: LinkedComponent) -> Callable[[str], bool]:
+    """Which files of the run time a component needs that stands alone: all."""
+    return lambda path: True
+
+
+def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
+    """The component's files but for `slice/`, `etc/` and the run time."""
+    view = _view(component, layout)
     return [
-        *copied("java", "runtime"),
         parameters.plan(component),
         *(
             FilePlan(f"generated/{name}.java", render(f"java/{name}.java.j2", view))
@@ -51,7 +65,7 @@ def plan(component: LinkedComponent) -> list[FilePlan]:
 _HEAD = "# This file is yours: rcyaml wrote it once. Below is what the build makes."
 
 
-def _view(linked: LinkedComponent) -> View:
+def _view(linked: LinkedComponent, layout: Layout) -> View:
     lowered, ports = lower(linked), Ports(linked)
     services = [*ports.implements, *ports.subscribes]
     if services:
@@ -59,6 +73,11 @@ def _view(linked: LinkedComponent) -> View:
     every = (*linked.implements, *linked.requires, *linked.publishes, *linked.subscribes)
     return View(
         source=one_line(lowered.source),
+        runtime=layout.runtime,
+        version=runtime.version("java"),
+        slice=layout.slice,
+        slices=" ".join(shlex.quote(file) for file in lowered.files if file != COMMON),
+        made_for=stated(layout.made_for) if layout.made_for else "",
         name=lowered.name,
         comment=comment(lowered.doc),
         period=lowered.period,

@@ -9,7 +9,8 @@ import msgspec
 
 from robocomp_yaml.languages.python import LANGUAGE
 from robocomp_yaml.languages.python.text import literal
-from robocomp_yaml.parameters.expressions.expression import (
+from robocomp_yaml.parameters.expressions.types import Scope, find_member, type_of
+from robocomp_yaml.parameters.specification.expression import (
     Attribute,
     Binary,
     Call,
@@ -23,7 +24,6 @@ from robocomp_yaml.parameters.expressions.expression import (
     Name,
     Unary,
 )
-from robocomp_yaml.parameters.expressions.types import Scope, find_member, type_of
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType
 
 _OURS = ("unique", "keys", "values")  # the functions that are not Python's

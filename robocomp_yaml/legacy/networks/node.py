@@ -11,6 +11,7 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import Map, Notes
 from robocomp_yaml.legacy.networks.command import Command
 from robocomp_yaml.legacy.networks.endpoint import Endpoint
+from robocomp_yaml.legacy.settings.headers import free
 
 _NO_NAME = re.compile(r"[^A-Za-z0-9_-]+[^A-Za-z0-9_]*")
 _LONGEST = 100
@@ -50,7 +51,4 @@ def safe_name(text: str, taken: Collection[str] = ()) -> str:
     bare = _NO_NAME.sub("_", text).strip("_-") or "node"
     bare = bare if bare[0].isalpha() else f"n{bare}"
     bare = bare[:_LONGEST]  # files are called after it
-    name, number = bare, 2
-    while name in taken:
-        name, number = f"{bare}_{number}", number + 1
-    return name
+    return free(bare, taken)

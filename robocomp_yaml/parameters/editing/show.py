@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import msgspec
@@ -16,9 +16,9 @@ from robocomp_yaml.parameters.types import (
     BasicType,
     ListType,
     MapType,
-    Member,
     RecordType,
     Type,
+    below,
     unit_of,
 )
 from robocomp_yaml.secrets import HIDDEN
@@ -106,8 +106,8 @@ def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Pat
     elif isinstance(type_, ListType | MapType) and data:
         entries: list[tuple[Step, Any]] = list(data.items() if isinstance(type_, MapType) else enumerate(data))
         for name, item in entries:
-            below = step(default, name) if default is not None and where is None else None
-            yield from _value(type_.element, item, _below(where, name), node_of(below), (*path, name), editable)
+            own = step(default, name) if default is not None and where is None else None
+            yield from _value(type_.element, item, _below(where, name), node_of(own), (*path, name), editable)
     else:
         node = node_of(where)
         spelled = default if node is None else node
@@ -119,53 +119,29 @@ def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Pat
 
 def _below(where: Where, name: Step) -> Where:
     """One step down, with what the same place of the overridden lists was."""
-    below = step(where, name)
-    if isinstance(where, Place) and below is not None and not isinstance(below, Place) and where.overrode:
+    inner = step(where, name)
+    if isinstance(where, Place) and inner is not None and not isinstance(inner, Place) and where.overrode:
         earlier = tuple(found[1] for node in where.overrode if (found := child(node, name)) is not None)
-        return Place(below, None, None, earlier)
-    return below
+        return Place(inner, None, None, earlier)
+    return inner
 
 
-def find(effective: Effective, steps: list[str]) -> tuple[Any, Type, Member | None] | None:
-    """The value at a path with its type, and the parameter or member that it is."""
+def find(effective: Effective, steps: list[str]) -> Any:
+    """The value at a path; None where there is none."""
     data: Any = effective.data
-    type_: Type = effective.parameters.root
-    member: Member | None = None
-    for name in steps:
-        if isinstance(type_, RecordType):
-            member = type_.member(name)
-            if member is None or name not in data:
-                return None
-            data, type_ = data[name], member.type
-        elif isinstance(type_, ListType):
-            if not (name.isascii() and name.isdigit() and int(name) < len(data)):
-                return None
-            data, type_ = data[int(name)], type_.element
-        elif isinstance(type_, MapType):
-            if name not in data:
-                return None
-            data, type_ = data[name], type_.element
-        else:
+    for name in typed(effective.parameters.root, steps):
+        try:
+            data = data[name]
+        except LookupError:
             return None
-    return data, type_, member
+    return data
 
 
-def type_at(root: RecordType, steps: list[str]) -> Type | None:
+def type_at(root: RecordType, steps: Sequence[str]) -> Type | None:
     """The type of what a path names, whether or not it has a value; None where the path names nothing."""
-    type_: Type = root
+    type_: Type | None = root
     for name in steps:
-        match type_:
-            case RecordType():
-                member = type_.member(name)
-                if member is None:
-                    return None
-                type_ = member.type
-            case ListType(element=element) if name.isascii() and name.isdigit():
-                type_ = element
-            case MapType(element=element):
-                type_ = element
-            case _:
-                return None
+        type_ = below(type_, name)
     return type_
 
 

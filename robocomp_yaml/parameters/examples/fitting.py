@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.parameters.expressions import expression
+from robocomp_yaml.parameters.specification import expression
 from robocomp_yaml.parameters.types import (
     BasicType,
     Constraint,
@@ -24,6 +24,7 @@ from robocomp_yaml.parameters.types import (
     RecordType,
     ScalarType,
     Type,
+    leaves,
 )
 from robocomp_yaml.parameters.expressions import evaluate
 from robocomp_yaml.parameters.defaults import defaults, with_defaults
@@ -52,7 +53,7 @@ class Fitted(msgspec.Struct):
 def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> Fitted:
     """Examples of all parameters; `carried` are values that are given already."""
     found = Fitted()
-    members = dict(_leaves(parameters.root))
+    members = {tuple(path.split(".")): member for path, member in leaves(parameters.root)}
     carried_ = {path: value for path in members if (value := _at(carried or {}, path)) is not None}
     required = [path for path, member in members.items() if member.required and path not in carried_]
     optional = [path for path, member in members.items() if not member.required and path not in carried_]
@@ -83,16 +84,6 @@ def fitted(parameters: Parameters, carried: Mapping[str, Any] | None = None) -> 
         else:
             found.possible[path] = together[path] = fit[path]
     return found
-
-
-def _leaves(record: RecordType, above: Path = ()) -> Iterator[tuple[Path, Member]]:
-    """Every parameter by its path, groups opened."""
-    for member in record.members:
-        path = (*above, member.name)
-        if member.is_group and isinstance(member.type, RecordType):
-            yield from _leaves(member.type, path)
-        else:
-            yield path, member
 
 
 class _Form(msgspec.Struct, frozen=True):

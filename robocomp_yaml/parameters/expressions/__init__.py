@@ -1,1 +1,1 @@
-"""Constraints: the expressions of them read, their types, and what they come to."""
+"""Constraints: the types of their expressions, and what they come to."""

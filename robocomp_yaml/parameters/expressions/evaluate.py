@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from robocomp_yaml.parameters.expressions.expression import (
+from robocomp_yaml.parameters.specification.expression import (
     Attribute,
     Binary,
     Call,
@@ -62,8 +62,7 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
             parts = (value(operand, scope) for operand in operands)
             return constraints.all_of(parts) if operator == "and" else constraints.any_of(parts)
         case Call(function="has", arguments=(argument, *_)):
-            assert not isinstance(argument, Each)
-            return value(argument, scope) is not None
+            return _has(argument, scope)
         case Call(function=function, arguments=arguments):
             return constraints.call(constraints.FUNCTIONS[function], lambda: _operand(function, arguments, scope))
 
@@ -71,6 +70,22 @@ def value(expression: Expression, scope: Mapping[str, Any]) -> Any:
 def _known(data: Any) -> Any:
     """What a reference stands for is not known yet."""
     return None if is_reference(data) else data
+
+
+def _has(asked: Expression | Each, scope: Mapping[str, Any]) -> Any:
+    """Whether there is a value: one that a reference stands for is not known, but there."""
+    if isinstance(asked, Name):
+        return scope.get(asked.name) is not None
+    if not isinstance(asked, Attribute | Index):
+        return not isinstance(asked, Each) and value(asked, scope) is not None
+    if (around := _has(asked.of, scope)) is not True:
+        return around
+    owner = value(asked.of, scope)
+    if isinstance(asked, Attribute):
+        return None if owner is None else owner.get(asked.name) is not None
+    index = value(asked.index, scope)
+    constraints.entry(owner, index)  # raises where there is none
+    return None if owner is None or index is None else True
 
 
 def _operand(function: str, arguments: tuple[Expression | Each, ...], scope: Mapping[str, Any]) -> Any:
@@ -88,7 +103,7 @@ def _elements(each: Each, source: Any, scope: Mapping[str, Any]) -> Iterator[Any
     """The values of the element; where a condition is unknown, so is the element."""
     inner = dict(scope)
     for item in source:
-        inner[each.variable] = _known(item)
+        inner[each.variable] = item
         if each.condition is None:
             yield value(each.element, inner)
         else:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.parameters.expressions.expression import (
+from robocomp_yaml.parameters.specification.expression import (
     Attribute,
     Binary,
     Call,
@@ -59,14 +59,6 @@ class Scope(msgspec.Struct, frozen=True):
 def find_member(record: RecordType, name: str) -> Type | None:
     """A member's type by its name in expressions: the name in code."""
     return next((member.type for member in record.members if member.code_name == name), None)
-
-
-def is_sound(expression: Expression, root: RecordType) -> bool:
-    try:
-        check_constraint(expression, root)
-    except NotInLanguage:
-        return False
-    return True
 
 
 def check_constraint(expression: Expression, root: RecordType) -> None:

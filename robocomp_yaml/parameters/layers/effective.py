@@ -19,6 +19,8 @@ from robocomp_yaml.parameters.types import MapType, Parameters, RecordType, Type
 from robocomp_yaml.parameters.verdict.judge import judge, missing, wrong_size
 from robocomp_yaml.parameters.verdict.specification import is_usable
 from robocomp_yaml.semantics.paths import Path
+from robocomp_yaml.source.tree import Mapping, Node, mapping_at, sequence_at
+from robocomp_yaml.source.tree import Sequence as List
 
 
 class Effective(msgspec.Struct, frozen=True):
@@ -108,9 +110,17 @@ def _incomplete(type_: Type, place: Place | None, path: Path, head: Span) -> Ite
 
 def _incomplete_node(type_: Type, place: Place, path: Path, head: Span) -> Iterator[Diagnostic]:
     """Inside of a list nothing merges: each entry is judged as it stands, but for null."""
-    for fault in judge(type_, place.node, path, complete=True, key=place.key):
+    for fault in judge(type_, _given(place.node), path, complete=True, key=place.key):
         if fault.code in (codes.MISSING.id, codes.WRONG_SIZE.id):
             yield fault
+
+
+def _given(node: Node) -> Node:
+    """Without what is null in a mapping: it is as good as not there."""
+    if isinstance(node, Mapping):
+        entries = {name: (key, _given(value)) for name, (key, value) in node.entries.items() if value.data is not None}
+        return mapping_at(node.span, entries)
+    return sequence_at(node.span, [_given(item) for item in node.items]) if isinstance(node, List) else node
 
 
 def _broken_constraints(

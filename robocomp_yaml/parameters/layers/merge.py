@@ -12,7 +12,7 @@ import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.parameters.documents import LayeredValues
-from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type
+from robocomp_yaml.parameters.types import ListType, MapType, RecordType, Type, below
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -67,7 +67,7 @@ def merge(type_: Type, given: Iterable[Given]) -> Place | None:
             by_name.setdefault(name, []).append(entry)
     entries = {}
     for name, entry_layers in by_name.items():
-        entry_type = _entry_type(type_, name)
+        entry_type = below(type_, name)
         if entry_type is not None and (place := merge(entry_type, entry_layers)) is not None:
             entries[name] = place
     return Place(top, key, entries, _overridden(layers[:first]))
@@ -75,13 +75,6 @@ def merge(type_: Type, given: Iterable[Given]) -> Place | None:
 
 def _overridden(layers: list[Given]) -> tuple[Node, ...]:
     return tuple(node for _, node in reversed(layers))
-
-
-def _entry_type(type_: RecordType | MapType, name: str) -> Type | None:
-    if isinstance(type_, MapType):
-        return type_.element
-    member = type_.member(name)
-    return None if member is None else member.type
 
 
 def data_of(place: Place | None, type_: Type) -> Any:
@@ -93,7 +86,7 @@ def data_of(place: Place | None, type_: Type) -> Any:
     return {
         name: data_of(entry, entry_type)
         for name, entry in place.entries.items()
-        if isinstance(type_, RecordType | MapType) and (entry_type := _entry_type(type_, name)) is not None
+        if (entry_type := below(type_, name)) is not None
     }
 
 
@@ -111,9 +104,7 @@ def _without_null(data: Any, type_: Type) -> Any:
         if None not in kept.values() and not any(isinstance(value, dict | list) for value in kept.values()):
             return kept
         return {
-            name: _without_null(value, _entry_type(type_, name) or type_)
-            for name, value in kept.items()
-            if value is not None
+            name: _without_null(value, below(type_, name) or type_) for name, value in kept.items() if value is not None
         }
     return data
 

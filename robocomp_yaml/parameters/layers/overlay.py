@@ -8,7 +8,7 @@ from __future__ import annotations
 import msgspec
 
 from robocomp_yaml.parameters.layers.merge import Place
-from robocomp_yaml.parameters.types import ListType, MapType, Member, RecordType, Type
+from robocomp_yaml.parameters.types import ListType, Member, RecordType, Type, below
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, mapping_at, sequence_at, text_at
 
@@ -51,17 +51,17 @@ def _put(entries: Entries, steps: list[str], key: Scalar, node: Node, type_: Typ
     if not rest:
         entries[step] = (name, _joined(known, node))
         return
-    below = base.entries.get(step) if base is not None and base.entries else None
-    member = type_.member(step) if isinstance(type_, RecordType) else None
-    inner = member.type if member else type_.element if isinstance(type_, MapType) else None
+    place = base.entries.get(step) if base is not None and base.entries else None
+    inner = below(type_, step)
     if isinstance(inner, ListType):
-        entries[step] = (name, _replaced(known[1] if known else _list(below, member), rest, key, node))
+        member = type_.member(step) if isinstance(type_, RecordType) else None
+        entries[step] = (name, _replaced(known[1] if known else _list(place, member), rest, key, node))
         return
     inside = dict(known[1].entries) if known and isinstance(known[1], Mapping) else {}
     if inner is None:
         inside[rest[0]] = (text_at(key.span, rest[0]), node)  # the judge says what is wrong with it
     else:
-        _put(inside, rest, key, node, inner, below)
+        _put(inside, rest, key, node, inner, place)
     entries[step] = (name, mapping_at(key.span, inside))
 
 
@@ -72,10 +72,10 @@ def _joined(known: tuple[Scalar, Node] | None, node: Node) -> Node:
     return node
 
 
-def _list(below: Place | None, member: Member | None) -> Node | None:
+def _list(place: Place | None, member: Member | None) -> Node | None:
     """What a list holds before: by the document, else by its default."""
-    if below is not None:
-        return below.node
+    if place is not None:
+        return place.node
     return member.default.node if member and member.default else None
 
 

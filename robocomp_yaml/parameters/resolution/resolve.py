@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
 from robocomp_yaml.diag.codes import pdsl as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, meaning
+from robocomp_yaml.parameters.defaults import EMERGENCY, PERIOD
 from robocomp_yaml.parameters.resolution.limits import inside, limited
 from robocomp_yaml.parameters.specification.document import Entry, ParameterDocument, Rule, Spec
 from robocomp_yaml.parameters.types import (
@@ -35,7 +36,6 @@ from robocomp_yaml.source.tree import Scalar
 
 MAX_DEPTH = 30
 MAX_VALUES = 5000
-DEFAULT_PERIOD, DEFAULT_EMERGENCY = 100, 500
 _IN_TYPES = ("type", "list", "map", "enum", "struct")
 _IN_PARAMETERS = ("type", "list", "map", "group")
 
@@ -54,13 +54,37 @@ def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Par
             codes.TOO_LARGE.at(document.span, name="parameters", limit=MAX_VALUES, what="values of plain types")
         )
     root, problems = with_period(root, period)
+    found = [*resolver.found, *problems]
+    sound = tuple(_sound(constraints, root, found))
     return Parameters(
         root,
         tuple(t for t in types if isinstance(t, EnumType) or (isinstance(t, RecordType) and t.name)),
-        constraints,
+        sound,
         document.legacy,
         document.doc,
-    ), [*resolver.found, *problems]
+    ), found
+
+
+def hides_types(found: Iterable[Diagnostic]) -> bool:
+    """Whether some parameters have no usable type; a constraint that cannot be read harms no other."""
+    return has_errors(fault for fault in found if fault.code != codes.BAD_EXPRESSION.id)
+
+
+def _sound(constraints: Iterable[Constraint], root: RecordType, found: list[Diagnostic]) -> Iterator[Constraint]:
+    """The constraints that are true or false, and say only what has a meaning: nothing else ever sees others."""
+    for constraint in constraints:
+        from robocomp_yaml.parameters.expressions.types import check_constraint  # few documents have any
+        from robocomp_yaml.parameters.specification.expression import NotInLanguage
+
+        try:
+            check_constraint(constraint.expression, root)
+        except NotInLanguage as refused:
+            assert isinstance(constraint.node, Scalar)
+            if not hides_types(found):
+                place = inside(constraint.node, refused.index)
+                found.append(codes.BAD_EXPRESSION.at(place, problem=str(refused), hint=refused.hint))
+        else:
+            yield constraint
 
 
 def of_no_document(period: int | None) -> Parameters:
@@ -218,7 +242,7 @@ class _Resolver:
 
     def constraints(self, rules: tuple[Rule, ...]) -> Iterator[Constraint]:
         if rules:
-            from robocomp_yaml.parameters.expressions import expression  # Python's parser is slow to import
+            from robocomp_yaml.parameters.specification import expression  # Python's parser is slow to import
         for rule in rules:
             assert isinstance(rule.that, Scalar)
             try:
@@ -292,9 +316,9 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
         if member is not None and not (isinstance(member.type, BasicType) and member.type.name == "int"):
             problem = f"'period.{name}' is a whole number of milliseconds: int"
             found.append(codes.PERIOD.at(member.span, problem=problem))
-    compute = by_name.get("compute") or _period("compute", "How often compute() runs.", period or DEFAULT_PERIOD)
+    compute = by_name.get("compute") or _period("compute", "How often compute() runs.", period or PERIOD)
     if compute.default is None and not compute.optional:
-        compute = replace(compute, default=Default(period or DEFAULT_PERIOD))
+        compute = replace(compute, default=Default(period or PERIOD))
     elif period is not None and compute.default is not None and compute.default.data != period and by_name:
         node = compute.default.node
         if node is not None:
@@ -304,7 +328,7 @@ def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[
                 )
             )
     emergency = by_name.get("emergency") or _period(
-        "emergency", "The period of RoboComp's emergency(); in other components, for their own code.", DEFAULT_EMERGENCY
+        "emergency", "The period of RoboComp's emergency(); in other components, for their own code.", EMERGENCY
     )
     others = [member for member in own if member.name not in ("compute", "emergency")]
     group = RecordType("", (compute, emergency, *others), "How often the component works.")

@@ -236,12 +236,13 @@ class _Maker(msgspec.Struct):
         unit, doc, facts = member.unit, member.documentation, for_editors(member)
         made: Schema = {"title": f"{member.name} ({unit})" if unit else member.name}
         made["description"] = "\n".join(part for part in (doc, facts) if part)
-        can_be_shown = (not self.for_editors or _is_simple(example(member))) and not holds_secret(member.type)
+        shown = example(member) if self.for_editors else None
+        can_be_shown = _is_simple(shown) and not holds_secret(member.type)
         if member.default is not None and can_be_shown:
             made["default"] = member.default.data
         if self.for_editors:
             made["markdownDescription"] = "\n\n".join(part for part in (prose(doc), prose(facts)) if part)
-            made |= {"examples": [example(member)]} if can_be_shown else {}
+            made |= {"examples": [shown]} if can_be_shown else {}
         return made
 
 

@@ -1,1 +1,1 @@
-"""Parameters and values as documents have them: names of types are not looked up yet."""
+"""Parameters, constraints and values as documents have them: no names are looked up yet."""

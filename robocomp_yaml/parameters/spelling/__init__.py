@@ -1,1 +1,1 @@
-"""How single things are spelled in text: paths, references, plain values, rows, scalars of YAML."""
+"""How single things are spelled in text: references, rows, names of properties, scalars of YAML."""

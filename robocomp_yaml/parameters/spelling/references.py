@@ -1,7 +1,7 @@
 """Values by reference in documents: `{env: NAME}` and `{file: PATH}`; `semantics.references` says what is one.
 
-A relative path is one from the folder of the document that
-gives it; what is written says it from the folder of the file that is written, from which the component takes it.
+A relative path is one from the folder of the document that gives it; what is written says it from the folder of the
+file that is written, from which the component takes it.
 """
 
 from __future__ import annotations
@@ -9,20 +9,13 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from robocomp_yaml.semantics.references import FILE, KINDS, is_reference, spelled
-from robocomp_yaml.source.tree import Mapping, Node, Sequence
+from robocomp_yaml.semantics.references import FILE, KINDS, spelled
+from robocomp_yaml.source.tree import Mapping, Node
 
 
 def node_is_reference(node: Node) -> bool:
     """Whether a node is meant as one, sound or not."""
     return isinstance(node, Mapping) and any(kind in node.entries for kind in KINDS)
-
-
-def has_reference(node: Node) -> bool:
-    """Whether a reference stands anywhere below."""
-    if isinstance(node, Mapping):
-        return is_reference(node.data) or any(has_reference(value) for _, value in node.items())
-    return isinstance(node, Sequence) and any(map(has_reference, node.items))
 
 
 def text(data: dict[str, Any], node: Node | None, folder: str | None) -> str:

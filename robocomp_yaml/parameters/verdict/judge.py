@@ -27,7 +27,7 @@ from robocomp_yaml.parameters.verdict.plain import KIND, wrong
 from robocomp_yaml.parameters.words import kind_in_words
 from robocomp_yaml.secrets import HIDDEN, url
 from robocomp_yaml.semantics import references
-from robocomp_yaml.semantics.limits import CHOICE, PATTERN, RANGE, entries, limits_in_words, one_of
+from robocomp_yaml.semantics.limits import CHOICE, PATTERN, RANGE, bounds, entries, one_of
 from robocomp_yaml.semantics.paths import Path, in_words
 from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
@@ -173,7 +173,7 @@ def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar 
     elif fault == RANGE and isinstance(type_, BasicType) and type_.range is not None:
         wanted = f"{type_.range.in_words}{unit}"
     else:
-        wanted = limits_in_words(type_.name)
+        wanted = bounds(type_.name)
     value = HIDDEN if type_.secret else value
     return _at(codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{value}{unit}", wanted=wanted, hint=hint)
 

@@ -1,1 +1,1 @@
-"""Values in effect as properties and TOML, and back."""
+"""Values in effect as properties and TOML, and parameters as a reference in Markdown."""

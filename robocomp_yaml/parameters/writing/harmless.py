@@ -12,6 +12,7 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
+    Member,
     Parameters,
     RecordType,
     Type,
@@ -20,6 +21,8 @@ from robocomp_yaml.parameters.types import (
 from robocomp_yaml.source.properties import unwritable
 
 _ODD = frozenset('\r\n\0\t\ufeff$"')
+Known = dict[str, list[Member]]
+"""Of structs, which stand in many places, the members that can be trouble."""
 
 
 def is_harmless(parameters: Parameters, data: dict[str, Any]) -> bool:
@@ -33,9 +36,9 @@ def is_harmless(parameters: Parameters, data: dict[str, Any]) -> bool:
     return _record(parameters.root, data, {})
 
 
-def _record(record: RecordType, data: dict[str, Any], known: dict[str, bool]) -> bool:
-    for member in record.members:
-        if _can_be_trouble(member.type, known) and member.name in data:
+def _record(record: RecordType, data: dict[str, Any], known: Known) -> bool:
+    for member in _troublesome(record, known):
+        if member.name in data:
             value = data[member.name]
             if value in ("", [], {}) and (member.optional or member.default is not None):
                 return False
@@ -44,7 +47,7 @@ def _record(record: RecordType, data: dict[str, Any], known: dict[str, bool]) ->
     return True
 
 
-def _value(type_: Type, value: Any, known: dict[str, bool]) -> bool:
+def _value(type_: Type, value: Any, known: Known) -> bool:
     if isinstance(value, str):
         return _ODD.isdisjoint(value)
     if isinstance(type_, RecordType):
@@ -58,17 +61,14 @@ def _value(type_: Type, value: Any, known: dict[str, bool]) -> bool:
     return True
 
 
-def _can_be_trouble(type_: Type, known: dict[str, bool]) -> bool:
-    """`known` remembers structs, which stand in many places."""
-    match type_:
-        case BasicType(name=name):
-            return name == "string"
-        case EnumType():
-            return False
-        case RecordType(name=name, members=members):
-            if name not in known:
-                found = any(_can_be_trouble(member.type, known) for member in members)
-                return known.setdefault(name, found) if name else found
-            return known[name]
-        case _:
-            return True
+def _troublesome(record: RecordType, known: Known) -> list[Member]:
+    if record.name not in known:
+        found = [member for member in record.members if _can_be_trouble(member.type, known)]
+        return known.setdefault(record.name, found) if record.name else found
+    return known[record.name]
+
+
+def _can_be_trouble(type_: Type, known: Known) -> bool:
+    if isinstance(type_, RecordType):
+        return bool(_troublesome(type_, known))
+    return isinstance(type_, ListType | MapType) or (isinstance(type_, BasicType) and type_.name == "string")

@@ -116,10 +116,6 @@ def secret_keys(sections: list[Section]) -> tuple[str, ...]:
     return tuple(sorted(made.key for section in sections for made in section.properties if made.secret))
 
 
-def as_dict(sections: list[Section]) -> dict[str, str]:
-    return {made.key: made.value for section in sections for made in section.properties}
-
-
 def _exact(made: Property, original: str | None) -> Property:
     """The original spelling, while it still means the value."""
     if original is None or original == made.value or made.read is None:

@@ -9,8 +9,9 @@ from typing import Any
 import pytest
 
 from conftest import write_tree
+from parameters import as_dict
 from robocomp_yaml.parameters.layers.effective import effective
-from robocomp_yaml.parameters.writing.properties import as_dict, properties
+from robocomp_yaml.parameters.writing.properties import properties
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.source.yaml_text import flow
 

@@ -39,7 +39,7 @@ def ours(folder: Path) -> dict[str, str]:
 
 def test_a_first_compile_writes_what_the_design_names(compiled: Path) -> None:
     assert {
-        "slice/Speech.ice", "speech/slice/Speech.ice", "speech/slice/CommonBehavior.ice", "speech/etc/config",
+        "slice/Speech.ice", "runtime/python/generated/slice/CommonBehavior.ice", "speech/etc/config",
         "speech/bin/SpeechComp", "speech/src/specificworker.py", "speech/generated/genericworker.py",
     } <= set(read_tree(compiled))  # fmt: skip
     assert os.access(compiled / "speech/bin/SpeechComp", os.X_OK)
@@ -90,7 +90,7 @@ def test_user_files_stay_when_the_interface_changes(compiled: Path, rcyaml: Run)
     (compiled / "interfaces/Speech.idsl.yaml").write_text(SPEECH.replace("say", "tell"))
     assert rcyaml("compile").exit_code == 0
     assert mine.read_text() == "# mine\n"
-    assert "void tell" in (compiled / "speech/slice/Speech.ice").read_text()
+    assert "void tell" in (compiled / "slice/Speech.ice").read_text()
 
 
 def test_an_edited_generated_file_is_kept_as_orig(compiled: Path, rcyaml: Run) -> None:
@@ -192,7 +192,7 @@ def test_the_order_of_arguments_changes_nothing(rcyaml: Run, tmp_path: Path) -> 
 def test_a_target_alone(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, TREE)
     rcyaml("compile", "--target", "slice")
-    assert (tmp_path / "speech/slice/Speech.ice").exists() and not (tmp_path / "speech/generated").exists()
+    assert (tmp_path / "slice/Speech.ice").exists() and not (tmp_path / "speech/generated").exists()
 
 
 def test_imports_are_found_in_given_folders(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,6 +10,7 @@ import pytest
 
 from conftest import write_tree
 from fuzz.hostile import STRINGS
+from robocomp_yaml.emit.component import of_language
 from robocomp_yaml.languages import language
 from robocomp_yaml.languages.java.text import literal
 from robocomp_yaml.pipeline import analyse
@@ -70,7 +71,7 @@ def files(folder: Path, text: str) -> dict[str, FilePlan]:
     component = next(iter(analysis.program.components.values()), None)
     if component is None or component.broken or any(one.severity == "error" for one in analysis.diagnostics):
         return {}
-    return {file.path: file for file in language("java").part("plan").plan(component)}
+    return {file.path: file for file in of_language(component)}
 
 
 def test_hostile_texts_change_no_structure(tmp_path: Path) -> None:

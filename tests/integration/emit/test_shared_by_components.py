@@ -27,8 +27,10 @@ WORKSPACE: Tree = {
 Run = Callable[..., Result]
 LANGUAGES = {
     "cpp": ("runtime/cpp", "generated/component.cmake", "generated/runtime/log.cpp"),
+    "java": ("runtime/java", "generated/Main.java", "generated/runtime/Log.java"),
     "python": ("runtime/python/generated", "generated/component.py", "generated/runtime/log.py"),
 }
+ROBOCOMP = "compatibility: robocomp\n"
 SHARED, STATES = "runtime/cpp", "generated/component.cmake"
 
 
@@ -51,8 +53,10 @@ def in_language(workspace: Path, language: str, more: str = "") -> None:
         document.write_text(document.read_text().replace("cpp", language) + more)
 
 
-@pytest.mark.parametrize("more", ["", "compatibility: robocomp\n"])
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(
+    ("language", "more"),
+    [*((language, "") for language in LANGUAGES), ("cpp", ROBOCOMP), ("python", ROBOCOMP)],
+)
 def test_the_run_time_and_slice_stand_once(rcyaml: Run, workspace: Path, language: str, more: str) -> None:
     in_language(workspace, language, more)
     shared = workspace / LANGUAGES[language][0]
@@ -103,8 +107,10 @@ def test_other_folders(rcyaml: Run, workspace: Path) -> None:
 def test_standalone_and_back(rcyaml: Run, workspace: Path, language: str) -> None:
     """As a workspace is carried over that an earlier version made, where each component had its own."""
     in_language(workspace, language)
-    code = {"cpp": "src/specificworker.cpp", "python": "src/specificworker.py"}[language]
-    yours = {"cpp": "CMakeLists.txt", "python": "bin/MotorComp"}[language]
+    code = {"cpp": "src/specificworker.cpp", "java": "src/SpecificWorker.java", "python": "src/specificworker.py"}[
+        language
+    ]
+    yours = {"cpp": "CMakeLists.txt", "java": "bin/.gitignore", "python": "bin/MotorComp"}[language]
     assert rcyaml("-q", "compile", "--standalone", ".").exit_code == 0
     assert not (workspace / "runtime").exists()
     motor = workspace / "components/motor"
@@ -184,3 +190,12 @@ def test_only_the_component_that_is_compiled_knows_of_a_change(rcyaml: Run, work
     assert rcyaml("-q", "compile", "components/motor").exit_code == 0
     told = rcyaml("deploy", "plan").output
     assert told.count("RC7012") == 1 and "'arm' was compiled before" in told
+
+
+def test_an_interface_beside_a_component_that_hides_another(rcyaml: Run, workspace: Path) -> None:
+    """The Slice that the others share is that of the folder of interfaces."""
+    write_tree(workspace, {"components/arm/Hand.idsl.yaml": HAND.replace("grip", "open")})
+    assert rcyaml("-q", "compile", "components/motor", "components/arm/arm.cdsl.yaml").exit_code == 0
+    assert "void open" in (workspace / "components/arm/slice/Hand.ice").read_text()
+    assert not (workspace / "slice/Hand.ice").exists() and (workspace / "slice/Motor.ice").exists()
+    assert not any("runtime" in path for path in generated(workspace, "arm"))

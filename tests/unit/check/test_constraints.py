@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from in_memory import analysed, pdsl, refused
+from in_memory import analysed, pdsl, refused, said
 
 PARAMETERS = (
     "n: {type: int, default: 1}, x: {type: float, default: 0.5}, on: {type: bool, default: true}, "
@@ -252,3 +252,57 @@ def test_a_constraint_goes_by_names_in_code() -> None:
     )
     assert refused(documents, "from: 1") == []
     assert refused(documents, "from: 2") == ["this must hold: start < g.ab"]
+
+
+OPTIONAL = (
+    "user: {type: string, optional: true}, key: {type: string, optional: true}, ls: {list: string, default: [a]}, "
+    "low: int, r: {list: int}, first: {type: T, optional: true}, need: T"
+)
+T = "T: {struct: {x: int, tag: {type: string, optional: true}}}"
+
+
+@pytest.mark.parametrize(
+    ("constraint", "values", "holds"),
+    [
+        ("not has(user) or has(key)", "user: bob, key: {env: KEY}", True),
+        ("not has(user) or has(key)", "user: bob, key: {file: key}", True),
+        ("not has(user) or has(key)", "user: bob", False),
+        ("not has(first) or has(first.tag)", "first: {x: 1, tag: {env: X}}", True),
+        ("not has(first) or has(first.tag)", "first: {x: 1}", False),
+        ("has(ls[0])", "ls: [{env: X}]", True),
+        ("has(ls[0])", "ls: []", False),
+        ("not has(first.tag)", "", True),
+        ("not has(need.tag)", "", True),
+        ("has(low)", "", True),
+        ("has(r[0])", "", True),
+        ("has(need.x)", "", True),
+    ],
+)
+def test_what_a_reference_stands_for_is_there_and_so_is_what_has_to_be_given(
+    constraint: str, values: str, holds: bool
+) -> None:
+    documents = pdsl(OPTIONAL, T, f"constraints: [{constraint!r}]\n")
+    given = ", ".join(each for each in ("low: 1, r: [1], need: {x: 1}", values) if each)
+    assert refused(documents, given) == ([] if holds else [f"this must hold: {constraint}"])
+
+
+@pytest.mark.parametrize(
+    "constraint",
+    [
+        "t < n",
+        "n.x == 1",
+        "n + t == 1",
+        "n[0] == 1",
+        "len(n) == 1",
+        "all(n)",
+        "min(t) > 1",
+        "-t == 1",
+        "n in 3",
+        "unique(n)",
+    ],
+)
+def test_what_has_no_meaning_is_said_once_and_harms_no_values(constraint: str) -> None:
+    documents = pdsl("n: int, t: string", more=f"constraints: [{constraint!r}, n > 0]\n")
+    text = "component: c.cdsl.yaml\nparameters: {n: 1, t: a}\n"
+    assert [one.code for one in said({**documents, "c.config.yaml": text})] == ["RC3119"]
+    assert "this must hold: n > 0" in refused(documents, "n: 0, t: a")

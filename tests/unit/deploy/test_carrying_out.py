@@ -111,6 +111,11 @@ def test_going_on_leaves_out_only_what_needs_it() -> None:
     assert result.undone == KEEP_GOING and not any(one.startswith("ask") for one in engine.done)
 
 
+def test_what_is_after_what_was_skipped_is_skipped_too() -> None:
+    result = InMemory(ending="motors").up(network(*ALL), keep_going=True)
+    assert (result.outcome.began, result.outcome.skipped) == (["motors", "camera"], ["base", "arm"])
+
+
 def test_one_that_can_do_without_starts_all_the_same() -> None:
     easy = replace(BASE, optional=("motors",))
     for after, skipped in ((BASE, ["base"]), (easy, [])):
@@ -205,6 +210,13 @@ def test_when_the_time_is_over_it_says_how_far_it_came() -> None:
     assert late.more.splitlines() == ["ready: motors, camera", "waited for: base", "not started: arm"]
     assert [one.span.line for one in late.related] == [len("base")] and "within 0.5 s" in late.related[0].message
     assert result.undone == STOP_THEM and engine.states() == {"motors": STOPPED, "base": STOPPED, "camera": RUNNING}
+
+
+def test_a_restart_that_is_late_counts_among_what_was_wanted() -> None:
+    slow = replace(MOTORS, cwd="/tmp", ready=Readiness(within=9.0, command=("ask",)))
+    engine = InMemory(running(MOTORS), running(CAMERA), running(ARM), silent="motors")
+    (late,) = engine.up(network(slow, CAMERA, replace(ARM, after=(), aliases=("a",))), seconds=0.5).diagnostics
+    assert "when 2 of 3 processes were ready" in late.message
 
 
 # Rolling back

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 from msgspec.structs import replace
 
@@ -145,6 +147,16 @@ def test_it_follows_only_a_restart_and_says_whose() -> None:
     assert plan(network(MOTORS, CAMERA, several), stopped).steps["base"].action == KEEP
 
 
+def test_what_is_gone_and_what_is_new_are_listed() -> None:
+    before = replace(MOTORS, aliases=("a", "b", "c"), groups=("g",))
+    after = replace(MOTORS, aliases=("c", "d", "e"), groups=("g",))
+    step = plan(network(after), {"motors": running(before)}).steps["motors"]
+    assert [str(one) for one in step.changes] == ["aliases: a, b → d, e"]
+    turned = replace(MOTORS, aliases=("b", "a", "c"), groups=("g",))
+    step = plan(network(turned), {"motors": running(before)}).steps["motors"]
+    assert (step.action, step.reason) == (CHANGE, "aliases changed")
+
+
 def test_a_plan_that_changes_nothing_is_empty() -> None:
     now = {"motors": running(MOTORS)}
     assert plan(network(MOTORS), now).is_empty
@@ -178,3 +190,30 @@ def test_one_that_another_version_started_is_not_compared() -> None:
     step = plan(network(MOTORS), {"motors": Running("motors", None, "", RUNNING)}).steps["motors"]
     assert (step.action, step.changes, step.before) == (RESTART, (), None)
     assert step.spec is not None
+
+
+@pytest.mark.parametrize(
+    ("before", "now", "action", "reason"),
+    [
+        ("1", "2", RESTART, "bin/motors changed"),
+        ("1", "", RESTART, "bin/motors (gone) changed"),
+        ("", "1", RESTART, "bin/motors changed"),
+        ("1", "1", KEEP, "nothing changed"),
+    ],
+)
+def test_a_watched_file_that_changes_is_a_reason_to_restart(before: str, now: str, action: str, reason: str) -> None:
+    path = os.path.abspath("bin/motors")
+    watching = replace(MOTORS, watched=(path,))
+    ran = running(watching)
+    assert ran.spec is not None
+    ran = replace(ran, spec=replace(ran.spec, digests=((path, before),)))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("robocomp_yaml.deploy.spec._digest_of", lambda path: now)
+        step = plan(network(watching), {"motors": ran}).steps["motors"]
+    assert (step.action, step.reason) == (action, reason)
+
+
+def test_a_file_that_is_watched_from_now_on_is_no_reason() -> None:
+    watching = replace(MOTORS, watched=("/no/such/file",))
+    assert actions(plan(network(watching), {"motors": running(MOTORS)})) == {"motors": KEEP}
+    assert actions(plan(network(MOTORS), {"motors": running(watching)})) == {"motors": KEEP}

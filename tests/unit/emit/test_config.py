@@ -135,3 +135,14 @@ def test_a_component_may_be_given_twice(tmp_path: Path) -> None:
     linked = workspace({"a": component("A", requires="[Mouth]", implements="[Mouth]")})
     again = {"again": analyse([str(tmp_path)]).program.components.popitem()[1]}
     assert text({**linked, **again}, "a") == text({**again, **linked}, "a") == text(linked, "a")
+
+
+@pytest.mark.parametrize(
+    ("group", "period"),
+    [("{compute: {type: int, default: 20}}", "20"), ("{compute: {type: int, optional: true}}", "100"),
+     ("{gui: {type: int, default: 40}}", "100")],
+)  # fmt: skip
+def test_the_period_is_that_of_the_parameters(group: str, period: str) -> None:
+    Path("a").mkdir()
+    Path("a/a.pdsl.yaml").write_text(f"component: a.cdsl.yaml\nparameters: {{period: {{group: {group}}}}}\n")
+    assert values(workspace({"a": component("A")}), "a")["period.compute"] == period

@@ -31,6 +31,7 @@ CASES: dict[str, tuple[str, ...]] = {
     "configs that disagree about columns keep texts": ("# name,most\nM0 = a,1\n", "# most,title,third\nM0 = 1,b,c\n"),
     "columns are called by the comment above": ("# name (its name),min angle (rad),max\nM0 = a,1,2\nM1 = b,1,2\n",),
     "columns are called by a comment with a label": ("# Motors: name, id, speed\nMotor0 = a,1,2.5\nMotor1 = b,2,3\n",),
+    "rows that everybody knows are called as ever": ("Motor0 = a,1,1,0,1,0,2.5\nMotor1 = b,2,-1,0,1,0,2.5\n",),
     "prose above rows names no columns": ("# this is for the two\nM0 = a,1,2,3,4\nM1 = b,1,2,3,4\n",),
     "a comment far above names nothing": ("# name,most\n" + "\n" * 30 + "M0 = a,1\nM1 = b,2\n",),
     "a column that is named twice gets a number": ("# x,y,x\nM0 = 1,2,3\nM1 = 1,2,3\n",),
@@ -39,6 +40,20 @@ CASES: dict[str, tuple[str, ...]] = {
     "a range with commas is none": ("ID:0-10 = 100,5\n",),
     "fields that count alike are one list": ("rx_0 = 1\nry_0 = 2\nrx_1 = 3.5\nry_1 = 4\n",),
     "fields with a count beside them are called by it": ("num_cameras = 1\nname_0 = front\nwidth_0 = 640\n",),
+    "many fields are called by the first three": (
+        "a0 = 1\nb0 = 2\nc0 = 3\nd0 = 4\na1 = 1\nb1 = 2\nc1 = 3\nd1 = 4\n",
+    ),
+    "a count counts in its own group": (
+        "num_cams = 1\ncam.name0 = a\ncam.size0 = 1\ncam.num_eyes = 1\n", "num_cams = 1\ncam.name0 = a\ncam.size0 = 2\n",
+    ),
+    "comments stand above the first field of a record": (
+        "# the first\nx0 = 1 # ahead\ny0 = 2\n# the second\nx1 = 1\n# its y\ny1 = 2\n",
+    ),
+    "commas in brackets part no names": ("# name (short, please), size (m, cm)\nM0 = a,1\nM1 = b,2\n",),
+    "records of one shape share a struct only under one name": (
+        "Left0 = a,1\nLeft1 = b,2\nRight0 = a,1\nRight1 = b,2\ng.Left0 = a,1\ng.Left1 = b,1\n",
+    ),
+    "a list here and a text there": ("A = a,b,c\nM0 = a,1\nM1 = b,2\n", "A = {x}\nM0 = x\n"),
     "one field alone is no list of records": ("name_0 = front\nwidth = 640\n",),
     "fields in groups stay there": ("cams.x0 = 1\ncams.y0 = 2\ncams.x1 = 3\ncams.y1 = 4\n",),
     "lists": (
@@ -67,6 +82,10 @@ CASES: dict[str, tuple[str, ...]] = {
     "flat TOML is told by its keys": (
         "Endpoints.Speech = tcp -p 10001\nProxies.Speech = speech:tcp -p 2\nProxies.SpeechPrefix = robot1\n"
         "Proxies.TopicManager = IceStorm/TopicManager:default -p 9999\nIce.Warn.Connections = 0\nArm.n = 1\nx = a b\n",
+    ),
+    "settings that the documents would refuse stay properties": (
+        "Speech.Endpoints = nothing\nSpeech.Endpoints.x = 1\nIce = 1\nIce. = 2\n.Endpoints = tcp\nProxy = a:tcp -p 1\n"
+        "a..b = 1\n.c = 2\nd. = 3\nx y = 4\nImplicit.x = \n" + "a" + ".b" * 30 + " = 5\nk{i} = 6\nsize = 7\nm.size = 8\nm.0 = 9\n",
     ),
     "references stay as they are": ("key = ${env:KEY}\nother = ${file:a}\n",),
 }  # fmt: skip
@@ -164,3 +183,18 @@ def test_parameters_that_somebody_declared_are_taken_as_they_are(rcyaml: Run, tm
         tmp_path, {"speech/speech.cdsl.yaml": cdsl, "speech/speech.pdsl.yaml": declared, "speech/etc/config": config}
     )
     golden("settings/declared", migrated(rcyaml, tmp_path))
+
+
+def test_configs_without_a_component_have_parameters_of_their_own(rcyaml: Run, tmp_path: Path, golden: Golden) -> None:
+    files = {"a/side.conf": "A = 1\n", "a/config.new": "B = 2\n", "a/side": "C = 3\n", "b/etc/config": "D = 4\n"}
+    write_tree(tmp_path, files)
+    rcyaml("migrate", ".")
+    paths = sorted(tmp_path.rglob("*.yaml"))
+    texts = {str(path.relative_to(tmp_path)).replace("/", "-"): path.read_text().partition("\n")[2] for path in paths}
+    golden("settings/alone", texts)
+
+
+def test_names_that_are_too_few_are_not_taken(rcyaml: Run, tmp_path: Path) -> None:
+    write_tree(tmp_path, {"speech/etc/config": "M0 = a,1\nM1 = b,2\n"})
+    said = " ".join(rcyaml("migrate", ".", "--names", "M=name").output.split())
+    assert "M… has 2 columns, and --names gives 1; they are called f1, f2" in said

@@ -132,6 +132,64 @@ CASES: dict[str, dict[str, str]] = {
     },
     "options that mean nothing": {"A.idsl.yaml": A, "rcyaml.yaml": "lnt: {}\n"},
     "a lint of no code": {"A.idsl.yaml": A, "rcyaml.yaml": "lint: {RC9999: 'off', RC1001: loud}\n"},
+    "imports in a circle of three": {
+        "X.idsl.yaml": "module: RoboCompX\nimports: [Z]\n",
+        "Z.idsl.yaml": "module: RoboCompZ\nimports: [Y]\n",
+        "Y.idsl.yaml": "module: RoboCompY\nimports: [X]\n",
+        "W.idsl.yaml": "module: RoboCompW\nimports: [X]\n",
+    },
+    "imports in two circles": {
+        "D.idsl.yaml": "module: RoboCompD\nimports: [C]\n",
+        "C.idsl.yaml": "module: RoboCompC\nimports: [D]\n",
+        "B.idsl.yaml": "module: RoboCompB\nimports: [A]\n",
+        "A.idsl.yaml": "module: RoboCompA\nimports: [B]\n",
+    },
+    "an interface that is nowhere": {"c.cdsl.yaml": "component: C\nlanguage: python\nimplements: [Arm]\n"},
+    "an interface that is there already": {
+        "A.idsl.yaml": A + "interfaces: {Arm: {methods: {go: }}}\n",
+        "c.cdsl.yaml": "component: C\nlanguage: python\nimports: [A]\nimplements: [Arm, Amr]\n",
+    },
+    "an interface that no import defines, of several": {
+        "A.idsl.yaml": A + "interfaces: {Arm: {methods: {go: }}, Leg: {methods: {go: }}}\n",
+        "c.cdsl.yaml": "component: C\nlanguage: python\nimports: [A]\nimplements: [Camera]\n",
+    },
+    "a name that a topic has": {
+        "A.idsl.yaml": A + "topics: {Arm: {methods: {go: }}}\nexceptions: {Arm: {struct: {x: int}}}\n"
+    },
+    "values called config.yaml elsewhere": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "config.yaml": "parameters: {a: x}\n",
+    },
+    "values in a folder below etc": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "etc/more/config.yaml": "parameters: {a: x}\n",
+    },
+    "values in the etc of two components": {
+        "a.cdsl.yaml": "component: A\nlanguage: python\n",
+        "b.cdsl.yaml": "component: B\nlanguage: python\n",
+        "etc/config.yaml": "parameters: {a: x}\n",
+    },
+    "values in the etc of another component": {
+        "speech.cdsl.yaml": C,
+        "speech.pdsl.yaml": P,
+        "o/o.cdsl.yaml": "component: O\nlanguage: python\n",
+        "o/etc/config.yaml": "component: ../../speech.cdsl.yaml\nparameters: {a: 2}\n",
+    },
+    "a machine that includes itself": {
+        "c.cdsl.yaml": "component: C\nlanguage: python\nstatemachine: m.scxml\n",
+        "m.scxml": '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" initial="a"><state id="a"><invoke src="m.scxml"/></state></scxml>\n',
+    },
+    "a machine that is a folder": {
+        "c.cdsl.yaml": "component: C\nlanguage: python\nstatemachine: m\n",
+        "m/x.txt": "",
+    },
+    "a machine that includes what is no machine": {
+        "c.cdsl.yaml": "component: C\nlanguage: python\nstatemachine: m.scxml\n",
+        "n.scxml": "<x/>\n",
+        "m.scxml": '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" initial="a"><state id="a"><invoke src="file:n.scxml"/></state></scxml>\n',
+    },
 }
 
 

@@ -132,3 +132,31 @@ def test_of_several_components_any_that_is_named_is_found() -> None:
     (found,) = wrong("components: {m: {component: both}}\n", others)
     for meant in found.hint.removeprefix("name ").split(" or "):
         assert wrong(f"components: {{m: {{component: {meant}}}}}\n", others) == []
+
+
+def test_of_instances_each_has_its_own_component_and_configuration() -> None:
+    text = "components: {'m{i}': {component: 'mouth{i}', instances: 2, config: 'c{i}.config.yaml'}}\n"
+    mouths = {f"mouth{i}/m.cdsl.yaml": COMPONENT.replace(": C", f": C{i}") for i in (0, 1)}
+    values = {f"mouth{i}/c{i}.config.yaml": "component: m.cdsl.yaml\n" for i in (0, 1)}
+    assert wrong(text, {**mouths, **values}) == []
+    (found,) = wrong(text, {**mouths, **{name: it for name, it in values.items() if "1" not in name}})
+    assert (found.code, found.at) == ("RC4103", "'c{i}.config.yaml'") and "'c1.config.yaml'" in found.message
+    (found,) = wrong(text, {name: it for name, it in {**mouths, **values}.items() if name != "mouth1/m.cdsl.yaml"})
+    assert (found.code, found.at) == ("RC4101", "'mouth{i}'") and "'mouth1'" in found.message
+
+
+def test_an_include_in_an_include_needs_its_host_too() -> None:
+    part = "deployment: Part\ngroups: {inner: {include: arm.ddsl.yaml}}\n"
+    text = "hosts: {a: 10.0.0.1, b: 10.0.0.2}\ngroups: {outer: {include: part.ddsl.yaml}}\n"
+    (found,) = wrong(text, {"part.ddsl.yaml": part, "arm.ddsl.yaml": ARM})
+    assert (
+        found.message == "'outer.inner' does not say on which host it runs"
+        and "inner: {include: arm.ddsl.yaml" in found.hint
+    )
+
+
+def test_what_a_group_exposes_already_is_not_meant_again() -> None:
+    (found,) = wrong(
+        TWO + "groups: {g: {components: [speech], as: speech, expose: {Speech: speech, Speach: speech}}}\n", {}
+    )
+    assert (found.at, found.hint) == ("Speach", "'Speech' is there already")

@@ -83,10 +83,10 @@ def test_what_is_not_allowed(name: str, value: Any, given: dict[str, Any], fault
 
 
 def test_what_a_type_can_hold() -> None:
-    assert limits.limits_in_words("int") == "from -2147483648 to 2147483647 (int)"
-    assert limits.limits_in_words("float").endswith(" (float)")
+    assert limits.bounds("int") == "from -2147483648 to 2147483647 (int)"
+    assert limits.bounds("float").endswith(" (float)")
 
 
 def test_which_values_there_are() -> None:
-    assert limits.one_of(("a", "b"), secret=False) == "one of a, b"
+    assert limits.one_of(("a", "b")) == "one of a, b"
     assert limits.one_of(("a", "b"), secret=True) == "one of the 2 values allowed"

@@ -3,7 +3,7 @@
     all(m.min < m.max for m in motors)     low < high and high <= limits.top     device in ["/dev/ttyUSB0", "sim"]
 
 The syntax is a subset of Python's, so Python's own parser reads it (it only parses: nothing is ever evaluated by
-Python); whatever is not in the subset is refused at its place. `check.pdsl.expressions` knows the types, and
+Python); whatever is not in the subset is refused at its place. `expression_types` knows the types, and
 `values.evaluate` the meaning.
 """
 

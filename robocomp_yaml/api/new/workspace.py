@@ -1,0 +1,80 @@
+"""What a workspace consists of, besides documents, and how new documents come into one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+
+import msgspec
+
+from robocomp_yaml import languages, resources
+from robocomp_yaml.api import new
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.link import workspace_files
+from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.source.discover import WORKSPACE_FILE, documents_below
+from robocomp_yaml.transactions import whole_file
+
+EXAMPLE = "Hello"
+WROTE, KEPT, NOTE = "wrote", "kept", "note"
+Report = Callable[[str, str], None]
+"""Who is told of each file as it is done, WROTE or KEPT with its path, and what to NOTE."""
+
+
+class WorkspaceView(msgspec.Struct, frozen=True):
+    modeline: str
+
+
+def init(folder: str, report: Report, *, bare: bool = False) -> None:
+    """Makes a folder a workspace that already checks; without documents, and unless it is to be `bare`, it gets an
+    example of each kind. Nothing that is there is overwritten. Raises OSError where it cannot be written."""
+    is_empty = not os.path.isdir(folder) or not list(documents_below(folder))
+    _make(folder, report)
+    if is_empty and not bare:
+        _write(new.interface_document(folder, EXAMPLE), report)
+        example = {"implements": [EXAMPLE]}
+        _write(new.component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example), report)
+
+
+def create(make: Callable[[str], new.NewDocument], report: Report) -> str:
+    """Writes a document into the workspace of this folder, which becomes one where there is none; its path. `make`
+    gives it for the folder of a workspace: what it refuses leaves none behind. Raises OSError as `init` does."""
+    root = root_above(".")
+    if root is None:
+        root = "."
+        make(root)
+        _make(root, report)
+    document = make(root)
+    _write(document, report)
+    workspace_files.install(root)
+    return document.path
+
+
+def _make(folder: str, report: Report) -> None:
+    for path, text in _files(folder):
+        os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
+        try:
+            whole_file.create(path, text)
+            report(WROTE, path)
+        except FileExistsError:
+            report(KEPT, path)
+    for name in ("interfaces", "components"):
+        os.makedirs(os.path.join(folder, name), exist_ok=True)
+    for path in workspace_files.install(folder):
+        report(WROTE, path)
+    if problem := workspace_files.settings_problem(folder):
+        report(NOTE, problem)
+
+
+def _write(document: new.NewDocument, report: Report) -> None:
+    """Writes a document where nothing stands yet."""
+    os.makedirs(os.path.dirname(document.path) or ".", exist_ok=True)
+    whole_file.create(document.path, document.text)
+    report(WROTE, document.path)
+
+
+def _files(folder: str) -> Iterator[tuple[str, str]]:
+    path = os.path.normpath(os.path.join(folder, WORKSPACE_FILE))
+    view = WorkspaceView(workspace_files.modeline("workspace", path, folder))
+    yield path, render("new/workspace.yaml.j2", view)
+    yield os.path.normpath(os.path.join(folder, ".gitignore")), resources.text("templates/new/gitignore")

@@ -1,0 +1,76 @@
+"""Which schema applies to a document, and how editors find it."""
+
+from __future__ import annotations
+
+import os
+import re
+
+import msgspec
+
+from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.link.workspace_files import GLOBS, modeline, schema_of, schema_path
+from robocomp_yaml.plugins import Plugins
+from robocomp_yaml.source.discover import WORKSPACE_FILE, kind_of
+from robocomp_yaml.source.regular import regular, whole
+
+_MODELINE = re.compile(r"^#\s*yaml-language-server\s*:.*?\$schema\s*=\s*(\S+)", re.MULTILINE)
+_HEAD = 10_000  # characters in which editors look
+
+
+class Schema(msgspec.Struct, frozen=True):
+    """The schema of a document's kind in its workspace, which is `root`. `named` is what the document's first lines
+    say, `path` where the schema stands; both are '' where there is none. `modeline` is what these lines should say."""
+
+    kind: str
+    root: str
+    named: str
+    path: str
+    modeline: str
+
+    @property
+    def is_missing(self) -> bool:
+        return bool(self.path) and not os.path.isfile(self.path)
+
+    def is_outdated(self, plugins: Plugins) -> bool:
+        """Whether it is not what this version has for the kind, with the plug-ins of the workspace."""
+        return bool(self.path) and whole(self.path)[0] != schema_of(self.kind, plugins).encode("utf-8")
+
+
+def installed(root: str) -> dict[str, str]:
+    """Where a workspace keeps the schema of each kind; '' for those that it has not."""
+    paths = {kind: os.path.normpath(os.path.join(root, schema_path(kind))) for kind in GLOBS}
+    return {kind: path if os.path.isfile(path) else "" for kind, path in paths.items()}
+
+
+def schema_for(document: str) -> Schema:
+    """The schema of a document. Raises Refused for what is none."""
+    kind = _kind_of(document)
+    folder = os.path.dirname(document) or "."
+    root = root_above(folder) or folder
+    named = _named(document)
+    path = os.path.normpath(os.path.join(folder, named)) if "://" not in named else ""
+    return Schema(kind, root, named, path if named else installed(root)[kind], modeline(kind, document, root))
+
+
+def _kind_of(document: str) -> str:
+    kind = "workspace" if os.path.basename(document) == WORKSPACE_FILE else kind_of(document)
+    if kind is None:
+        meant = suggest(document, GLOBS)
+        hint = f"did you mean '{meant}'?" if meant else f"kinds are {', '.join(GLOBS)}"
+        raise Refused(f"'{document}' is neither a kind nor the name of a document; {hint}")
+    if not os.path.isfile(document):
+        raise Refused(f"there is no file '{document}'")
+    return kind
+
+
+def _named(document: str) -> str:
+    """The schema that a document's modeline names, or ''."""
+    try:
+        with open(document, encoding="utf-8", errors="replace", opener=regular) as file:
+            head = file.read(_HEAD)
+    except OSError as error:
+        raise Refused(f"cannot read {document}: {error.strerror}") from error
+    found = _MODELINE.search(head)
+    return found[1] if found else ""
