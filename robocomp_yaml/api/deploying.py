@@ -133,8 +133,9 @@ class Deployment:
         from robocomp_yaml.deploy import stale
 
         found = [one.as_severity(severity) for one in stale.told(self.network, self.stale(*names))]
-        self._told += self._analysis.shown(found)
-        return bool(found)
+        told = self._analysis.shown(self._analysis.judged(found).told)
+        self._told += told
+        return has_errors(told)
 
     def plan(self, *names: str) -> Plan:
         """What `up` would start, stop, restart and change, and why; what stands in the way is among the diagnostics."""
