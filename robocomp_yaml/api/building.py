@@ -12,12 +12,14 @@ from robocomp_yaml.building import builder, stamps
 from robocomp_yaml.building.inputs import Inputs
 from robocomp_yaml.building.job import FAILED, RELEASE, TYPES, Event, Job, Result
 from robocomp_yaml.building.unit import Unit, unit_of
+from robocomp_yaml.deploy.outdated import outdated_components
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.source.discover import of_kind
 
 if TYPE_CHECKING:
+    from robocomp_yaml.link.program import LinkedComponent
     from robocomp_yaml.pipeline import Analysis
 
 
@@ -36,14 +38,30 @@ class Built(msgspec.Struct, frozen=True):
 
 
 def units(analysis: Analysis, documents: Iterable[str] = ()) -> list[Unit]:
-    """The components of these documents; without any, all that were asked for. Faulty where one cannot be read."""
-    program, workspace_of = analysis.program, analysis.linker.workspace_of
-    wanted = [os.path.realpath(path) for path in documents]
-    if any(real not in program.components for real in wanted):
-        raise Faulty(analysis.diagnostics, program.documents)
-    found = [program.components[real] for real in wanted or program.asked_components()]
-    found.sort(key=lambda linked: linked.component.path)
-    return [unit_of(linked, workspace_of(linked.component.path)) for linked in found]
+    """The components of these documents, but for those that cannot be read; without any, all that were asked for."""
+    return [_unit(analysis, linked) for linked in _components(analysis, documents)]
+
+
+def every_unit(analysis: Analysis) -> list[Unit]:
+    """All components that were read."""
+    return [_unit(analysis, linked) for linked in analysis.program.components.values()]
+
+
+def _unit(analysis: Analysis, linked: LinkedComponent) -> Unit:
+    return unit_of(linked, analysis.linker.workspace_of(linked.component.path))
+
+
+def _components(analysis: Analysis, documents: Iterable[str] = ()) -> list[LinkedComponent]:
+    components = analysis.program.components
+    wanted = [os.path.realpath(path) for path in documents] or analysis.program.asked_components()
+    found = [components[real] for real in wanted if real in components]
+    return sorted(found, key=lambda linked: linked.component.path)
+
+
+def _unread(analysis: Analysis, documents: Iterable[str]) -> list[Diagnostic]:
+    """What is wrong with documents that cannot be read: the others are built all the same."""
+    lost = {path for path in documents if os.path.realpath(path) not in analysis.program.components}
+    return [told for told in analysis.diagnostics if told.span.file in lost]
 
 
 def build(
@@ -62,7 +80,11 @@ def build(
             report(analysis.veiled([event])[0] if isinstance(event, Diagnostic) else event)
 
     job = Job(build_type, jobs or len(os.sched_getaffinity(0)), told, tuple(defines))
-    found = builder.build(job, units(analysis, documents))
+    components = _components(analysis, documents)
+    if documents and not components:
+        raise Faulty(analysis.diagnostics, analysis.program.documents)
+    job.tell([*_unread(analysis, documents), *outdated_components(components)])
+    found = builder.build(job, [_unit(analysis, linked) for linked in components])
     return Built(build_type, tuple(found), tuple(analysis.veiled(job.told)), round(_cpu() - before, 2))
 
 

@@ -106,11 +106,11 @@ class Deployment:
     def stale(self, *names: str) -> list[Stale]:
         """The components whose programs are not there, or are older than what they are made of, of those that are
         built and start here; of NAMEs, with all that they need."""
-        from robocomp_yaml.api.building import units
+        from robocomp_yaml.api.building import every_unit
         from robocomp_yaml.deploy.stale import stale
 
         wanted = with_dependences(self.network, self.chosen(names)) if names else self.enabled
-        return stale(self.network, units(self._analysis), wanted)
+        return stale(self.network, every_unit(self._analysis), wanted)
 
     def build(
         self,
@@ -133,8 +133,9 @@ class Deployment:
         from robocomp_yaml.deploy import stale
 
         found = [one.as_severity(severity) for one in stale.told(self.network, self.stale(*names))]
-        self._told += self._analysis.shown(found)
-        return bool(found)
+        told = self._analysis.shown(self._analysis.judged(found).told)
+        self._told += told
+        return has_errors(told)
 
     def plan(self, *names: str) -> Plan:
         """What `up` would start, stop, restart and change, and why; what stands in the way is among the diagnostics."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -32,6 +32,22 @@ def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
             yield deploying.OUTDATED.at(
                 instance.entry.span, name=instance.name, document=changed[0].module.path,
                 hint=f"`{typed('rcyaml', 'compile', component.component.path)}`" + _then_build(component),
+                related=[Related("changed since", module.module.span) for module in changed],
+            )  # fmt: skip
+
+
+def outdated_components(components: Iterable[LinkedComponent]) -> Iterator[Diagnostic]:
+    """The same of components by themselves, at their documents."""
+    texts = _Texts()
+    for linked in components:
+        path = linked.component.path
+        if linked.broken or any(module.unresolved for module in linked.modules()):
+            continue
+        changed = _changed(os.path.dirname(path), linked, texts)
+        if changed:
+            yield deploying.OUTDATED.at(
+                linked.component.span, name=linked.component.name, document=changed[0].module.path,
+                hint=f"`{typed('rcyaml', 'compile', path)}`{_then_build(linked)}",
                 related=[Related("changed since", module.module.span) for module in changed],
             )  # fmt: skip
 

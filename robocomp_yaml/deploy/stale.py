@@ -32,11 +32,12 @@ class Stale(msgspec.Struct, frozen=True):
 def stale(network: Network, units: Iterable[Unit], names: Collection[str]) -> list[Stale]:
     """Those of the components that these processes start on this machine, by the programs that are built there."""
     inputs = Inputs()
-    by_program = {os.path.abspath(unit.program): unit for unit in units if unit.language.build}
+    by_program = {_real(unit.program): unit for unit in units if unit.language.build}
     starting: dict[str, list[str]] = {}
     for process in network.enabled():
-        if process.name in names and process.command[0] in by_program and is_this_machine(network.address(process)):
-            starting.setdefault(process.command[0], []).append(process.name)
+        program = _real(process.command[0]) if process.component and process.name in names else ""
+        if program in by_program and is_this_machine(network.address(process)):
+            starting.setdefault(program, []).append(process.name)
     looks = ((program, stamps.look(by_program[program], inputs)) for program in starting)
     return [
         Stale(by_program[program], look, tuple(starting[program])) for program, look in looks if not look.is_current
@@ -56,3 +57,9 @@ def told(network: Network, found: Iterable[Stale]) -> Iterator[Diagnostic]:
             first.span, name=first.name, changed=", ".join(shown[:_SHOWN]) + more, hint=f"`{one.unit.command}{type_}`",
             related=[Related("started as this too", network.processes[name].span) for name in one.processes[1:_SHOWN]],
         )  # fmt: skip
+
+
+def _real(program: str) -> str:
+    """By its folder, whatever leads there; the program itself may be a link."""
+    folder, name = os.path.split(program)
+    return os.path.join(os.path.realpath(folder), name)

@@ -86,7 +86,7 @@ def test_java_beside_python(
     (tmp_path / "ear/src/SpecificWorker.java").write_text(EAR)
     (tmp_path / "mouth/src/specificworker.py").write_text(MOUTH)
     told = rcyaml("deploy", "plan", "robot.ddsl.yaml")
-    assert "`rcyaml compile ear/ear.cdsl.yaml`, then `ear/generated/build`" in told.output, "it is not built yet"
+    assert "`rcyaml compile ear/ear.cdsl.yaml`, then `rcyaml build EarComp`" in told.output, "it is not built yet"
     java_build(tmp_path / "ear")
     up = rcyaml("deploy", "up", "robot.ddsl.yaml")
     assert up.exit_code == 0, up.output

@@ -141,7 +141,9 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     )
     assert "3 components: 1 built, 1 up to date, 1 failed" in told.stdout
 
-    # Only trees are taken away.
+    # Only trees are taken away: a part of one is made again.
+    assert "removed  build/Release/components/LegComp/" in rcyaml("build", "--clean", "leg").stdout
+    assert build(rcyaml, "leg") == {"LegComp": "built"}
     assert "removed  build/Release/" in rcyaml("build", "--clean").stdout
     assert not (tmp_path / "build" / "Release").exists() and (arm / "bin" / "ArmComp").is_file()
     assert rcyaml("build", "--clean").stdout == "there is no build tree\n"

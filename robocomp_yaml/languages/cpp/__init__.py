@@ -30,7 +30,7 @@ LANGUAGE = TargetLanguage(
     runtime=("cmake", "machine", "qt", "robocomp", "runtime"),
     made_of={
         "CMakeLists.txt": (),
-        "generated": (".cpp", ".h", ".cmake", "CMakeLists.txt"),
+        "generated": (".cpp", ".h", ".cmake", ".ice", "CMakeLists.txt"),
         "src": (
             ".c",
             ".cc",

@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Sequence
+from contextlib import suppress
 
 from robocomp_yaml.building import stamps
 from robocomp_yaml.building.inputs import state
@@ -29,10 +30,10 @@ def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
         group = [unit for unit in units if unit.root == root]
         try:
             done |= _alone(job, group[0]) if group[0].is_alone else _together(job, root, group)
-        except FileNotFoundError as error:
-            hint = "`sudo apt install cmake ninja-build g++`"
+        except OSError as error:
+            reason, hint = _refused(error)
             for unit in group:
-                job.failed(unit, f"there is no program '{error.filename}'", hint=hint)
+                job.failed(unit, reason, hint=hint)
                 done[unit] = Made(False)
     return {unit: done[unit] for unit in units}
 
@@ -48,6 +49,7 @@ def clean(units: Sequence[Unit], everything: bool, type_: str | None) -> list[st
             found = whole_tree.folders(root, type_)
         else:
             found = [folder for unit in group for folder in whole_tree.parts(root, type_, unit.name)]
+            whole_tree.forget_configuration(root, type_)
         for folder in found:
             if os.path.isdir(folder):
                 shutil.rmtree(folder)
@@ -55,16 +57,24 @@ def clean(units: Sequence[Unit], everything: bool, type_: str | None) -> list[st
     return gone
 
 
+def _refused(error: OSError) -> tuple[str, str]:
+    """Why there is no build, and what to do: a program is not installed, or nobody may write here."""
+    if isinstance(error, FileNotFoundError) and error.filename in ("cmake", "ninja", "make"):
+        return f"there is no program '{error.filename}'", "`sudo apt install cmake ninja-build g++`"
+    return f"{error.filename or 'the build tree'}: {(error.strerror or str(error)).lower()}", ""
+
+
 def _outdate(unit: Unit, type_: str) -> None:
     """A program that is not the last one of this tree is linked again: Ninja and make look at times alone."""
     stamp, program = stamps.load(unit), state(unit.program)
     if program is not None and (stamp is None or stamp.program != program or stamp.type != type_):
         if os.path.isfile(unit.program) and not os.path.islink(unit.program):
-            os.utime(unit.program, (0, 0))
+            with suppress(OSError):
+                os.utime(unit.program, (0, 0))
 
 
 def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
-    with WholeTree.locked(root, job.type) as whole:
+    with WholeTree.locked(root, job) as whole:
         if whole is None:
             path = whole_tree.folder_of(root, job.type)
             for unit in units:

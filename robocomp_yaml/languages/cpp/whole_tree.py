@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 
-from robocomp_yaml.building.job import Job
+from robocomp_yaml.building.job import Job, Step
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.languages.cpp.tree import LISTS, Failure, Tree, source_of
 from robocomp_yaml.source.regular import text as text_of
@@ -41,6 +41,14 @@ def parts(root: str, type_: str | None, name: str) -> list[str]:
     return [os.path.join(folder, kind, name) for folder in folders(root, type_) for kind in (_PARTS, _OWN)]
 
 
+def forget_configuration(root: str, type_: str | None) -> None:
+    """CMake is to run again, which makes what it has put into the folders of components."""
+    for folder in folders(root, type_):
+        for name in ("build.ninja", "Makefile"):
+            with suppress(OSError):
+                os.unlink(os.path.join(folder, name))
+
+
 def _is_ours(folder: str) -> bool:
     return (text_of(os.path.join(folder, LISTS)) or "").startswith(_HEAD)
 
@@ -59,16 +67,20 @@ class WholeTree:
 
     @classmethod
     @contextmanager
-    def locked(cls, root: str, type_: str) -> Iterator[WholeTree | None]:
+    def locked(cls, root: str, job: Job) -> Iterator[WholeTree | None]:
         """The tree, when no other build works in it; None where the folder is somebody else's."""
-        folder = folder_of(root, type_)
+        folder = folder_of(root, job.type)
         if os.path.isdir(folder) and os.listdir(folder) not in ([], [_LOCK]) and not _is_ours(folder):
             yield None
             return
         os.makedirs(folder, exist_ok=True)
         with open(os.path.join(folder, _LOCK), "w") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            yield cls(root, type_)
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                job.report(Step(0, 0, f"Waiting for another build in {folder}"))
+                fcntl.flock(lock, fcntl.LOCK_EX)
+            yield cls(root, job.type)
 
     def part(self, unit: Unit) -> str:
         return f"{_PARTS}/{unit.name}"

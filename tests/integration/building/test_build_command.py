@@ -127,6 +127,24 @@ def test_what_is_not_compiled(rcyaml: Rcyaml, tmp_path: Path) -> None:
     assert "`rcyaml compile arm/arm.cdsl.yaml`" in result.stdout
 
 
+def test_what_changed_since_it_was_compiled_is_told(workspace: Path, rcyaml: Rcyaml) -> None:
+    (workspace / "Arm.idsl.yaml").write_text(DOCUMENTS["Arm.idsl.yaml"].replace("float", "int"))
+    result = rcyaml("build", "leg")
+    assert result.exit_code == 0
+    assert "warning[RC7012]: 'LegComp' was compiled before Arm.idsl.yaml changed" in result.stdout
+    rcyaml("compile")
+    assert "RC7012" not in rcyaml("build").stdout
+
+
+def test_a_document_that_cannot_be_read_keeps_no_other(workspace: Path, rcyaml: Rcyaml) -> None:
+    (workspace / "arm" / "arm.cdsl.yaml").write_text("component: [\n")
+    result = rcyaml("build")
+    assert result.exit_code == 1
+    assert "arm/arm.cdsl.yaml" in result.stdout and "built       leg/bin/LegComp" in result.stdout
+    result = rcyaml("build", "arm/arm.cdsl.yaml")
+    assert result.exit_code == 1 and "arm/arm.cdsl.yaml" in result.output
+
+
 def test_no_component_at_all(rcyaml: Rcyaml, tmp_path: Path) -> None:
     result = rcyaml("build")
     assert result.exit_code == 0 and result.stdout == "there is no component\n"

@@ -145,7 +145,7 @@ def test_what_is_not_built_yet(rcyaml: Run, tmp_path: Path) -> None:
     files = deployed("components: {m: {component: mouth}}\n")
     cpp = str(files["mouth/mouth.cdsl.yaml"]).replace("python", "cpp")
     output = check(rcyaml, tmp_path, {**files, "mouth/mouth.cdsl.yaml": cpp})
-    assert "then `cmake -S mouth -B mouth/build && cmake --build mouth/build`" in output
+    assert "then `rcyaml build mouth/mouth.cdsl.yaml`" in output, "there is no workspace to find a name in"
 
 
 @pytest.mark.parametrize(
