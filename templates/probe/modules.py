@@ -1,6 +1,6 @@
 """Prints the modules that a Python program imports when it starts, and that its interpreter does not find.
 
-Of a component, the code in `src/` and `generated/` counts too, and the Python is the one that would run it: the rule of
+Of a component, the code in `src/` and `generated/` counts too, with what it needs of a shared run time, and the Python is the one that would run it: the rule of
 components (`interpreter.py`) stands above this text, as `settle`. Nothing of the program is run: paths that it adds by
 a text are searched, and what stands behind `Ice.loadSlice` may be anything that a Slice file defines.
 """
@@ -8,6 +8,7 @@ a text are searched, and what stands behind `Ice.loadSlice` may be anything that
 import ast
 import importlib.util
 import os
+import re
 import sys
 
 
@@ -18,9 +19,31 @@ def sources(program):
     sys.path[:0] = [folder]
     if os.path.basename(folder) == "bin" and os.path.isdir(os.path.join(root, "src")):
         sys.path[:0] = [root, os.path.join(root, "src")]
-        for part in ("generated", "src"):
-            for place, _, names in os.walk(os.path.join(root, part)):
-                yield from (os.path.join(place, name) for name in names if name.endswith(".py"))
+        own = [path for part in ("generated", "src") for path in below(os.path.join(root, part))]
+        yield from own
+        yield from shared(os.path.join(root, "generated"), own)
+
+
+def below(folder):
+    for place, _, names in os.walk(folder):
+        yield from (os.path.join(place, name) for name in names if name.endswith(".py"))
+
+
+def shared(folder, own):
+    """The packages of a run time that stands elsewhere which the component's own files name."""
+    texts = []
+    for path in own:
+        try:
+            with open(path, encoding="utf-8") as file:
+                texts.append(file.read())
+        except (OSError, ValueError):
+            continue
+    where = (re.search(r'__file__\)\), "((?:\.\./)+[^"\n]+)"', text) for text in texts)
+    for found in filter(None, where):
+        runtime = os.path.normpath(os.path.join(folder, found.group(1), "generated"))
+        for name in os.listdir(runtime) if os.path.isdir(runtime) else ():
+            if any("generated." + name in text for text in texts):
+                yield from below(os.path.join(runtime, name))
 
 
 def imported(tree):
@@ -49,10 +72,14 @@ def is_there(name):
         return False
 
 
+RULE = ("runtime", "interpreter.py")
+
+
 def lacks_ice(program):
     """Whether no Python here could run a component; in the one that could, this script goes on."""
     root = os.path.dirname(os.path.dirname(os.path.abspath(program)))
-    if not os.path.isfile(os.path.join(root, "generated", "runtime", "interpreter.py")):
+    generated = os.path.join(root, "generated")
+    if not any(os.path.isfile(os.path.join(generated, *path)) for path in (("component.py",), RULE)):
         return False
     sys.path[:] = filter(None, sys.path)  # not the folder where this happens to run
     try:
