@@ -12,6 +12,8 @@ from collections.abc import Iterable
 
 from robocomp_yaml.emit.exports import _unwritable
 from robocomp_yaml.emit.exports._commands import by_host, configs, file_name, with_files
+from robocomp_yaml.emit.layout import GENERATED
+from robocomp_yaml.link import workspace
 from robocomp_yaml.network.network import ALWAYS, COMPONENT, ICESTORM, NEVER, Network, Process
 from robocomp_yaml.source.yaml_text import quoted
 
@@ -71,14 +73,27 @@ def _volumes(process: Process, inside: str) -> list[str]:
     home = os.path.dirname(process.command[0]) if os.path.isabs(process.command[0]) else ""
     if process.kind == COMPONENT and os.path.basename(home) == "bin":
         home = os.path.dirname(home)
-    folders = [folder for folder in dict.fromkeys((home, _folder(process))) if folder and not _SYSTEM.match(folder)]
-    mounts = [(folder, folder, False) for folder in folders]
+    read = dict.fromkeys((home, _folder(process), *_shared(home)))
+    mounts = [(folder, folder, False) for folder in read if folder and not _SYSTEM.match(folder)]
     mounts += [(folder, folder, True) for folder in process.folders]
     if process.config is not None:
         mounts.append((f"./{process.config.path}", inside, False))
     lines = [_mount(source, target, _WRITTEN if is_written else _READ) for source, target, is_written in mounts]
     lines += [_mount(path, path, _FILE) for path in _files(process)]
     return ["  volumes:", *lines] if lines else []
+
+
+def _shared(home: str) -> list[str]:
+    """What a component reads when it starts that it shares with others of its workspace: a program that was built has
+    all of it."""
+    if not os.path.isfile(os.path.join(home, GENERATED, "component.py")):
+        return []
+    root = workspace.root_above(home)
+    if root is None or os.path.isdir(os.path.join(home, GENERATED, "runtime")):
+        return []
+    found, _ = workspace.read(root)
+    folders = (os.path.abspath(folder) for folder in (found.runtime_folder, found.slice_folder))
+    return [folder for folder in folders if os.path.isdir(folder)]
 
 
 _READ, _WRITTEN = "read_only: true", "bind: {create_host_path: true}"

@@ -12,6 +12,7 @@ from click.testing import Result
 from conftest import Tree, write_tree
 from robocomp_yaml import resources
 from robocomp_yaml.emit import runtime
+from robocomp_yaml.emit.exports import compose
 
 MOTOR = "module: RoboCompMotor\nimports: [Types]\ninterfaces:\n  Motor:\n    methods:\n      move: {in: {to: Types.Angle}}\n"
 TYPES = "module: Types\ntypes:\n  Angle: {struct: {degrees: float}}\n"
@@ -199,3 +200,20 @@ def test_an_interface_beside_a_component_that_hides_another(rcyaml: Run, workspa
     assert "void open" in (workspace / "components/arm/slice/Hand.ice").read_text()
     assert not (workspace / "slice/Hand.ice").exists() and (workspace / "slice/Motor.ice").exists()
     assert not any("runtime" in path for path in generated(workspace, "arm"))
+
+
+@pytest.mark.parametrize(("language", "is_read"), [("python", True), ("java", False)])
+def test_a_container_has_what_a_component_shares(
+    rcyaml: Run, workspace: Path, monkeypatch: pytest.MonkeyPatch, language: str, is_read: bool
+) -> None:
+    """Unless the program that was built has all of it."""
+    monkeypatch.setattr(compose, "_SYSTEM", re.compile("$^"))  # these folders are below /tmp
+    in_language(workspace, language)
+    (workspace / "lab.ddsl.yaml").write_text(
+        "deployment: Lab\ncomponents:\n  motor: {component: components/motor/motor.cdsl.yaml}\n"
+    )
+    rcyaml("-q", "compile", ".")
+    made = rcyaml("deploy", "export", "--as", "compose").output
+    for shared in ("runtime", "slice"):
+        assert (f'source: "{workspace / shared}",' in made) is is_read
+    assert f'source: "{workspace / "components" / "motor"}",' in made
