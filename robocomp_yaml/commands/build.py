@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import click
 
+from robocomp_yaml.building.job import RELEASE, TYPES
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Command
-
-_TYPES = ("Release", "Debug", "RelWithDebInfo", "MinSizeRel")
 
 
 @click.command(cls=Command, short_help="Build components; only what is not what it is made of.")
 @click.argument("components", nargs=-1, metavar="[COMPONENT]...")
 @click.option(
-    "--type", "type_", type=click.Choice(_TYPES, case_sensitive=False), help="How C++ is built; Release, unless said."
+    "--type", "type_", type=click.Choice(TYPES, case_sensitive=False), help="How C++ is built; Release, unless said."
 )
 @click.option("-j", "--jobs", type=click.IntRange(min=1), help="How much is done at once; as many as processors.")
 @click.option("-D", "defines", multiple=True, metavar="NAME=VALUE", help="A variable for CMake; may be repeated.")
@@ -34,4 +33,4 @@ def command(
 
     if clean:
         _building.clean(ctx, components, include, type_, format_)
-    _building.build(ctx, components, include, type_ or _TYPES[0], jobs, defines, format_)
+    _building.build(ctx, components, include, type_ or RELEASE, jobs, defines, format_)

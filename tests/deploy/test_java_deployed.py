@@ -107,7 +107,7 @@ def test_java_beside_python(
     talk = tmp_path / "Talk.idsl.yaml"
     talk.write_text(talk.read_text().replace("say:", "tell: {}, say:"))
     told = rcyaml("deploy", "plan", "robot.ddsl.yaml").output
-    assert "`rcyaml compile ear/ear.cdsl.yaml`, and build it again" in told
+    assert "`rcyaml compile ear/ear.cdsl.yaml`, then `rcyaml build EarComp`" in told
 
     os.kill(place.pids()["ear"], signal.SIGKILL)
 
