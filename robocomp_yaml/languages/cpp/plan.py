@@ -94,7 +94,9 @@ def _machine() -> ModuleType:
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
     """Which files of the run time a component needs that stands alone."""
     folders = {"cmake", "runtime", "slice", *windows.folders(component)}
-    return lambda path: path.partition("/")[0] in folders
+    parts = set(_parts(component, has_topics=bool(component.publishes or component.subscribes)))
+    left_out = {f"runtime/{part}.cpp" for part in ("expressions", "pattern", "topics") if part not in parts}
+    return lambda path: path.partition("/")[0] in folders and path not in left_out
 
 
 def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> list[FilePlan]:
@@ -160,7 +162,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         slice=layout.slice,
         made_for=stated(layout.made_for) if layout.made_for else "",
         slices=_slices(linked),
-        parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics)),
+        parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics=has_topics)),
         sources=["genericworker.cpp", "parameters.cpp", *(["statemachine.cpp"] if linked.machine else [])],
         machine=_machine().view(linked.machine) if linked.machine else None,
         base=_base(linked),
@@ -183,7 +185,7 @@ def _slices(linked: LinkedComponent) -> list[str]:
     ]
 
 
-def _parts(linked: LinkedComponent, has_topics: bool) -> Iterator[str]:
+def _parts(linked: LinkedComponent, *, has_topics: bool) -> Iterator[str]:
     """The libraries of the run time that it needs."""
     if linked.component.compatibility:
         yield "robocomp"
