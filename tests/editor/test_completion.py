@@ -189,7 +189,7 @@ WORKSPACE = [
     ("interfaces: |", ["list of folders"]),
     ("interfaces:\n  - |", ["interfaces/"]),
     ("output: |", ["Slice folder"]),
-    ("output: {s|}", ["slice"]),
+    ("output: {s|}", ["slice", "runtime"]),
     ("lint: |", ["severity of a code"]),
     ("lint:\n  |", ["severity of a code"]),
     ("lint: {R|}", ["severity of a code"]),

@@ -216,6 +216,7 @@ WORKSPACE: list[tuple[str, list[str]]] = [
     ("interfaces: [3]", ["1:14 a folder is a path, such as interfaces/"]),
     ("output: a", ["1:9 output: is a mapping, such as {slice: slice/}"]),
     ("output: {slice: [a]}", ["1:17 slice: is a folder, such as slice/"]),
+    ("output: {runtime: [a]}", ["1:19 runtime: is a folder, such as runtime/"]),
     ("plugins: a", ["1:10 plugins: is a list of distributions, such as [rcyaml-acme]"]),
     ("plugins: [a, a]", ["1:10 plugins: names each plug-in once"]),
     ("plugins: [a b]", ["1:11 a plug-in is the name of a distribution, such as rcyaml-acme"]),

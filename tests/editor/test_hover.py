@@ -145,6 +145,7 @@ WORKSPACE = [
     ("interfaces: [aa|]", "Folder"),
     ("out|put: {slice: a}", "Output"),
     ("output: {sl|ice: a}", "Slice folder"),
+    ("output: {run|time: a}", "Run time folder"),
     ("plug|ins: [a]", "Plug-ins"),
     ("plugins: [aa|]", "Plug-in"),
     ("li|nt: {RC2003: note}", "Lint"),
