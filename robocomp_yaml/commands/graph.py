@@ -37,8 +37,9 @@ def command(
     told = workspace.analysis.diagnostics
     try:
         text = workspace.draw(form, path)
-    except api.Faulty:
-        _options.report(ctx, format_, told, workspace.documents_read)
+    except api.Faulty as faulty:
+        if all(one in told for one in faulty.diagnostics):
+            _options.report(ctx, format_, told, workspace.documents_read)
         raise
     if output is None:
         terminal.data(text, json=form == "json")

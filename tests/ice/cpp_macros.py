@@ -94,7 +94,8 @@ def headers(folder: Path) -> list[str]:
     sources = sorted(path for path in (TABLE.parent / "templates").rglob("*") if path.is_file())
     texts = [path.read_text(encoding="utf-8") for path in sources]
     texts += [(folder / name).read_text() for name in ("M.h", "M.cpp")]
-    names = {name for text in texts for name in _INCLUDE.findall(text)} - {"M.h"}
+    names = {name for text in texts for name in _INCLUDE.findall(text)} - {"M.h", "CommonBehavior.ice.h"}
+    names = {name for name in names if not name.startswith(("machine/", "qt/", "robocomp/", "runtime/"))}
     ours = {"IceUtil/PushDisableWarnings.h", "IceUtil/PopDisableWarnings.h", "IceUtil/UndefSysMacros.h"}
     return [*sorted(names - ours), "IceUtil/UndefSysMacros.h"]
 

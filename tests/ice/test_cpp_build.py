@@ -24,7 +24,7 @@ SLICE = ["slice2cpp", "--header-ext", "ice.h", "--source-ext", "ice.cpp"]
 def slices(root: Path) -> list[str]:
     """Compiles the component's Slice; the option that finds its headers."""
     (root / "build").mkdir(exist_ok=True)
-    names = sorted(str(file) for file in (root / "slice").glob("*.ice"))
+    names = sorted(str(file) for folder in ("slice", "generated/slice") for file in (root / folder).glob("*.ice"))
     subprocess.run([*SLICE, f"-I{root / 'slice'}", "--output-dir", "build", *names], cwd=root, check=True)
     return ["-isystem", "build"]
 
