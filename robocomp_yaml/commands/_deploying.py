@@ -186,10 +186,8 @@ def carried_out(ctx: click.Context, opened: Opened, work: Callable[[], T], on_in
     what runs."""
     try:
         return work()
-    except Faulty as faulty:
-        known = opened.deployment.diagnostics
-        if all(told in known for told in faulty.diagnostics):
-            end(ctx, opened)
+    except Faulty:
+        end(ctx, opened)
         raise
     except KeyboardInterrupt as error:
         if on_interrupt is None:

@@ -1,4 +1,4 @@
-"""The state machine of a C++ component: its tables and events, and the interpreter that is copied along."""
+"""The state machine of a C++ component: its tables and events."""
 
 from __future__ import annotations
 
