@@ -145,11 +145,12 @@ def main() -> None:
         if shutil.which("g++") is None:
             sys.exit("there is no g++ here: nothing of C++ was measured")
         cpp = compiled(Path(name) / "cpp", "cpp") / "generated"
-        sources = ["kinds", "texts", "reading", "editing", "store"]
+        sources = ["kinds", "texts", "references", "secrecy", "reading", "editing", "store"]  # what needs no Ice
         text = "".join(f'#include "{cpp}/runtime/{source}.cpp"\n' for source in sources)
         (cpp / "bench.cpp").write_text(f'{text}#include "parameters.cpp"\n{CPP}', encoding="utf-8")
         program = str(cpp / "bench")
-        subprocess.run(["g++", "-std=c++17", "-O2", "-pthread", "-o", program, cpp / "bench.cpp"], check=True)
+        command = ["g++", "-std=c++17", "-O2", "-pthread", "-I", cpp, "-o", program, cpp / "bench.cpp"]
+        subprocess.run(command, check=True)
         subprocess.run([program], check=True)
 
 
