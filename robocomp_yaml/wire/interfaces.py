@@ -12,7 +12,7 @@ from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.interface import ExceptionType, Interface, Method
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source import tree
-from robocomp_yaml.wire.values import Data, Members, Report, Types, WireType, id_of
+from robocomp_yaml.wire.values import Data, Report, Types, WireType, id_of
 
 RETURNS = "returns"
 
@@ -123,7 +123,7 @@ class WireInterface:
             parts[f"_op_{name}"] = operation.ice
             parts[name] = parts[f"_{name}"] = _dispatched(operation, answer)  # Ice puts `_` before words of Python
         kind = type(self.interface.name, (Ice.Object,), parts)
-        kind._ice_type = IcePy.defineClass(self.id, kind, (), None, ())
+        kind._ice_type = IcePy.defineClass(self.id, kind, (), None, ())  # type: ignore[attr-defined]
         servant: Ice.Object = kind()
         return servant
 

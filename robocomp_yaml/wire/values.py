@@ -19,6 +19,7 @@ import Ice
 import IcePy
 import msgspec
 
+from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import LinkedModule
@@ -43,7 +44,7 @@ class Fault(msgspec.Struct, frozen=True):
     span: Span
     path: str
     problem: str
-    hint: str = ""
+    hint: Hint | str = ""
 
 
 Report = Callable[[Fault], None]
@@ -71,7 +72,7 @@ class WireType(ABC):
         """The Ice value that a mapping's key spells."""
         return self.to_ice(tree.scalar_at(text.span, text.lexeme), path, report)
 
-    def _wrong(self, node: Node, path: Path, report: Report, words: str, hint: str = "") -> None:
+    def _wrong(self, node: Node, path: Path, report: Report, words: str, hint: Hint | str = "") -> None:
         report(Fault(node.span, paths.in_words(path), f"must be {words}, but is {_shown(node)}", hint))
 
 
