@@ -26,6 +26,7 @@ COMMANDS = {
     "init": "Make a folder a workspace that already checks.",
     "new": "Write a new document of any kind, which already checks.",
     "check": "Report everything that is wrong with the documents.",
+    "fmt": "Lay documents out in the usual way; nothing of them changes.",
     "compile": "Write Slice and components; only what changed.",
     "build": "Build components; only what is not what it is made of.",
     "migrate": "Carry legacy files over to YAML, losing nothing.",
