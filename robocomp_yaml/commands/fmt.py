@@ -44,7 +44,6 @@ def command(ctx: click.Context, paths: tuple[str, ...], check: bool, diff: bool,
 def _filter(ctx: click.Context) -> None:
     from robocomp_yaml.api.formatting import layout
     from robocomp_yaml.diag import terminal
-    from robocomp_yaml.diag.render import tell
     from robocomp_yaml.source.formatting import Unformattable
 
     raw = sys.stdin.buffer.read()
@@ -52,7 +51,8 @@ def _filter(ctx: click.Context) -> None:
     if isinstance(after, bytes):
         terminal.data(after.decode())
         ctx.exit(0)
-    tell("text", faults, 1, _options.colored(ctx, sys.stderr), err=True)
+    # there is no file whose line could be shown
+    terminal.say(*(f"{one}; {one.hint}" if one.hint else str(one) for one in faults), err=True)
     if isinstance(after, Unformattable):
         terminal.say(f"left: {after}", err=True)
     ctx.exit(1)
