@@ -88,12 +88,12 @@ def test_the_mode_of_a_file_stays(rcyaml: Run, folder: Path) -> None:
 
 
 def test_standard_input(rcyaml: Run, folder: Path) -> None:
-    assert rcyaml("fmt", "-", input=UNTIDY).stdout == TIDY
-    run = rcyaml("fmt", "-", input="a: {b\n")
+    assert rcyaml("fmt", "-", stdin=UNTIDY).stdout == TIDY
+    run = rcyaml("fmt", "-", stdin="a: {b\n")
     assert (run.exit_code, run.stdout) == (1, "")
     assert "<stdin>:1:" in run.stderr
-    assert rcyaml("fmt", "-", "--check", input="").exit_code == 2
-    assert rcyaml("fmt", "-", "Laser.idsl.yaml", input="").exit_code == 2
+    assert rcyaml("fmt", "-", "--check", stdin="").exit_code == 2
+    assert rcyaml("fmt", "-", "Laser.idsl.yaml", stdin="").exit_code == 2
 
 
 def test_secrets_are_hidden_in_what_would_change(rcyaml: Run, tmp_path: Path) -> None:
