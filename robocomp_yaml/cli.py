@@ -29,6 +29,7 @@ COMMANDS = {
     "fmt": "Lay documents out in the usual way; nothing of them changes.",
     "compile": "Write Slice and components; only what changed.",
     "build": "Build components; only what is not what it is made of.",
+    "mock": "Stand in for components: serve interfaces, publish topics.",
     "migrate": "Carry legacy files over to YAML, losing nothing.",
     "config": "Values of parameters: check, show, change, export.",
     "graph": "A picture of a deployment, or of components.",

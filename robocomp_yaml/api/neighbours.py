@@ -30,6 +30,11 @@ def ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
     return of
 
 
+def workspace_ports(analysis: Analysis) -> Ports:
+    """The ports of all components that were read."""
+    return assign(analysis.program.components.values(), analysis.disk, analysis.program.values.values())
+
+
 def _neighbours(workspace: Workspace, analysis: Analysis) -> Program:
     """All components of a workspace, whether this run is about them or not."""
     if not workspace.declared:

@@ -12,7 +12,8 @@ from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model.interface import ExceptionType, Interface, Method
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source import tree
-from robocomp_yaml.wire.values import Data, Report, Types, WireType, id_of
+from robocomp_yaml.wire.types import Types, id_of
+from robocomp_yaml.wire.values import Data, Report, WireType
 
 RETURNS = "returns"
 
@@ -31,11 +32,6 @@ class Throwable:
         """The exception with the members that a mapping spells."""
         raised = self.kind()
         self.members.fill(raised, node, path, report)
-        return raised
-
-    def zero(self) -> Exception:
-        raised = self.kind()
-        self.members.zero(raised)
         return raised
 
 
@@ -81,7 +77,15 @@ class Operation:
         return None if not in_order else in_order[0] if len(in_order) == 1 else in_order
 
     def zeros(self) -> dict[str, Any]:
+        """Results without any choice, by name."""
         return {name: type_.zero() for name, type_ in self.results.items()}
+
+    def examples(self) -> dict[str, Any]:
+        """Results to try a program with, by name."""
+        return {name: type_.example(self.name if name == RETURNS else name) for name, type_ in self.results.items()}
+
+    def example_arguments(self) -> tuple[Any, ...]:
+        return tuple(type_.example(name) for name, type_ in self.inputs.types.items())
 
 
 class _Bag:

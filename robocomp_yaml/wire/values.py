@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 import struct
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import Ice
@@ -22,9 +22,7 @@ import msgspec
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.link.program import LinkedModule
 from robocomp_yaml.model import interface as model
-from robocomp_yaml.model.interface import TypeRef
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.source import tree
@@ -66,7 +64,11 @@ class WireType(ABC):
 
     @abstractmethod
     def zero(self) -> Any:
-        """The Ice value that nothing was said of: false, 0, an empty text, the first enumerator, an empty list."""
+        """The Ice value without any choice: false, 0, an empty text, the first enumerator, an empty list."""
+
+    def example(self, name: str) -> Any:
+        """An Ice value to try a program with: `name` as text, one entry in each list and map, otherwise `zero`."""
+        return self.zero()
 
     def key(self, text: tree.Scalar, path: Path, report: Report) -> Any:
         """The Ice value that a mapping's key spells."""
@@ -76,7 +78,7 @@ class WireType(ABC):
         report(Fault(node.span, paths.in_words(path), f"must be {words}, but is {_shown(node)}", hint))
 
 
-class _Truth(WireType):
+class Truth(WireType):
     name, ice = "bool", IcePy._t_bool
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
@@ -91,7 +93,7 @@ class _Truth(WireType):
         return False
 
 
-class _Whole(WireType):
+class Whole(WireType):
     def __init__(self, name: str, ice: Any) -> None:
         self.name, self.ice = name, ice
 
@@ -113,7 +115,7 @@ class _Whole(WireType):
         return 0
 
 
-class _Real(WireType):
+class Real(WireType):
     """Unlike parameters, what travels may be infinite, or not a number."""
 
     def __init__(self, name: str, ice: Any) -> None:
@@ -147,7 +149,7 @@ def as_float(number: float) -> float:
         return math.copysign(math.inf, number)
 
 
-class _Text(WireType):
+class Text(WireType):
     name, ice = "string", IcePy._t_string
 
     def to_ice(self, node: Node, path: Path, report: Report) -> Any:
@@ -162,11 +164,14 @@ class _Text(WireType):
     def zero(self) -> Any:
         return ""
 
+    def example(self, name: str) -> Any:
+        return name
+
     def key(self, text: tree.Scalar, path: Path, report: Report) -> Any:
         return text.lexeme
 
 
-class _Enum(WireType):
+class Enumeration(WireType):
     def __init__(self, id_: str, definition: model.Enum) -> None:
         self.name = definition.name
         kind = type(definition.name, (Ice.EnumBase,), {})
@@ -190,187 +195,6 @@ class _Enum(WireType):
 
     def zero(self) -> Any:
         return next(iter(self._values.values()))
-
-
-class _Record:
-    """A struct's value: Ice reads and writes its attributes."""
-
-    def __eq__(self, other: object) -> bool:
-        return type(self) is type(other) and self.__dict__ == other.__dict__
-
-    def __hash__(self) -> int:
-        return hash(tuple(self.__dict__.values()))
-
-
-class Members:
-    """The members of a struct or an exception, by their names in documents.
-
-    Ice gets other names, since only their order travels: a member may have a name that Python cannot have.
-    """
-
-    def __init__(self, members: Sequence[tuple[model.Member, WireType]]) -> None:
-        self.types = {member.name: type_ for member, type_ in members}
-        self._defaults = {member.name: member.default for member, _ in members if member.default is not None}
-        self._attributes = {name: f"m{number}" for number, name in enumerate(self.types)}
-
-    def described(self, *more: object) -> tuple[tuple[object, ...], ...]:
-        """As Ice wants them described."""
-        return tuple((self._attributes[name], (), type_.ice, *more) for name, type_ in self.types.items())
-
-    def fill(self, made: Any, node: tree.Mapping, path: Path, report: Report) -> None:
-        """Sets the attributes of a value to what a mapping says, and to defaults."""
-        for key, _ in node.items():
-            if key.lexeme not in self.types:
-                hint = did_you_mean(key.lexeme, self.types) or f"there is {', '.join(self.types) or 'no member'}"
-                report(Fault(key.span, paths.in_words((*path, key.lexeme)), "is unknown", hint))
-        for name, type_ in self.types.items():
-            entry, default = node.entries.get(name), self._defaults.get(name)
-            if entry is not None:
-                value = type_.to_ice(entry[1], (*path, name), report)
-            elif default is not None:
-                value = type_.to_ice(tree.scalar_at(node.span, default.lexeme), (*path, name), report)
-            else:
-                value = None
-                hint = f"write `{name}: …`, a {type_.name}"
-                report(Fault(node.span, paths.in_words((*path, name)), "is missing", hint))
-            setattr(made, self._attributes[name], value)
-
-    def zero(self, made: Any) -> None:
-        for name, type_ in self.types.items():
-            default = self._defaults.get(name)
-            value = type_.to_ice(tree.scalar_at(Span(""), default.lexeme), (), lambda fault: None) if default else None
-            setattr(made, self._attributes[name], type_.zero() if value is None else value)
-
-    def to_data(self, made: Any) -> dict[str, Data]:
-        return {name: type_.to_data(getattr(made, self._attributes[name])) for name, type_ in self.types.items()}
-
-
-class _Struct(WireType):
-    def __init__(self, id_: str, definition: model.Struct, members: Members) -> None:
-        self.name, self.members = definition.name, members
-        self._kind = type(definition.name, (_Record,), {})
-        self.ice = IcePy.defineStruct(id_, self._kind, (), members.described())
-
-    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
-        if not isinstance(node, tree.Mapping):
-            return self._wrong(node, path, report, f"a mapping of {', '.join(self.members.types) or 'nothing'}")
-        made = self._kind()
-        self.members.fill(made, node, path, report)
-        return made
-
-    def to_data(self, value: Any) -> Data:
-        return self.members.to_data(value)
-
-    def zero(self) -> Any:
-        made = self._kind()
-        self.members.zero(made)
-        return made
-
-
-class _Sequence(WireType):
-    def __init__(self, id_: str, name: str, element: WireType) -> None:
-        self.name, self._element = name, element
-        self.ice = IcePy.defineSequence(id_, (), element.ice)
-
-    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
-        if not isinstance(node, tree.Sequence):
-            return self._wrong(node, path, report, "a list")
-        made = [self._element.to_ice(item, (*path, at), report) for at, item in enumerate(node.items)]
-        if self._element.name != "byte":
-            return made
-        return bytes(0 if value is None else value for value in made)
-
-    def to_data(self, value: Any) -> Data:
-        return [self._element.to_data(item) for item in value]
-
-    def zero(self) -> Any:
-        return b"" if self._element.name == "byte" else []
-
-
-class _Map(WireType):
-    def __init__(self, id_: str, name: str, key: WireType, value: WireType) -> None:
-        self.name, self._key, self._value = name, key, value
-        self.ice = IcePy.defineDictionary(id_, (), key.ice, value.ice)
-
-    def to_ice(self, node: Node, path: Path, report: Report) -> Any:
-        if isinstance(self._key, _Struct):
-            return self._of_pairs(node, path, report)
-        if not isinstance(node, tree.Mapping):
-            return self._wrong(node, path, report, "a mapping")
-        made = {}
-        for key, value in node.items():
-            at = (*path, key.lexeme)
-            made[self._key.key(key, at, report)] = self._value.to_ice(value, at, report)
-        return made
-
-    def _of_pairs(self, node: Node, path: Path, report: Report) -> Any:
-        if not isinstance(node, tree.Sequence):
-            return self._wrong(node, path, report, "a list of {key: …, value: …}")
-        made = {}
-        for number, item in enumerate(node.items):
-            at = (*path, number)
-            entries = item.entries if isinstance(item, tree.Mapping) else {}
-            if entries.keys() != {"key", "value"}:
-                self._wrong(item, at, report, "{key: …, value: …}")
-                continue
-            key = self._key.to_ice(entries["key"][1], (*at, "key"), report)
-            made[key] = self._value.to_ice(entries["value"][1], (*at, "value"), report)
-        return made
-
-    def to_data(self, value: Any) -> Data:
-        if isinstance(self._key, _Struct):
-            return [{"key": self._key.to_data(k), "value": self._value.to_data(v)} for k, v in value.items()]
-        return {_as_key(self._key.to_data(key)): self._value.to_data(item) for key, item in value.items()}
-
-    def zero(self) -> Any:
-        return {}
-
-
-def _as_key(data: Data) -> str:
-    return str(data).lower() if isinstance(data, bool) else str(data)
-
-
-class Types:
-    """The types of linked modules, each made once."""
-
-    def __init__(self) -> None:
-        wholes = [_Whole("byte", IcePy._t_byte), _Whole("short", IcePy._t_short), _Whole("int", IcePy._t_int)]
-        reals = [_Real("float", IcePy._t_float), _Real("double", IcePy._t_double)]
-        basic = [_Truth(), *wholes, _Whole("long", IcePy._t_long), *reals, _Text()]
-        self._basic: Mapping[str, WireType] = {one.name: one for one in basic}
-        self._made: dict[tuple[LinkedModule, str], WireType] = {}
-
-    def of(self, scope: LinkedModule, ref: TypeRef) -> WireType:
-        """The type that a reference in a module names. The module has passed every check."""
-        if ref.is_basic:
-            return self._basic[ref.text]
-        found = scope.find(ref)
-        assert found is not None, ref.text
-        owner, definition = found
-        if (owner, definition.name) not in self._made:
-            self._made[owner, definition.name] = self._define(owner, definition)
-        return self._made[owner, definition.name]
-
-    def members(self, scope: LinkedModule, members: Sequence[model.Member]) -> Members:
-        return Members([(member, self.of(scope, member.type)) for member in members])
-
-    def _define(self, scope: LinkedModule, definition: object) -> WireType:
-        match definition:
-            case model.Enum():
-                return _Enum(id_of(scope, definition.name), definition)
-            case model.Struct():
-                return _Struct(id_of(scope, definition.name), definition, self.members(scope, definition.members))
-            case model.Sequence():
-                return _Sequence(id_of(scope, definition.name), definition.name, self.of(scope, definition.element))
-            case model.Map():
-                key, value = self.of(scope, definition.key), self.of(scope, definition.value)
-                return _Map(id_of(scope, definition.name), definition.name, key, value)
-        raise AssertionError(definition)
-
-
-def id_of(scope: LinkedModule, name: str) -> str:
-    """The type id that Ice gives a definition: `::RoboCompMouth::Mouth`."""
-    return f"::{scope.module.name}::{name}"
 
 
 def _shown(node: Node) -> str:

@@ -100,7 +100,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def interface(ice: Any) -> Any:
     """The interface, made from its document; `ice`, since it needs Ice for Python."""
     from robocomp_yaml.wire.interfaces import WireInterface
-    from robocomp_yaml.wire.values import Types
+    from robocomp_yaml.wire.types import Types
 
     scopes = {scope.module.name: scope for scope in program(DOCUMENTS).modules.values()}
     scope = scopes["WireModule"]

@@ -2,7 +2,7 @@
 `docs/diagnostics/`.
 
 RC0xxx files and YAML · RC1xxx IDSL · RC2xxx CDSL · RC3xxx PDSL and values · RC4xxx DDSL · RC5xxx migration ·
-RC6xxx emitting · RC7xxx deploying · RC8xxx building. Within a family the number says nothing; a
+RC6xxx emitting · RC7xxx deploying · RC8xxx building · RC9xxx calls. Within a family the number says nothing; a
 retired number stays retired.
 """
 
