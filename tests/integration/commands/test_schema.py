@@ -69,7 +69,7 @@ def test_a_stale_schema_is_told(rcyaml: Run, tmp_path: Path, content: str | None
     ("argument", "reason"),
     [
         ("ids", "did you mean 'idsl'?"),
-        ("robot", "kinds are idsl, cdsl, pdsl, ddsl, config, workspace"),
+        ("robot", "kinds are idsl, cdsl, pdsl, ddsl, config, workspace, mock"),
         ("a.idsl.yaml", "there is no file"),
     ],
 )
