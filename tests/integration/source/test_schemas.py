@@ -16,7 +16,7 @@ from robocomp_yaml.source import tree
 from robocomp_yaml.source.schema import validate
 from robocomp_yaml.source.schema_text import schema_text
 
-KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace")
+KINDS = ("idsl", "cdsl", "pdsl", "ddsl", "config", "workspace", "mock")
 EDITOR = Path(__file__).resolve().parents[2] / "editor"
 RIGHT = {
     "idsl": "Speech.idsl.yaml",
