@@ -25,6 +25,7 @@ RIGHT = {
     "config": "speech.config.yaml",
     "ddsl": "robot.ddsl.yaml",
     "workspace": "rcyaml.yaml",
+    "mock": "robot.mock.yaml",
 }
 SCHEMAS: dict[str, dict[str, Any]] = {kind: json.loads(schema_text(kind)) for kind in KINDS}
 ANNOTATIONS = ("title", "description", "markdownDescription")
