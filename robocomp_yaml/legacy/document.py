@@ -8,6 +8,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
+from typing import Any, cast
 
 import msgspec
 
@@ -71,6 +72,10 @@ class Map(msgspec.Struct):
         self.entries.append(entry)
         return entry
 
+    def get(self, key: str) -> Value:
+        """The value of a key; None where it is missing."""
+        return next((entry.value for entry in self.entries if entry.key == key), None)
+
     def put_some(self, key: str, value: Value, notes: Notes | None = None) -> None:
         """As `put`, but for what says nothing: None, an empty text, what has no entries."""
         if value.entries if isinstance(value, Map) else value.items if isinstance(value, List) else value:
@@ -104,6 +109,11 @@ def tree(document: Map) -> Mapping:
     """What reading the document's text would give, for what needs no places in it."""
     entries = {entry.key: (_scalar(entry.key), _node(entry.value)) for entry in document.entries}
     return mapping_at(_NOWHERE, entries)
+
+
+def data(document: Map) -> dict[str, Any]:
+    """The same as plain data."""
+    return cast("dict[str, Any]", tree(document).data)
 
 
 def _node(value: Value) -> Node:

@@ -144,12 +144,17 @@ class Reader(msgspec.Struct, eq=False):
         found = token(tree, "NAME")
         return plain(found) if found is not None else ""
 
-    def repaired(self, repair: str, node: Tree[Token] | Token, text: str = "") -> None:
-        what = self.rules.repairs[repair].format(text=text)
+    def repaired(self, repair: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
+        what = self.rules.repairs[repair].format(text=text, **facts)
         self.diagnostics.append(codes.REPAIRED.at(self.span(node), what=what))
 
-    def refused(self, refusal: str, node: Tree[Token] | Token) -> None:
-        self.diagnostics.append(codes.REFUSED.at(self.span(node), reason=self.rules.refusals[refusal]))
+    def refused(self, refusal: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
+        reason = self.rules.refusals[refusal].format(text=text, **facts)
+        self.diagnostics.append(codes.REFUSED.at(self.span(node), reason=reason))
+
+    def lost(self, loss: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
+        what = self.rules.losses[loss].format(text=text, **facts)
+        self.diagnostics.append(codes.LOST.at(self.span(node), what=what))
 
     def word(self, what: str, text: str, at: Tree[Token] | Token) -> str:
         """A word in its one spelling; an error for a word that is none of those known."""

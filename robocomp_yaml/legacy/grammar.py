@@ -10,13 +10,15 @@ import msgspec
 from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedInput
 from lark.lexer import PatternRE, PatternStr, TerminalDef
+from lark.tree import Meta
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.legacy import flat, syntax_error
+from robocomp_yaml.legacy import syntax_error
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
+from robocomp_yaml.source import properties
 
 MAX_ERRORS = 20
 """As many syntax errors of one file are reported: then it is something else altogether."""
@@ -79,8 +81,7 @@ def _parser(text: str) -> _Parser:
 def parse(source: Source, rules: Rules) -> Parsed:
     """After an error, the statement it stands in is blanked out and all is parsed again, for the next one."""
     if not rules.grammar:
-        lines, comments = flat.parse(source)
-        return Parsed(lines, tuple(comments))
+        return parse_flat(source.text)
     parser = _parser(rules.grammar)
     text: str | None = source.text
     said: list[Diagnostic] = []
@@ -94,13 +95,40 @@ def parse(source: Source, rules: Rules) -> Parsed:
                 said.append(fault.diagnostic)
             text = fault.rest
         else:
-            if not said and depth(tree) > MAX_DEPTH:
+            if not said and _depth(tree) > MAX_DEPTH:
                 said.append(codes.SYNTAX.at(Span(source.path), problem="this file nests things too deeply", hint=""))
             return Parsed(None if said else tree, tuple(parser.trivia), tuple(said))
     return Parsed(None, (), tuple(said))
 
 
-def depth(tree: Tree[Token]) -> int:
+class LineTree(Tree[Token]):
+    """A line that says something: an `entry`, or one that Ice passes over (None). `rest` is all that stands behind its
+    `=`, comment and all."""
+
+    def __init__(self, line: properties.Line, start: int, rest: str) -> None:
+        meta = Meta()  # type: ignore[no-untyped-call]
+        meta.empty, meta.start_pos, meta.end_pos = False, start, line.stop
+        super().__init__("invalid" if line.entry is None else "entry", [], meta)
+        self.entry = line.entry
+        self.rest = rest
+
+
+def parse_flat(text: str) -> Parsed:
+    """A flat config: the lines that `source.properties` reads are the constructs that comments belong to."""
+    found: list[LineTree] = []
+    comments: list[Token] = []
+    for line in properties.read(text).lines:
+        if line.entry is not None:
+            found.append(LineTree(line, line.start, text[line.entry.at : line.end]))
+        elif bare := text[line.start : line.stop].lstrip(" \t\r"):
+            found.append(LineTree(line, line.stop - len(bare), ""))
+        if line.stop < line.end:
+            comment = text[line.stop : line.end]
+            comments.append(Token("LINE_COMMENT", comment, start_pos=line.stop, end_pos=line.end))
+    return Parsed(Tree("start", list(found)), tuple(comments))
+
+
+def _depth(tree: Tree[Token]) -> int:
     """How deep the constructs of a file stand inside each other."""
     found, level = 0, [tree]
     while level:
@@ -109,15 +137,11 @@ def depth(tree: Tree[Token]) -> int:
     return found
 
 
-def marked(tree: Tree[Token], prefix: str) -> Iterator[tuple[Tree[Token], int, int]]:
+def marked(tree: Tree[Token], prefix: str, end: int = 0) -> Iterator[tuple[Tree[Token], int, int]]:
     """The outermost subtrees whose rule's name starts with `prefix`, each with its place.
 
-    An empty one (something is missing there) stands at the end of what is before it.
+    An empty one (something is missing there) stands at the end of what is before it, at first at `end`.
     """
-    return _marked(tree, prefix, 0)
-
-
-def _marked(tree: Tree[Token], prefix: str, end: int) -> Iterator[tuple[Tree[Token], int, int]]:
     for child in tree.children:
         if not isinstance(child, Tree):
             end = child.end_pos or end
@@ -125,7 +149,7 @@ def _marked(tree: Tree[Token], prefix: str, end: int) -> Iterator[tuple[Tree[Tok
         if str(child.data).startswith(prefix):
             yield (child, end - 1, end) if child.meta.empty else (child, child.meta.start_pos, child.meta.end_pos)
         else:
-            yield from _marked(child, prefix, child.meta.start_pos if not child.meta.empty else end)
+            yield from marked(child, prefix, child.meta.start_pos if not child.meta.empty else end)
         end = end if child.meta.empty else child.meta.end_pos
 
 

@@ -13,6 +13,7 @@ from robocomp_yaml.diag.render.json import as_data, dumps
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.grammar import Parsed
 from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.sources import LegacyFile
 
 CONVERTED, WARNED, REFUSED, SKIPPED = "converted", "warned", "refused", "skipped"
 STATUSES = (CONVERTED, WARNED, REFUSED, SKIPPED)
@@ -25,6 +26,7 @@ class Entry(msgspec.Struct):
     """What became of one file. `skipped`: its document was left as it is, on purpose. `blocked`: it could not be
     written."""
 
+    legacy: LegacyFile
     file: Converted
     outputs: list[str] = []
     diagnostics: list[Diagnostic] = []

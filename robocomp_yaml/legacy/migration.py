@@ -18,7 +18,7 @@ from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, DeploymentDraft, MachineDraft
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
-from robocomp_yaml.legacy.networks.settle import settle as settle_networks
+from robocomp_yaml.legacy.networks.deployment import settle as settle_networks
 from robocomp_yaml.legacy.result import Migration
 from robocomp_yaml.legacy.rules import Formats, with_plugins
 from robocomp_yaml.legacy.settings.components import Inferred, settle
@@ -52,25 +52,25 @@ def migrate(
     formats, said = _formats(paths)
     found = find(paths, output, formats)
     run = Migration(general=[*said, *found.diagnostics])
-    by_file: list[tuple[LegacyFile, Entry]] = []
     for file in progress(found.files):
-        entry = Entry(convert(file.path, formats), skipped=bool(file.preferred))
+        entry = Entry(file, convert(file.path, formats), skipped=bool(file.preferred))
         entry.diagnostics = [*entry.file.diagnostics]
         if file.preferred:
             entry.diagnostics = [codes.PREFERRED.at(Span(file.path), other=file.preferred)]
-        by_file.append((file, entry))
-    run.entries = [entry for _, entry in by_file]
-    good = [(file, entry) for file, entry in by_file if not entry.skipped and not entry.file.refused]
+        run.entries.append(entry)
+    good = [entry for entry in run.entries if not entry.skipped and not entry.file.refused]
 
     known = workspaces.Workspaces()
     for folder in found.workspaces():
         root = run.root(folder)
         if workspaces.wants_file(root) and good:
             known.new.append(folder)
-    chosen, said = names([(file, entry.file.rules) for file, entry in good if entry.file.rules is not None])
-    _tell(run, said)
+    chosen, said = names([(entry.legacy, entry.file.rules) for entry in good if entry.file.rules is not None])
+    by_path = {entry.file.path: entry for entry in good}
+    for diagnostic in said:
+        by_path[diagnostic.span.file].diagnostics.append(diagnostic)
     _link(run, good, chosen, known, extra)
-    networks = settle_networks([entry for _, entry in good], chosen, known)
+    networks = settle_networks(good, chosen, known)
     settled = settle(good, chosen, run.remembers, guesses, exact=exact)
     _plan(run, good, chosen, known, networks | dict(settled.documents), settled.inferred, force)
     upgrade(run, paths)
@@ -123,26 +123,18 @@ def _missing(told: Diagnostic) -> str:
     return str(told.fact("path") if told.fact("name") is None else told.fact("name"))
 
 
-def _tell(run: Migration, said: Sequence[Diagnostic]) -> None:
-    """Each diagnostic to the entry of its file."""
-    by_path = {entry.file.path: entry for entry in run.entries}
-    for diagnostic in said:
-        by_path[diagnostic.span.file].diagnostics.append(diagnostic)
-
-
 def _link(
-    run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
-    extra: Sequence[str],
+    run: Migration, good: Sequence[Entry], chosen: dict[str, str], known: workspaces.Workspaces, extra: Sequence[str]
 ) -> None:  # fmt: skip
     neighbours = Neighbours.of((entry.file for entry in run.entries if not entry.skipped), Search(tuple(extra)))
-    for file, entry in good:
-        document = chosen[file.path]
+    for entry in good:
+        document = chosen[entry.file.path]
         entry.diagnostics += name_imports(entry.file, document, known.of(document), neighbours)
         entry.diagnostics += name_machine(entry.file, chosen)
     told: set[tuple[str, str]] = set()
-    for file, entry in good:
+    for entry in good:
         entry.diagnostics += resolve_references(entry.file, neighbours)
-        workspace = known.of(chosen[file.path])
+        workspace = known.of(chosen[entry.file.path])
         if workspace.root in known.new:
             continue
         for folder, diagnostic in not_searched(entry.file, workspace, chosen, neighbours):
@@ -152,29 +144,29 @@ def _link(
 
 
 def _plan(
-    run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
+    run: Migration, good: Sequence[Entry], chosen: dict[str, str], known: workspaces.Workspaces,
     settled: Mapping[str, yaml.Map], inferred: Sequence[Inferred], force: bool,
 ) -> None:  # fmt: skip
     """`settled` are the documents that were made for several files together, by the path of each."""
     written: dict[str, list[tuple[str, str, yaml.Map]]] = {folder: [] for folder in known.new}
-    planned: list[tuple[LegacyFile, Entry, str, str, yaml.Map, Notes, str]] = []
-    for file, entry in good:
+    planned: list[tuple[Entry, str, str, yaml.Map, Notes, str]] = []
+    for entry in good:
         rules, draft = entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
-        kind, document = rules.kind, chosen[file.path]
+        path, document = entry.file.path, chosen[entry.file.path]
         if isinstance(draft, MachineDraft):
-            planned.append((file, entry, kind, document, yaml.Map(), Notes(), draft.text))
+            planned.append((entry, rules.kind, document, yaml.Map(), Notes(), draft.text))
         else:
-            content = settled[file.path] if isinstance(draft, ConfigDraft | DeploymentDraft) else draft.document
-            planned.append((file, entry, kind, document, content, draft.around, ""))
-    planned += [(made.file, made.entry, "pdsl", made.path, made.document, Notes(), "") for made in inferred]
-    for file, entry, kind, document, content, around, raw in planned:
+            content = settled[path] if isinstance(draft, ConfigDraft | DeploymentDraft) else draft.document
+            planned.append((entry, rules.kind, document, content, draft.around, ""))
+    planned += [(made.entry, "pdsl", made.path, made.document, Notes(), "") for made in inferred]
+    for entry, kind, document, content, around, raw in planned:
         home = known.of(document).root
         gap = "\n" if around.head else ""
-        root = run.root(file.root)
+        root = run.root(entry.legacy.root)
         heading = HEADING if kind == "idsl" and _has_taken(content) else ""
         text = raw or _modeline(document, home, kind, content) + heading + gap + yaml.text(content, around)
-        output = root.add(os.path.relpath(document, file.root), text, force=force, sources=(file.path,))
+        output = root.add(os.path.relpath(document, entry.legacy.root), text, force=force, sources=(entry.file.path,))
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
         if home in written and not raw:
@@ -195,7 +187,7 @@ def _has_taken(content: yaml.Map) -> bool:
 
 def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:
     """The first line. What values may be is said by the schema that `compile` makes for their component."""
-    component = next((str(entry.value) for entry in content.entries if entry.key == "component"), "")
+    component = str(content.get("component"))
     if kind == "config" and component.endswith(".cdsl.yaml"):
         folder = os.path.join(os.path.dirname(document), os.path.dirname(component))
         return workspaces.values_modeline(document, folder)

@@ -13,7 +13,6 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.outputs import CHANGED, EDITED, FAILED, TAKEN, Output, OutputRoot
-from robocomp_yaml.legacy.sources import LegacyFile
 from robocomp_yaml.link import workspace_files
 
 
@@ -45,9 +44,10 @@ class Migration(msgspec.Struct):
             self.roots[path] = OutputRoot.at(path)
         return self.roots[path]
 
-    def remembers(self, file: LegacyFile, path: str) -> bool:
+    def remembers(self, entry: Entry, path: str) -> bool:
         """Whether an earlier run wrote the document at a path."""
-        return os.path.relpath(path, file.root) in self.root(file.root).memory
+        root = entry.legacy.root
+        return os.path.relpath(path, root) in self.root(root).memory
 
     def changes(self) -> Iterator[tuple[str, Output]]:
         """Every file that is not as this run would have it, with the path to show."""

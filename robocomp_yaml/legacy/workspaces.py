@@ -15,6 +15,7 @@ from robocomp_yaml.link import workspace as link_workspace
 from robocomp_yaml.link import workspace_files
 from robocomp_yaml.link.workspace import Workspace, root_above
 from robocomp_yaml.source.discover import WORKSPACE_FILE
+from robocomp_yaml.source.inside import stays_inside
 
 
 class Workspaces(msgspec.Struct, frozen=True):
@@ -27,9 +28,9 @@ class Workspaces(msgspec.Struct, frozen=True):
         """The workspace of a document that is, or will be, there."""
         folder = os.path.dirname(document) or "."
         if folder not in self._known:
-            inside = [new for new in self.new if _is_below(folder, new)]
+            inside = [new for new in self.new if stays_inside(new, os.path.realpath(folder))]
             above = root_above(folder)
-            if inside and (above is None or not _is_below(above, max(inside, key=len))):
+            if inside and (above is None or not stays_inside(max(inside, key=len), os.path.realpath(above))):
                 self._known[folder] = Workspace(max(inside, key=len), declared=True)
             elif above is not None:
                 self._known[folder] = link_workspace.read(above)[0]
@@ -80,13 +81,6 @@ def values_modeline(document: str, folder: str) -> str:
 
 def _component(content: Map) -> list[str]:
     """What tells a component from others: its name and language."""
-    entries = {entry.key: entry.value for entry in content.entries}
-    language = entries.get("language")
-    if isinstance(language, Map):
-        language = next((entry.value for entry in language.entries if entry.key == "name"), "")
-    return [f"{entries.get('component')} in {language}"]
-
-
-def _is_below(path: str, folder: str) -> bool:
-    inner, outer = os.path.realpath(path), os.path.realpath(folder)
-    return inner == outer or inner.startswith(outer.rstrip("/") + "/")
+    language = content.get("language")
+    language = language.get("name") if isinstance(language, Map) else language
+    return [f"{content.get('component')} in {language}"]

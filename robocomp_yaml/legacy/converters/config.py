@@ -6,8 +6,7 @@ import re
 
 from lark import Token, Tree
 
-from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy import flat
+from robocomp_yaml.legacy import grammar
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, Reader
 from robocomp_yaml.legacy.settings.entries import (
@@ -31,7 +30,7 @@ _PROTECTED = re.compile(r'\s*"(?P<value>[^"]*#[^"]*)"\s*(?:#(?P<comment>.*))?$')
 def convert(reader: Reader) -> ConfigDraft | None:
     """The settings of a file. Lines that set nothing stay as comments above the next setting."""
     tree = reader.tree
-    lines = flat.lines(tree)
+    lines = [line for line in tree.children if isinstance(line, grammar.LineTree)]
     last = properties.last(line.entry for line in lines if line.entry is not None)
     dialect = _dialect(reader, lines)
     found = Settings(dialect)
@@ -44,8 +43,7 @@ def convert(reader: Reader) -> ConfigDraft | None:
         elif not entry.value and protected is None:
             reader.repaired("empty", node, entry.key)
         elif reason := properties.unwritable(entry.key, entry.value) or _too_long(entry.key):
-            what = reader.rules.losses["unwritable"].format(text=entry.key, reason=reason)
-            reader.diagnostics.append(codes.LOST.at(reader.span(node), what=what))
+            reader.lost("unwritable", node, entry.key, reason=reason)
         elif entry.key in last and last[entry.key].line > entry.line:
             reader.repaired("overridden", node, entry.key)
         elif entry.key in last or protected is not None:
@@ -68,7 +66,7 @@ def _too_long(key: str) -> str:
     return f"its name has more than {MAX_KEY} characters" if len(key) > MAX_KEY else ""
 
 
-def _dialect(reader: Reader, lines: list[flat.LineTree]) -> str:
+def _dialect(reader: Reader, lines: list[grammar.LineTree]) -> str:
     """Flat TOML writes the words the other way round: `Endpoints.Laser`."""
     begins = reader.rules.sections["dialect"]
     keys = [line.entry.key for line in lines if line.entry is not None]

@@ -55,7 +55,7 @@ class _Converter:
         root = self.element(tree)
         network = NetworkDraft(notes=root.notes)
         if root.name != "rcmanager":
-            self.refused("root", token(tree, "OPEN") or tree, root.name)
+            self.reader.refused("root", token(tree, "OPEN") or tree, root.name)
         taken: set[str] = set()
         for child in root.children:
             if child.name != "node":
@@ -74,12 +74,12 @@ class _Converter:
         assert begin is not None
         made = _Element(begin[1:], tree, self.reader.notes(tree))
         if end is not None and end[2:-1].strip() != made.name:
-            self.refused("mismatch", end, str(end), open=made.name)
+            self.reader.refused("mismatch", end, str(end), open=made.name)
         for attribute in trees(tree, "attribute"):
             name, value = token(attribute, "WORD"), token(attribute, "VALUE")
             assert name is not None and value is not None
             if name in made.attributes:
-                self.refused("attribute_twice", name, name)
+                self.reader.refused("attribute_twice", name, name)
             made.attributes[str(name)] = self.text(value)
             made.places[str(name)] = value
         made.children = [self.element(child) for child in trees(tree, "element")]
@@ -96,7 +96,7 @@ class _Converter:
                 if 0x20 <= number < 0xD800 or 0xE000 <= number < 0x110000 or number in (9, 10, 13):
                     return chr(number)
             if found["name"] or found["hex"] or found["decimal"]:
-                self.refused("entity", value, found[0])
+                self.reader.refused("entity", value, found[0])
                 return "x"
             self.reader.repaired("ampersand", value)
             return found[0]
@@ -106,15 +106,13 @@ class _Converter:
     def node(self, element: _Element, network: NetworkDraft, taken: set[str]) -> Node:
         alias = element.get("alias")
         if not alias.strip():
-            self.refused("unnamed", element.tree)
+            self.reader.refused("unnamed", element.tree)
         is_double = any(known.alias == alias for known in network.nodes)
         if is_double:
-            at = self.reader.span(element.place("alias"))
-            self.reader.diagnostics.append(codes.DUPLICATE.at(at, name=alias))
+            self.reader.diagnostics.append(codes.DUPLICATE.at(self.reader.span(element.place("alias")), name=alias))
         node = Node(alias, safe_name(alias, taken), self.reader.span(element.place("alias")), notes=element.notes)
         if node.name != alias and alias.strip() and not is_double:
-            what = self.reader.rules.repairs["name"].format(text=alias, name=node.name)
-            self.reader.diagnostics.append(codes.REPAIRED.at(node.span, what=what))
+            self.reader.repaired("name", element.place("alias"), alias, name=node.name)
             node.extra.put("alias", exact(alias))
         node.endpoint_span = self.reader.span(element.place("endpoint"))
         node.endpoint = endpoint.parse(element.get("endpoint"))
@@ -139,8 +137,7 @@ class _Converter:
                 node.after.append((alias, self.reader.span(child.place("alias")), child.notes))
                 continue
             if child.name in said:
-                what = self.reader.rules.losses["overridden"].format(text=child.name)
-                self.reader.diagnostics.append(codes.LOST.at(self.reader.span(said[child.name].tree), what=what))
+                self.reader.lost("overridden", said[child.name].tree, child.name)
                 node.extra.entries = [entry for entry in node.extra.entries if entry.key != child.name]
             said[child.name] = child
             node.extra.entries.append(self.extra(child))
@@ -165,16 +162,12 @@ class _Converter:
         for name in dict.fromkeys(child.name for child in element.children):
             same = [child for child in element.children if child.name == name]
             if name in element.attributes:
-                self.refused("collision", same[0].tree, name)
+                self.reader.refused("collision", same[0].tree, name)
             elif len(same) == 1:
                 made.entries.append(Entry(name, self.generic(same[0]), same[0].notes))
             else:
                 made.put(name, List([Entry("", self.generic(child), child.notes) for child in same]))
         return made
-
-    def refused(self, refusal: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
-        reason = self.reader.rules.refusals[refusal].format(text=text, **facts)
-        self.reader.diagnostics.append(codes.REFUSED.at(self.reader.span(node), reason=reason))
 
 
 _NUMBER = re.compile(r"-?(?:0|[1-9][0-9]{0,15})(?:\.[0-9]{1,17})?")

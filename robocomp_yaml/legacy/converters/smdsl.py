@@ -8,12 +8,25 @@ from __future__ import annotations
 import msgspec
 from lark import Token, Tree
 
-from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.digraph import reached
+from robocomp_yaml.emit.xml_text import HEAD, comment, element
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import MachineDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees
-from robocomp_yaml.legacy.scxmltext import ScxmlState, document
+
+NAMESPACE = "http://www.w3.org/2005/07/scxml"
+
+
+class ScxmlState(msgspec.Struct, eq=False):
+    """`transitions` are names of states, with comments."""
+
+    name: str
+    final: bool = False
+    parallel: bool = False
+    initial: str = ""
+    states: list[ScxmlState] = []
+    transitions: list[tuple[str, Notes]] = []
+    notes: Notes = msgspec.field(default_factory=Notes)
 
 
 class _Block(msgspec.Struct, eq=False):
@@ -29,8 +42,7 @@ class _Block(msgspec.Struct, eq=False):
 
 def convert(reader: Reader) -> MachineDraft | None:
     """The document of a file's machine."""
-    tree = reader.tree
-    return _Converter(reader).draft(tree)
+    return _Converter(reader).draft(reader.tree)
 
 
 class _Converter:
@@ -51,10 +63,10 @@ class _Converter:
             self._transitions(block)
         around = reader.placed.around
         notes = reader.notes(top.tree)
-        text = document(top.name, top.initial, top.states, Notes([*around.head, *notes.head], notes.tail, [
-            *notes.foot, *around.foot,
-        ]))  # fmt: skip
-        return MachineDraft(text)
+        attributes = {"xmlns": NAMESPACE, "version": "1.0", "name": top.name, "initial": top.initial}
+        machine = element("scxml", attributes, [line for state in top.states for line in _state_lines(state)])
+        above = [*comment([*around.head, *notes.head]), *comment(notes.tail)]
+        return MachineDraft(HEAD + "\n".join([*above, *machine, *comment([*notes.foot, *around.foot])]) + "\n")
 
     def _block(self, tree: Tree[Token]) -> _Block:
         block = _Block(tree, self.reader.name(tree), token(tree, "PARALLEL") is not None)
@@ -144,8 +156,7 @@ class _Converter:
             if state is None or found is None:
                 continue
             if state.final:
-                what = self.reader.rules.losses["lost_transition"].format(text=state.name)
-                self.reader.diagnostics.append(codes.LOST.at(self.reader.span(tree), what=what))
+                self.reader.lost("lost_transition", tree, state.name)
             elif (state.name, name) in self.joined:
                 self.reader.repaired("lenient_transition_twice", target, name)
                 state.transitions[-1][1].add(notes)
@@ -167,6 +178,16 @@ class _Converter:
         other.foot += notes.foot
 
     def _refused(self, refusal: str, at: Tree[Token], text: str) -> None:
-        place = token(at, "NAME") or at
-        reason = self.reader.rules.refusals[refusal].format(text=text)
-        self.reader.diagnostics.append(codes.REFUSED.at(self.reader.span(place), reason=reason))
+        self.reader.refused(refusal, token(at, "NAME") or at, text)
+
+
+def _state_lines(state: ScxmlState) -> list[str]:
+    name = "final" if state.final else "parallel" if state.parallel else "state"
+    attributes = {"id": state.name, **({"initial": state.initial} if state.initial else {})}
+    inside: list[str] = []
+    for target, notes in state.transitions:
+        transition = {"event": f"t_{state.name}_to_{target}", "target": target}
+        inside += [*comment([*notes.head, *notes.tail]), *element("transition", transition), *comment(notes.foot)]
+    inside += [line for child in state.states for line in _state_lines(child)]
+    inside += comment(state.notes.foot)
+    return [*comment([*state.notes.head, *state.notes.tail]), *element(name, attributes, inside)]

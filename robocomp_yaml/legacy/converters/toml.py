@@ -6,12 +6,12 @@ import tomllib
 
 from lark import Token, Tree
 
+from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, Reader
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.settings import entries
 from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings
-from robocomp_yaml.legacy.toml_tree import toml_tree
 
 _Path = tuple[str, ...]
 
@@ -20,6 +20,17 @@ def convert(reader: Reader) -> ConfigDraft | None:
     """The settings of a file, by their full paths."""
     tree = toml_tree(reader)
     return None if tree is None else _Converter(reader).draft(tree)
+
+
+def toml_tree(reader: Reader) -> Tree[Token] | None:
+    """The tree of a file; None, with a diagnostic, where it is no TOML."""
+    try:
+        tomllib.loads(reader.source.text)  # what the grammar does not judge: keys that stand twice
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        at = reader.source.span(0, 1)
+        reader.diagnostics.append(codes.SYNTAX.at(at, problem=f"this is no TOML: {error}", hint=""))
+        return None
+    return reader.tree
 
 
 class _Converter:
@@ -82,7 +93,7 @@ class _Converter:
         row[path[-1]] = item
 
     def path(self, key: Tree[Token]) -> _Path:
-        return tuple(_text(str(part)) if part.type == "QUOTED_KEY" else str(part)
+        return tuple(text(str(part)) if part.type == "QUOTED_KEY" else str(part)
                      for part in key.children if isinstance(part, Token))  # fmt: skip
 
     def value(self, node: Tree[Token]) -> entries.Tree:
@@ -96,7 +107,7 @@ class _Converter:
         lexeme = str(node.children[0])
         match str(node.data):
             case "text":
-                return Leaf(_text(lexeme), STRING)
+                return Leaf(text(lexeme), STRING)
             case "boolean":
                 return Leaf(lexeme, BOOL)
             case "number":
@@ -106,7 +117,8 @@ class _Converter:
                 return Leaf(lexeme, STRING)
 
 
-def _text(lexeme: str) -> str:
+def text(lexeme: str) -> str:
+    """What a text in quotes says."""
     return str(tomllib.loads(f"x = {lexeme}")["x"])
 
 

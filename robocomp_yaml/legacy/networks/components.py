@@ -9,12 +9,11 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from robocomp_yaml.legacy.convert import Converted
-from robocomp_yaml.legacy.document import List, Map, Name, Value
+from robocomp_yaml.legacy.document import data
 from robocomp_yaml.legacy.draft import ComponentDraft
 from robocomp_yaml.legacy.networks.command import Command
 from robocomp_yaml.source.discover import of_kind
-from robocomp_yaml.source.text import decode, read_bytes
-from robocomp_yaml.source.tree import parse
+from robocomp_yaml.source.heading import root_of
 
 
 class Known(msgspec.Struct, frozen=True):
@@ -31,7 +30,7 @@ def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[Known]
     found = []
     for file in files:
         if isinstance(file.draft, ComponentDraft):
-            found.append(_known(chosen[file.path], _plain(file.draft.document)))
+            found.append(_known(chosen[file.path], data(file.draft.document)))
     return found
 
 
@@ -41,11 +40,9 @@ def of_folder(folder: str, but: Iterable[str]) -> list[Known]:
     found = []
     for path in of_kind(folder, "cdsl"):
         if path not in skipped:
-            raw, _ = read_bytes(path)
-            text = decode(path, raw)[0] if raw is not None else None
-            tree, _ = parse(path, text) if text is not None else (None, [])
-            if tree is not None and isinstance(tree.data, dict):
-                found.append(_known(path, tree.data))
+            root = root_of(path)
+            if root is not None and isinstance(root.data, dict):
+                found.append(_known(path, root.data))
     return found
 
 
@@ -58,8 +55,8 @@ def match(command: Command, known: Iterable[Known]) -> Known | None:
     return same[0] if len(same) == 1 else None
 
 
-def _known(path: str, data: Mapping[str, object]) -> Known:
-    implements, requires = data.get("implements"), data.get("requires")
+def _known(path: str, content: Mapping[str, object]) -> Known:
+    implements, requires = content.get("implements"), content.get("requires")
     needed: dict[str, str] = {}
     for item in requires if isinstance(requires, list) else []:
         for name, interface in item.items() if isinstance(item, dict) else [(item, item)]:
@@ -67,20 +64,4 @@ def _known(path: str, data: Mapping[str, object]) -> Known:
             needed[str(name)] = str(told).rpartition(".")[2]
     served = implements if isinstance(implements, list) else []
     names = [str(next(iter(item), "")) if isinstance(item, dict) else str(item) for item in served]
-    return Known(str(data.get("component", "")), path, tuple(name.rpartition(".")[2] for name in names), needed)
-
-
-def _plain(value: Map) -> dict[str, object]:
-    return {entry.key: _data(entry.value) for entry in value.entries}
-
-
-def _data(value: Value) -> object:
-    match value:
-        case Map():
-            return _plain(value)
-        case List():
-            return [_data(item.value) for item in value.items]
-        case Name():
-            return value.text
-        case _:
-            return value
+    return Known(str(content.get("component", "")), path, tuple(name.rpartition(".")[2] for name in names), needed)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
@@ -11,25 +12,46 @@ from robocomp_yaml.diag.codes import managers as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.digraph import reached
 from robocomp_yaml.legacy.document import List, Map, Notes, Raw
+from robocomp_yaml.legacy.draft import DeploymentDraft
+from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
-from robocomp_yaml.legacy.networks.components import Known, match
+from robocomp_yaml.legacy.networks.components import Known, match, of_folder, of_run
 from robocomp_yaml.legacy.networks.entries import COMMON, Site, component_entry, program_entry
 from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+from robocomp_yaml.legacy.workspaces import Workspaces
 from robocomp_yaml.source.text import OF_NO_LINE
 
 _IP = re.compile(r"[\d.:]+")
 
 
-def build(
-    name: str, network: NetworkDraft, known: Sequence[Known], site: Site, key: str
-) -> tuple[Map, list[Diagnostic]]:
-    """The document of the network of that name, which starts some of the components known. What only an exporter needs
-    stands under `key`."""
-    builder = _Builder(name, network, known, site, key)
-    return builder.document(), builder.said
+def settle(good: Sequence[Entry], chosen: Mapping[str, str], workspaces: Workspaces) -> dict[str, Map]:
+    """The document of each network among these files, all of which become documents, by the file's path."""
+    made: dict[str, Map] = {}
+    networks = [(entry, entry.file.draft) for entry in good if isinstance(entry.file.draft, DeploymentDraft)]
+    if not networks:
+        return made
+    migrated = of_run((entry.file for entry in good), chosen)
+    documents = {os.path.realpath(path): document for path, document in chosen.items()}
+    there: dict[str, list[Known]] = {}
+    for entry, draft in networks:
+        rules = entry.file.rules
+        assert rules is not None
+        document = chosen[entry.file.path]
+        home = workspaces.of(document).root
+        if home not in there:
+            there[home] = of_folder(home, [known.path for known in migrated])
+        name = safe_name(os.path.basename(document).removesuffix(rules.document))
+        known = [*migrated, *there[home]]
+        builder = _Builder(name, draft.network, known, Site(document, documents), f"x-{rules.name}")
+        made[entry.file.path] = builder.document()
+        entry.diagnostics += builder.said
+    return made
 
 
 class _Builder(msgspec.Struct, eq=False):
+    """The document of the network of a name, which starts some of the components known. What only an exporter needs
+    stands under `key`."""
+
     name: str
     network: NetworkDraft
     known: Sequence[Known]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import msgspec
 
@@ -12,22 +12,20 @@ from robocomp_yaml.legacy.document import Map
 from robocomp_yaml.legacy.draft import ConfigDraft
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.settings import declared
-from robocomp_yaml.legacy.settings.grouping import Component, Components, Good, first_half
+from robocomp_yaml.legacy.settings.grouping import Component, Components, first_half
 from robocomp_yaml.legacy.settings.pdsl_document import pdsl_document
 from robocomp_yaml.legacy.settings.plan import Config, Guesses, Plan
 from robocomp_yaml.legacy.settings.planning import plans
 from robocomp_yaml.legacy.settings.proof import proven
 from robocomp_yaml.legacy.settings.sorting import sort
 from robocomp_yaml.legacy.settings.values_document import Links, values_document
-from robocomp_yaml.legacy.sources import LegacyFile
 
 
 class Inferred(msgspec.Struct, frozen=True):
-    """A PDSL to be written, with the config whose ledger entry names it."""
+    """A PDSL to be written, with the ledger's entry of the config that names it."""
 
     path: str
     document: Map
-    file: LegacyFile
     entry: Entry
 
 
@@ -39,7 +37,12 @@ class Settled(msgspec.Struct, frozen=True):
 
 
 def settle(
-    good: Good, chosen: Mapping[str, str], is_ours: Callable[[LegacyFile, str], bool], guesses: Guesses, *, exact: bool
+    good: Sequence[Entry],
+    chosen: Mapping[str, str],
+    is_ours: Callable[[Entry, str], bool],
+    guesses: Guesses,
+    *,
+    exact: bool,
 ) -> Settled:
     """`is_ours`: whether an earlier run wrote the document at a path."""
     found = Components(good, chosen, is_ours)
@@ -53,26 +56,23 @@ def _settle(
     component: Component, chosen: Mapping[str, str], guesses: Guesses, exact: bool, documents: dict[str, Map]
 ) -> Inferred | None:
     configs, links = list[Config](), dict[str, Links]()
-    by_path = {file.path: file for file, _ in component.configs}
-    for file, entry in component.configs:
+    entries = {entry.file.path: entry for entry in component.configs}
+    for path, entry in entries.items():
         draft, rules, source = entry.file.draft, entry.file.rules, entry.file.source
         assert isinstance(draft, ConfigDraft) and rules is not None and source is not None
-        first = first_half(file.path)
-        after = first if first in by_path else ""
-        config = Config(file.path, source, rules, sort(draft.settings, component.ports, rules))
-        configs.append(config)
-        folder = os.path.dirname(chosen[file.path]) or "."
-        links[file.path] = Links(
+        first = first_half(path)
+        configs.append(Config(path, source, rules, sort(draft.settings, component.ports, rules)))
+        folder = os.path.dirname(chosen[path]) or "."
+        links[path] = Links(
             os.path.relpath(component.document or component.parameters, folder),
-            os.path.basename(file.path),
-            os.path.relpath(chosen[after], folder) if after else "",
+            os.path.basename(path),
+            os.path.relpath(chosen[first], folder) if first in entries else "",
         )
     planned = plans(configs, guesses)
     if component.declared is not None:
         planned = declared.fitted(planned, component.declared, configs)
     else:
         planned = proven(planned, configs, links)
-    entries = {file.path: entry for file, entry in component.configs}
     for plan in planned:
         _tell(plan, entries)
     for config in configs:
@@ -81,8 +81,7 @@ def _settle(
     if component.declared is not None:
         return None
     document = pdsl_document(os.path.basename(component.document) or component.name, planned)
-    file, entry = component.configs[0]
-    return Inferred(component.parameters, document, file, entry)
+    return Inferred(component.parameters, document, component.configs[0])
 
 
 def _tell(plan: Plan, entries: Mapping[str, Entry]) -> None:

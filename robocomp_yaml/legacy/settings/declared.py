@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 
-from robocomp_yaml.legacy.document import Map
 from robocomp_yaml.legacy.settings.plan import Config, Plan
 from robocomp_yaml.legacy.settings.planning import give_back
 from robocomp_yaml.legacy.settings.shapes import Scalar
@@ -17,14 +16,9 @@ Types = dict[str, str]
 """The types of plain parameters by their paths."""
 
 
-def of_draft(document: Map) -> Types:
-    """The parameters of a PDSL of 2011."""
-    listed = next((entry.value for entry in document.entries if entry.key == "parameters"), None)
-    found: Types = {}
-    for entry in listed.entries if isinstance(listed, Map) else ():
-        if isinstance(entry.value, Map):
-            found[entry.key] = str(entry.value.entries[0].value)
-    return found
+def types(document: object) -> Types:
+    """The plain parameters of the data of a PDSL document, groups opened."""
+    return dict(_plain(document.get("parameters"), "")) if isinstance(document, dict) else {}
 
 
 def beside(component: str) -> Iterator[str]:
@@ -41,11 +35,9 @@ def beside(component: str) -> Iterator[str]:
 
 
 def of_document(path: str) -> Types:
-    """The plain parameters of a PDSL document, groups opened."""
+    """The same of a file."""
     root = root_of(path)
-    data = root.data if root is not None else None
-    parameters = data.get("parameters") if isinstance(data, dict) else None
-    return dict(_plain(parameters, ""))
+    return types(root.data) if root is not None else {}
 
 
 def _plain(members: object, prefix: str) -> Iterator[tuple[str, str]]:
@@ -58,11 +50,11 @@ def _plain(members: object, prefix: str) -> Iterator[tuple[str, str]]:
                 yield f"{prefix}{name}", str(kind)
 
 
-def fitted(plans: Sequence[Plan], types: Mapping[str, str], configs: Sequence[Config]) -> list[Plan]:
+def fitted(plans: Sequence[Plan], known: Mapping[str, str], configs: Sequence[Config]) -> list[Plan]:
     """The plans that are declared, by their declared types; what the others hold goes back to the configs."""
     kept = []
     for plan in plans:
-        kind = types.get(".".join(plan.path))
+        kind = known.get(".".join(plan.path))
         if plan.built_in and plan.spelled is None:
             kept.append(plan)
         elif kind is not None and plan.spelled is None and isinstance(plan.shape, Scalar):

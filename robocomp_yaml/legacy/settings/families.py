@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
 
 from robocomp_yaml.legacy.document import Notes
-from robocomp_yaml.legacy.settings.entries import Item, Leaf, Setting, guess
+from robocomp_yaml.legacy.settings.entries import Item, Leaf, Setting, Tree, guess
 from robocomp_yaml.legacy.settings.headers import Column, columns, sanitized, unique
 from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan, Spelled
 from robocomp_yaml.legacy.settings.rows import are_rows, cells, joiner
@@ -97,14 +97,12 @@ def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Conf
         columns=[column.name for column in names],
         separator=joiner(texts, ","),
     )
-    for name, group in by_config.items():
-        given = Given(Item([]))
-        for row in sorted(group, key=lambda row: int(row.index)):
-            record = {index: Item(guess(row.index))} if keyed else {}
-            record |= {c.name: Item(guess(cell)) for c, cell in zip(names, cells(row.setting.text), strict=False)}
-            _add(given, row, record)
-        plan.given[name] = given
-    return plan
+
+    def record(row: _Row) -> dict[str, Item]:
+        found = {index: Item(guess(row.index))} if keyed else {}
+        return found | {c.name: Item(guess(cell)) for c, cell in zip(names, cells(row.setting.text), strict=False)}
+
+    return _filled(plan, by_config, record)
 
 
 def _titles(stem: str, groups: Sequence[list[_Row]], guesses: Guesses) -> tuple[list[Column], str] | None:
@@ -130,22 +128,18 @@ def _texts(stem: str, by_config: dict[str, list[_Row]], first: int) -> Plan:
     """Rows that differ in their columns, as a list of texts."""
     plan = Plan(_path(stem), spelled=Spelled(f"{stem}{{i}}", first=first), is_unnamed=True)
     plan.guessed = f"the rows {stem}… have different columns, so they are kept as texts"
+    return _filled(plan, by_config, lambda row: Leaf(row.setting.text))
+
+
+def _filled(plan: Plan, by_config: dict[str, list[_Row]], value: Callable[[_Row], Tree]) -> Plan:
+    """The plan with a value for each row, in the order of their numbers."""
     for name, group in by_config.items():
-        given = Given(Item([]))
-        for row in sorted(group, key=lambda row: int(row.index)):
-            assert isinstance(given.item.value, list)
-            given.item.value.append(Item(Leaf(row.setting.text), row.setting.notes))
-            given.settings.append(row.setting)
+        rows = sorted(group, key=lambda row: int(row.index or 0))
+        items = [Item(value(row), row.setting.notes) for row in rows]
+        plan.given[name] = Given(Item(items), [row.setting for row in rows])
+        for row in rows:
             _take(row)
-        plan.given[name] = given
     return plan
-
-
-def _add(given: Given, row: _Row, record: dict[str, Item]) -> None:
-    assert isinstance(given.item.value, list)
-    given.item.value.append(Item(record, row.setting.notes))
-    given.settings.append(row.setting)
-    _take(row)
 
 
 def _take(row: _Row) -> None:
@@ -198,22 +192,14 @@ def _ranges(configs: Sequence[Config]) -> Iterator[Plan]:
         name = unique(["from", "to", _value_name(by_config)])[-1]
         plan = Plan(_path(re.sub(r"\W+\Z", "", stem)), guessed=f"what the ranges {stem}… are for is called {name}")
         plan.spelled = Spelled(f"{stem}{{from}}-{{to}}", columns=[name])
-        for title, group in by_config.items():
-            given = Given(Item([]))
-            for row in group:
-                match = _RANGE.match(row.setting.key)
-                assert match is not None
-                _add(
-                    given,
-                    row,
-                    {
-                        "from": Item(guess(match["from"])),
-                        "to": Item(guess(match["to"])),
-                        name: Item(guess(row.setting.text)),
-                    },
-                )
-            plan.given[title] = given
-        yield plan
+
+        def record(row: _Row, name: str = name) -> dict[str, Item]:
+            match = _RANGE.match(row.setting.key)
+            assert match is not None
+            texts = {"from": match["from"], "to": match["to"], name: row.setting.text}
+            return {key: Item(guess(text)) for key, text in texts.items()}
+
+        yield _filled(plan, by_config, record)
 
 
 def _value_name(by_config: dict[str, list[_Row]]) -> str:
