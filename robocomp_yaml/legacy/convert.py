@@ -7,7 +7,7 @@ import unicodedata
 from contextlib import nullcontext
 
 import msgspec
-from lark import Token, Tree
+from lark import Token
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
@@ -54,31 +54,32 @@ def convert(path: str, known: Formats | None = None) -> Converted:
 def _draft(parsed: Parsed, source: Source, rules: Rules, said: list[Diagnostic]) -> FileDraft | None:
     if parsed.tree is None:
         return None
-    said += _review(parsed.tree, source, rules)
     placed = comments.place(parsed.tree, parsed.comments, source, rules)
-    said += placed.diagnostics
     reader = Reader(source, rules, parsed, placed)
+    _review(reader)
+    reader.diagnostics += placed.diagnostics
     draft: FileDraft | None = importlib.import_module(rules.converter).convert(reader)
     said += reader.diagnostics
-    marks = directives.review(parsed.trivia, source, rules)
-    refused = has_errors([*said, *marks])
-    said += [mark for mark in marks if not refused or mark.severity == ERROR]  # a refused file loses nothing
+    reader.diagnostics = []
+    directives.review(parsed.trivia, reader)
+    refused = has_errors([*said, *reader.diagnostics])
+    # A refused file loses nothing.
+    said += [mark for mark in reader.diagnostics if not refused or mark.severity == ERROR]
     return None if refused else draft
 
 
-def _review(tree: Tree[Token], source: Source, rules: Rules) -> list[Diagnostic]:
+def _review(reader: Reader) -> None:
     """What the grammar took although it is not right, and names that cannot be names."""
-    said: list[Diagnostic] = []
-    for node, start, end in marked(tree, "lenient_"):
-        what = rules.repairs[str(node.data)].format(text=words(node))
-        said.append(codes.REPAIRED.at(source.span(start, end), what=what))
-    for node, start, end in marked(tree, "refused_"):
-        said.append(codes.REFUSED.at(source.span(start, end), reason=rules.refusals[str(node.data)]))
-    for token in tree.scan_values(lambda value: isinstance(value, Token) and value.type == "NAME"):
-        if not rules.names.fullmatch(plain(token)):
-            at = source.span(token.start_pos or 0, token.end_pos or 0)
-            said.append(codes.BAD_NAME.at(at, name=plain(token), hint=_name_hint(plain(token))))
-    return said
+    for node, start, end in marked(reader.tree, "lenient_"):
+        what = reader.rules.repairs[str(node.data)].format(text=words(node))
+        reader.diagnostics.append(codes.REPAIRED.at(reader.source.span(start, end), what=what))
+    for node, start, end in marked(reader.tree, "refused_"):
+        reason = reader.rules.refusals[str(node.data)]
+        reader.diagnostics.append(codes.REFUSED.at(reader.source.span(start, end), reason=reason))
+    for token in reader.tree.scan_values(lambda value: isinstance(value, Token) and value.type == "NAME"):
+        name = plain(token)
+        if not reader.rules.names.fullmatch(name):
+            reader.diagnostics.append(codes.BAD_NAME.at(reader.span(token), name=name, hint=_name_hint(name)))
 
 
 def _name_hint(name: str) -> str:

@@ -4,7 +4,7 @@ make a document of it."""
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 
 import msgspec
 from lark import Token, Tree
@@ -149,8 +149,10 @@ class Reader(msgspec.Struct, eq=False):
         self.diagnostics.append(codes.REPAIRED.at(self.span(node), what=what))
 
     def refused(self, refusal: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
-        reason = self.rules.refusals[refusal].format(text=text, **facts)
-        self.diagnostics.append(codes.REFUSED.at(self.span(node), reason=reason))
+        reason = self.rules.refusals[refusal]
+        self.diagnostics.append(
+            codes.REFUSED.at(self.span(node), reason=reason.format(text=text, **facts) if text else reason)
+        )
 
     def lost(self, loss: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
         what = self.rules.losses[loss].format(text=text, **facts)
@@ -187,11 +189,12 @@ class Reader(msgspec.Struct, eq=False):
         lines = self.notes(tree).doc
         if not lines:
             return ""
-        drop = self.rules.doc_drop
+        drop = self.rules.doc.drop
         if any(re.match(drop.replace("{name}", "(?:.*)"), line.strip()) for line in lines):  # seldom, for any name
             own = "|".join(re.escape(name) for name in names if name)
             lines = [line for line in lines if not re.match(drop.replace("{name}", f"(?:{own})"), line.strip())]
-        return trimmed(self.rules.doc_strip.sub("", "\n".join(lines).replace("\t", " ")))
+        text = re.sub(self.rules.doc.strip, "", "\n".join(lines).replace("\t", " "), flags=re.MULTILINE)
+        return trimmed(text)
 
     def imports(self, nodes: list[Tree[Token]]) -> tuple[List, list[ImportDraft]]:
         """The list under `imports:`, each file once."""
@@ -208,6 +211,32 @@ class Reader(msgspec.Struct, eq=False):
                 entry = listed.put(base_name(path), self.notes(node))
                 drafts.append(ImportDraft(path, self.span(literal), entry))
         return listed, drafts
+
+
+class ComponentBuilder:
+    """The document of a component, key by key, whatever the format that says it."""
+
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+        self.entries: dict[str, Entry] = {}
+        self.machine: NamedMachine | None = None
+
+    def put(self, key: str, value: Value, notes: Notes | None = None) -> Entry:
+        self.entries[key] = Entry(key, value, notes or Notes())
+        return self.entries[key]
+
+    def put_machine(self, path: str, at: Tree[Token] | Token, notes: Notes | None = None) -> None:
+        entry = self.put("statemachine", path, notes)
+        self.machine = NamedMachine(path, self.reader.span(at), entry)
+        entry.value = self.machine.document
+
+    def draft(self, at: Tree[Token] | Token, imports: Iterable[ImportDraft], around: Notes) -> ComponentDraft:
+        """What was put, in the order of the rules, and then the rest. `at` is where the component is named."""
+        if "language" not in self.entries:
+            name = self.entries["component"].value
+            self.reader.diagnostics.append(codes.NO_LANGUAGE.at(self.reader.span(at), name=name))
+        entries = {key: self.entries[key] for key in self.reader.rules.order if key in self.entries} | self.entries
+        return ComponentDraft(Map([*entries.values()], block=True), around, tuple(imports), self.machine)
 
 
 def plain(name: Token) -> str:

@@ -56,11 +56,11 @@ def _unless_foreign(rules: Rules, source: Source) -> tuple[Rules | None, list[Di
     if rules.weak and not os.path.basename(source.path).isprintable():
         reason = "the name of this file is no text, so no document can say it; rename the file"
         return None, [codes.REFUSED.at(Span(source.path), reason=reason)]
-    for pattern, reason in rules.foreign:
-        if found := pattern.search(source.text):
+    for foreign in rules.foreign:
+        if found := foreign.pattern.search(source.text):
             mark = source.text[found.start() : found.end()]
             at = found.start() + len(mark) - len(mark.lstrip())
-            return None, [codes.REFUSED.at(source.span(at, max(found.end(), at + 1)), reason=reason)]
+            return None, [codes.REFUSED.at(source.span(at, max(found.end(), at + 1)), reason=foreign.reason)]
     if rules.invalid:
         entries = properties.read(source.text)
         count, all_ = len(entries.invalid), len(entries.entries) + len(entries.invalid)

@@ -36,7 +36,21 @@ class Files(msgspec.Struct, frozen=True, eq=False):
         return "perhaps" if os.path.basename(os.path.dirname(os.path.abspath(path))) == self.folder else ""
 
 
-class Rules(msgspec.Struct, frozen=True, eq=False):
+class Foreign(msgspec.Struct, frozen=True, eq=False):
+    """What shows that a file is another program's, and which one."""
+
+    pattern: re.Pattern[str]
+    reason: str
+
+
+class DocMarkup(msgspec.Struct, frozen=True):
+    """What of doc comments is no text: markup, and whole lines."""
+
+    strip: str
+    drop: str
+
+
+class Rules(msgspec.Struct, frozen=True, eq=False, forbid_unknown_fields=True):
     """How one legacy format is read. `migrate/README.md` says what each key of the file means. `grammar` is its text,
     `converter` the name of a module, `plugin` whose it is."""
 
@@ -49,8 +63,7 @@ class Rules(msgspec.Struct, frozen=True, eq=False):
     signature: re.Pattern[str]
     converter: str
     names: re.Pattern[str]
-    doc_strip: re.Pattern[str]
-    doc_drop: str
+    doc: DocMarkup
     plugin: Plugin | None = None
     grammar: str = ""
     words: Texts = {}
@@ -68,7 +81,7 @@ class Rules(msgspec.Struct, frozen=True, eq=False):
     keep_suffix: bool = False
     by_content: bool = False
     files: Files | None = None
-    foreign: tuple[tuple[re.Pattern[str], str], ...] = ()
+    foreign: tuple[Foreign, ...] = ()
     invalid: Mapping[str, Any] = {}
     sections: Mapping[str, re.Pattern[str]] = {}
     records: tuple[Mapping[str, Any], ...] = ()
@@ -109,34 +122,9 @@ def _by_rank(rules: Iterable[Rules]) -> Formats:
 
 def _rules(name: str, data: dict[str, Any], converters: str, plugin: Plugin | None = None) -> Rules:
     """`converters` says which module a converter is."""
-    doc = data.pop("doc")
-    return Rules(
-        name=name,
-        converter=converters.format(data.pop("converter", "")),
-        plugin=plugin,
-        suffixes=tuple(data.pop("suffixes")),
-        signature=re.compile(data.pop("signature")),
-        names=re.compile(data.pop("names")),
-        doc_strip=re.compile(doc["strip"], re.MULTILINE),
-        doc_drop=doc["drop"],
-        order=tuple(data.pop("order", ())),
-        **_of_lines(data),
-        document=data.pop("document", f".{data['kind']}.yaml"),
-        **data,
-    )
-
-
-def _of_lines(data: dict[str, Any]) -> dict[str, Any]:
-    """What formats of single lines have besides, compiled."""
-    files, counts = data.pop("files", None), data.pop("counts", None)
-    return {
-        "files": Files(re.compile(files["certain"]), files["folder"], re.compile(files["other"])) if files else None,
-        "foreign": tuple((re.compile(item["pattern"]), item["reason"]) for item in data.pop("foreign", ())),
-        "sections": {name: re.compile(pattern) for name, pattern in data.pop("sections", {}).items()},
-        "records": tuple(data.pop("records", ())),
-        "counts": re.compile(counts) if counts else None,
-        "stop": frozenset(data.pop("stop", ())),
-    }
+    data["converter"] = converters.format(data.get("converter", ""))
+    data.setdefault("document", f".{data['kind']}.yaml")
+    return msgspec.convert({**data, "name": name, "plugin": plugin}, Rules, dec_hook=lambda _, text: re.compile(text))
 
 
 def _data(name: str) -> dict[str, Any]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import migration as codes
@@ -118,20 +119,19 @@ def _compiled(folder: str) -> set[str]:
     return {os.path.normpath(os.path.join(folder, path)) for path in files}
 
 
-def _preferences(files: Iterable[LegacyFile], known: Formats) -> Iterator[LegacyFile]:
+def _preferences(files: Sequence[LegacyFile], known: Formats) -> Iterator[LegacyFile]:
     """A file that has one of the same stem and kind beside it, of a format with a lower rank, was made from that."""
-    listed = list(files)
-    best: dict[tuple[str, str], tuple[int, str]] = {}
-    for file in listed:
-        rules = by_name(file.path, known)
+    by_stem: dict[tuple[str, str], list[tuple[int, str]]] = {}
+    named = [(file, by_name(file.path, known)) for file in files]
+    for file, rules in named:
         if rules is not None:
-            key = (os.path.splitext(file.path)[0], rules.kind)
-            best[key] = min(best.get(key, (rules.rank, file.path)), (rules.rank, file.path))
-    for file in listed:
-        rules = by_name(file.path, known)
-        rank, other = best[(os.path.splitext(file.path)[0], rules.kind)] if rules else (0, file.path)
-        better = rules is not None and rules.is_made and rank < rules.rank
-        yield LegacyFile(file.path, file.root, file.folder, other) if better else file
+            by_stem.setdefault((os.path.splitext(file.path)[0], rules.kind), []).append((rules.rank, file.path))
+    for file, rules in named:
+        if rules is not None and rules.is_made:
+            rank, other = min(by_stem[(os.path.splitext(file.path)[0], rules.kind)])
+            yield replace(file, preferred=other) if rank < rules.rank else file
+        else:
+            yield file
 
 
 def names(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache
 
 import msgspec
@@ -17,7 +17,6 @@ from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.source.text import read_bytes
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, parse
-from robocomp_yaml.source.tree import Sequence as Items
 
 MAX_DOCUMENT = 4 << 20
 _FILE = "upgrades.yaml"
@@ -62,7 +61,7 @@ def _apply(change: Change, path: str, result: Upgraded) -> None:
     tree, said = parse(path, result.text)
     if tree is None or any(fault.severity == "error" for fault in said):
         return  # `check` tells what is wrong with it
-    for parent in reversed(list(_at(tree, change.at))):  # from the end, so that places before it stay
+    for parent in reversed(_mappings(tree, change.at)):  # from the end, so that places before it stay
         entry = parent.entries.get(change.old)
         if entry is None:
             continue
@@ -77,18 +76,13 @@ def _apply(change: Change, path: str, result: Upgraded) -> None:
             result.diagnostics.append(codes.UPGRADED.at(key.span, what=what))
 
 
-def _at(node: Node, path: Sequence[str]) -> Iterator[Mapping]:
-    if not path:
-        if isinstance(node, Mapping):
-            yield node
-        return
-    inner: Iterable[Node] = ()
-    if isinstance(node, Items):
-        inner = node.items if path[0] == "*" else ()
-    elif isinstance(node, Mapping):
-        inner = [value for key, (_, value) in node.entries.items() if path[0] in ("*", key)]
-    for child in inner:
-        yield from _at(child, path[1:])
+def _mappings(root: Node, path: Sequence[str]) -> list[Mapping]:
+    """The mappings at a path, in which `*` is any key or item."""
+    nodes: list[Node | None] = [root]
+    for step in path:
+        parents = [node for node in nodes if node is not None]
+        nodes = [child for node in parents for child in (node.children() if step == "*" else [node.get(step)])]
+    return [node for node in nodes if isinstance(node, Mapping)]
 
 
 def _renamed(text: str, key: Scalar, change: Change) -> str | None:

@@ -11,7 +11,7 @@ from lark import Token, Tree
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
-from robocomp_yaml.legacy.draft import ComponentDraft, NamedMachine, Reader
+from robocomp_yaml.legacy.draft import ComponentBuilder, ComponentDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
 from robocomp_yaml.source import regular
 
@@ -24,23 +24,21 @@ def convert(reader: Reader) -> ComponentDraft | None:
     return _Converter(reader).document(tree, trees(tree, "component")[0])
 
 
-class _Converter:
+class _Converter(ComponentBuilder):
     def __init__(self, reader: Reader) -> None:
-        self.reader = reader
-        self.entries: dict[str, Entry] = {}
+        super().__init__(reader)
         self.seen: dict[str, Tree[Token]] = {}
-        self.machine: NamedMachine | None = None
 
     def document(self, tree: Tree[Token], component: Tree[Token]) -> ComponentDraft:
         reader, notes = self.reader, self.reader.notes(component)
         name = reader.name(component)
-        self._put("component", name, Notes(notes.head, notes.tail))
+        self.put("component", name, Notes(notes.head, notes.tail))
         doc = reader.doc(component, name)
         if doc:
-            self._put("doc", Doc(doc), Notes())
+            self.put("doc", Doc(doc))
         listed, imports = reader.imports(trees(tree, "import"))
         if listed.items:
-            self._put("imports", listed, Notes())
+            self.put("imports", listed)
         for clause in trees(component):
             if clause.data == "communications":
                 self._once(clause)
@@ -49,15 +47,11 @@ class _Converter:
                 self._once(clause)
                 CLAUSES[str(clause.data)](self, clause)
         if self._has_code_of_robocomp():
-            self._put("compatibility", "robocomp", Notes())
-        if "language" not in self.entries:
-            at = reader.span(token(component, "NAME") or component)
-            reader.diagnostics.append(codes.NO_LANGUAGE.at(at, name=name))
-        document = Map([self.entries[key] for key in reader.rules.order if key in self.entries], block=True)
+            self.put("compatibility", "robocomp")
         around = reader.placed.around
         rest = [words(node) for node in trees(tree, "lenient_rest")]
         around.foot[:0] = [*notes.foot, *rest]
-        return ComponentDraft(document, around, tuple(imports), self.machine)
+        return self.draft(token(component, "NAME") or component, imports, around)
 
     def _has_code_of_robocomp(self) -> bool:
         """Whether the user's code beside the file was written against what RoboComp's own tool generates."""
@@ -78,10 +72,6 @@ class _Converter:
     def _keyword(self, clause: Tree[Token]) -> str:
         """A clause's first word, as the file spells it."""
         return self.reader.source.text[clause.meta.start_pos : clause.meta.end_pos].split("{")[0].split()[0]
-
-    def _put(self, key: str, value: Value, notes: Notes) -> Entry:
-        self.entries[key] = Entry(key, value, notes)
-        return self.entries[key]
 
     def _key(self, clause: Tree[Token]) -> str:
         return self.reader.rules.keys[str(clause.data)]
@@ -105,7 +95,7 @@ class _Converter:
         key, notes = self._key(clause), self.reader.notes(clause)
         known = self.entries.get(key)
         if known is None:
-            known = self._put(key, List(), notes)
+            known = self.put(key, List(), notes)
         else:
             known.notes.add(notes)
         assert isinstance(known.value, List)
@@ -123,28 +113,24 @@ class _Converter:
     def language(self, clause: Tree[Token]) -> None:
         word = token(clause, "WORD")
         assert word is not None
-        self._put("language", self.reader.word("language", str(word), word), self.reader.notes(clause))
+        self.put("language", self.reader.word("language", str(word), word), self.reader.notes(clause))
 
     def gui(self, clause: Tree[Token]) -> None:
         names = [child for child in clause.children if isinstance(child, Token)]
         body = self.reader.gui([str(name) for name in names], [*names])
-        self._put("gui", body, self.reader.notes(clause))
+        self.put("gui", body, self.reader.notes(clause))
 
     def options(self, clause: Tree[Token]) -> None:
         listed = List()
         for option in trees(clause, "option"):
             listed.put(self.reader.name(option).lower(), self.reader.notes(option))
-        self._put("options", listed, self.reader.notes(clause))
+        self.put("options", listed, self.reader.notes(clause))
 
     def statemachine(self, clause: Tree[Token]) -> None:
         literal = token(clause, "STRING")
         assert literal is not None
-        legacy = literal[1:-1].strip()
-        entry = self._put("statemachine", legacy, self.reader.notes(clause))
-        self.machine = NamedMachine(legacy, self.reader.span(literal), entry)
-        entry.value = self.machine.document
-        visual = token(clause, "VISUAL")
-        if visual is not None:
+        self.put_machine(literal[1:-1].strip(), literal, self.reader.notes(clause))
+        if token(clause, "VISUAL") is not None:
             self._no_place(clause, "visual", "true")
 
     def obsolete(self, clause: Tree[Token]) -> None:
@@ -152,8 +138,7 @@ class _Converter:
 
     def _no_place(self, clause: Tree[Token], name: str, value: str) -> None:
         key = self.reader.rules.keys[name]
-        notes = self.reader.notes(clause) if name != "visual" else Notes()
-        self._put(key, value, notes)
+        self.put(key, value, self.reader.notes(clause) if name != "visual" else None)
         self.reader.diagnostics.append(codes.NO_PLACE.at(self.reader.span(clause), what=words(clause), key=key))
 
     def sources(self, clause: Tree[Token]) -> None:
@@ -167,7 +152,7 @@ class _Converter:
 
     def _uses(self, clause: Tree[Token], place: Callable[[Tree[Token], str], tuple[str, Value]]) -> None:
         """The entries of a block under `uses:`, with the comments of the block."""
-        uses = self.entries.get("uses") or self._put("uses", Map(block=True), Notes())
+        uses = self.entries.get("uses") or self.put("uses", Map(block=True))
         assert isinstance(uses.value, Map)
         by_key = {entry.key: entry for entry in uses.value.entries}
         entry = None

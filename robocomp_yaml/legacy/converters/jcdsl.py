@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Value
-from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, NamedMachine, Reader, base_name
+from robocomp_yaml.legacy.document import List, Map, Notes
+from robocomp_yaml.legacy.draft import ComponentBuilder, ComponentDraft, ImportDraft, Reader, base_name
 from robocomp_yaml.legacy.grammar import token, trees
 
 _LISTS = {"implements": "implements", "requires": "requires", "publishes": "publishes", "subscribesto": "subscribes"}
@@ -25,19 +25,17 @@ def convert(reader: Reader) -> ComponentDraft | None:
     return _Converter(reader).document(top[0])
 
 
-class _Converter:
+class _Converter(ComponentBuilder):
     def __init__(self, reader: Reader) -> None:
-        self.reader = reader
-        self.entries: dict[str, Entry] = {}
+        super().__init__(reader)
         self.imports: list[ImportDraft] = []
         self.options: list[str] = []
-        self.machine: NamedMachine | None = None
 
     def document(self, top: Node) -> ComponentDraft | None:
         for key, name, value in _pairs(top):
             known = name.lower()
             if known in _LISTS:
-                self.put(_LISTS[known], self.ports(value))
+                self.put_some(_LISTS[known], self.ports(value))
             elif known in ("name", "component"):
                 self.put("component", self.text(value))
             elif known in _CLAUSES:
@@ -53,15 +51,11 @@ class _Converter:
             at = self.reader.span(top)
             self.reader.diagnostics.append(codes.SYNTAX.at(at, problem='the component has no "name"', hint=""))
             return None
-        if "language" not in self.entries:
-            self.reader.diagnostics.append(codes.NO_LANGUAGE.at(self.reader.span(top), name=named.value))
-        order = [*self.reader.rules.order, *(key for key in self.entries if key not in self.reader.rules.order)]
-        entries = [self.entries[key] for key in order if key in self.entries]
-        return ComponentDraft(Map(entries, block=True), Notes(), tuple(self.imports), self.machine)
+        return self.draft(top, self.imports, Notes())
 
-    def put(self, key: str, value: Value) -> None:
-        if not (isinstance(value, List) and not value.items):
-            self.entries[key] = Entry(key, value)
+    def put_some(self, key: str, listed: List) -> None:
+        if listed.items:
+            self.put(key, listed)
 
     def text(self, node: Node) -> str:
         """A text; something else is an error."""
@@ -94,7 +88,7 @@ class _Converter:
             path = self.text(item)
             if path and not any(known.stem == base_name(path) for known in self.imports):
                 self.imports.append(ImportDraft(path, self.reader.span(item), listed.put(base_name(path))))
-        self.put("imports", listed)
+        self.put_some("imports", listed)
 
     def language(self, node: Node) -> None:
         name = node
@@ -120,14 +114,10 @@ class _Converter:
 
     def statemachine(self, node: Node) -> None:
         parts = self.texts(node) if _word(node) != "null" else []
-        if not parts or not parts[0]:
-            return
-        self.put("statemachine", parts[0])
-        entry = self.entries["statemachine"]
-        self.machine = NamedMachine(parts[0], self.reader.span(node), entry)
-        entry.value = self.machine.document
-        if "visual" in parts[1:]:
-            self.put(self.reader.rules.keys["visual"], "true")
+        if parts and parts[0]:
+            self.put_machine(parts[0], node)
+            if "visual" in parts[1:]:
+                self.put(self.reader.rules.keys["visual"], "true")
 
     def no_place(self, key: Node, name: str, value: Node) -> None:
         """What CDSL documents have no place for is kept as it is."""

@@ -28,7 +28,7 @@ from robocomp_yaml.semantics.paths import in_words
 from robocomp_yaml.source import schema, tree
 from robocomp_yaml.source.text import decode
 from robocomp_yaml.source.tree import Mapping as Mapping_
-from robocomp_yaml.source.tree import Node
+from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.source.tree import Sequence as Sequence_
 
 
@@ -109,7 +109,7 @@ class _Draft:
         steps = ["parameters", *(step for part in plan.path for step in (part, "group"))][:-1]
         for step in steps:
             node = node.get(step) if isinstance(node, Mapping_) else None
-        return set(_texts(node.data)) if node is not None else set()
+        return {inner.lexeme for inner in tree.below(node) if isinstance(inner, Scalar)} if node is not None else set()
 
 
 def _move(fault: _Fault, draft: _Draft, plans: Sequence[Plan], configs: Sequence[Config]) -> bool:
@@ -180,11 +180,3 @@ def _keys(node: Node | None, span: Span) -> Iterator[str]:
             yield name
             yield from _keys(value, span)
             return
-
-
-def _texts(data: object) -> Iterator[str]:
-    if isinstance(data, str):
-        yield data
-    elif isinstance(data, dict | list):
-        for inner in data.values() if isinstance(data, dict) else data:
-            yield from _texts(inner)
