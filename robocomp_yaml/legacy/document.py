@@ -117,15 +117,17 @@ def data(document: Map) -> dict[str, Any]:
 
 
 def _node(value: Value) -> Node:
-    if isinstance(value, Name | Doc):
-        return _scalar(value.text)
-    if isinstance(value, str):
-        return _scalar(value)
+    if isinstance(value, str | Name | Doc):
+        return _scalar(_string(value))
     if isinstance(value, Map):
         return tree(value)
     if isinstance(value, List):
         return sequence_at(_NOWHERE, [_node(item.value) for item in value.items])
     return scalar_at(_NOWHERE, value.lexeme if value else "")
+
+
+def _string(value: str | Name | Doc) -> str:
+    return value if isinstance(value, str) else value.text
 
 
 @lru_cache(1024)  # most of a document are words that come again
@@ -171,12 +173,9 @@ def _entry(entry: Entry, indent: str, start: str) -> Iterator[Line]:
         header, body = _block_text(entry.value.text, inner)
         yield f"{start} {header}{tail}"
         yield from body
-    elif isinstance(entry.value, Map):
+    elif isinstance(entry.value, Map | List):
         yield start + tail
-        yield from _map(entry.value, inner)
-    elif isinstance(entry.value, List):
-        yield start + tail
-        yield from _list(entry.value, inner)
+        yield from _map(entry.value, inner) if isinstance(entry.value, Map) else _list(entry.value, inner)
     yield from _comments(entry.notes.foot, inner)
 
 
@@ -191,7 +190,7 @@ def _line(value: Value, start: str) -> str | None:
         return f"{start} {line}" if line is not None and (empty or len(start) + 1 + len(line) <= limit) else None
     if isinstance(value, Raw):
         return f"{start} {value.lexeme}"
-    told = value.text if isinstance(value, Doc | Name) else value
+    told = _string(value)
     line = f"{start} {text_of(told)}"
     as_block = isinstance(value, Doc) and ("\n" in told or (len(line) > WIDTH and " " in told))
     return None if as_block and is_printable(told) and not told[:1].isspace() else line
@@ -203,10 +202,9 @@ def _flow(value: Value) -> str | None:
         return "null"
     if isinstance(value, Raw):
         return value.lexeme
-    if isinstance(value, str | Name):
-        return text_of(value if isinstance(value, str) else value.text, in_flow=True)
-    if isinstance(value, Doc):
-        return None if "\n" in value.text else text_of(value.text, in_flow=True)
+    if isinstance(value, str | Name | Doc):
+        said = _string(value)
+        return None if isinstance(value, Doc) and "\n" in said else text_of(said, in_flow=True)
     entries = value.entries if isinstance(value, Map) else value.items
     if entries and (value.block or any(entry.notes for entry in entries)):
         return None

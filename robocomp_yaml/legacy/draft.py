@@ -16,7 +16,7 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.legacy.comments import Placed
 from robocomp_yaml.legacy.document import Entry, List, Map, Name, Notes, Value
 from robocomp_yaml.legacy.grammar import Parsed, token
-from robocomp_yaml.legacy.networks.node import NetworkDraft
+from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
 from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import Settings
@@ -211,6 +211,21 @@ class Reader(msgspec.Struct, eq=False):
                 entry = listed.put(base_name(path), self.notes(node))
                 drafts.append(ImportDraft(path, self.span(literal), entry))
         return listed, drafts
+
+
+def named_node(
+    reader: Reader, network: NetworkDraft, name: str, at: Tree[Token] | Token, notes: Notes, whole: Tree[Token]
+) -> Node:
+    """A node of a network. `at` is where its name stands, in `whole`."""
+    node = Node(name, safe_name(name, [known.name for known in network.nodes]), reader.span(at), notes=notes)
+    if not name.strip():
+        reader.refused("unnamed", whole)
+    if any(name == known.alias for known in network.nodes):
+        reader.diagnostics.append(codes.DUPLICATE.at(node.span, name=name))
+    elif node.name != name and name.strip():
+        reader.repaired("name", at, name, name=node.name)
+    network.nodes.append(node)
+    return node
 
 
 class ComponentBuilder:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import msgspec
 
@@ -11,8 +11,6 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic
 from robocomp_yaml.diag.render.json import as_data, dumps
 from robocomp_yaml.legacy.convert import Converted
-from robocomp_yaml.legacy.grammar import Parsed
-from robocomp_yaml.legacy.reading import Source
 from robocomp_yaml.legacy.sources import LegacyFile
 
 CONVERTED, WARNED, REFUSED, SKIPPED = "converted", "warned", "refused", "skipped"
@@ -48,35 +46,27 @@ class Entry(msgspec.Struct):
 
     def lines(self) -> Counter[str]:
         """How many lines are in each class; the classes add up to the file's lines."""
-        source = self.file.source
-        if source is None:
-            return Counter()
-        refused = self.status == REFUSED or self.file.parsed is None or self.file.parsed.tree is None
-        return Counter(classify(source, self.file.parsed, self.diagnostics, refused))
-
-
-def classify(source: Source, parsed: Parsed | None, diagnostics: Iterable[Diagnostic], refused: bool) -> list[str]:
-    """The class of each line."""
-    texts = source.text.split("\n")[: source.lines]
-    if refused or parsed is None:
-        return ["refused" if text.strip() else "blank" for text in texts]
-    bare = list(source.text)
-    commented: set[int] = set()
-    for token in parsed.comments:
-        start, end = token.start_pos or 0, token.end_pos or 0
-        bare[start:end] = [char if char == "\n" else " " for char in bare[start:end]]
-        commented.update(range(source.line(start), source.line(end) + 1))
-    classes = []
-    for number, text in enumerate("".join(bare).split("\n")[: source.lines], 1):
-        classes.append("converted" if text.strip() else "comment" if number in commented else "blank")
-    changed = [(source.line(t.start_pos or 0), source.line(t.end_pos or 0), "lost") for t in parsed.trivia
-               if t.type == "METADATA"]  # fmt: skip
-    changed += [(d.span.line, d.span.line, _REPAIRS[d.code]) for d in diagnostics if d.code in _REPAIRS]
-    for first, last, to in changed:
-        for line in range(first, last + 1):
-            if classes[line - 1] in ("converted", "repaired"):
-                classes[line - 1] = to
-    return classes
+        source, parsed = self.file.source, self.file.parsed
+        texts = source.text.split("\n")[: source.lines] if source is not None else []
+        if source is None or self.status == REFUSED or parsed is None or parsed.tree is None:
+            return Counter("refused" if text.strip() else "blank" for text in texts)
+        bare = list(source.text)
+        commented: set[int] = set()
+        for token in parsed.comments:
+            start, end = token.start_pos or 0, token.end_pos or 0
+            bare[start:end] = [char if char == "\n" else " " for char in bare[start:end]]
+            commented.update(range(source.line(start), source.line(end) + 1))
+        classes = []
+        for number, text in enumerate("".join(bare).split("\n")[: source.lines], 1):
+            classes.append("converted" if text.strip() else "comment" if number in commented else "blank")
+        changed = [(source.line(t.start_pos or 0), source.line(t.end_pos or 0), "lost") for t in parsed.trivia
+                   if t.type == "METADATA"]  # fmt: skip
+        changed += [(d.span.line, d.span.line, _REPAIRS[d.code]) for d in self.diagnostics if d.code in _REPAIRS]
+        for first, last, to in changed:
+            for line in range(first, last + 1):
+                if classes[line - 1] in ("converted", "repaired"):
+                    classes[line - 1] = to
+        return Counter(classes)
 
 
 def as_json(entries: Sequence[Entry]) -> str:

@@ -13,6 +13,7 @@ from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, ModuleDraft, ModuleNames, Reference, base_name
 from robocomp_yaml.link.workspace import Search, Workspace
 from robocomp_yaml.source.discover import WORKSPACE_FILE
+from robocomp_yaml.source.disk import names_in
 
 INTERFACES = "idsl"
 
@@ -40,13 +41,9 @@ class Neighbours(msgspec.Struct, frozen=True):
 
     def beside(self, importer: Converted) -> dict[str, str]:
         """The stems of the interface files in an importer's folder, by their lower case."""
-        folder = os.path.dirname(importer.path) or "."
+        folder = os.path.dirname(importer.path)
         if folder not in self._listed:
-            try:
-                names = sorted(os.listdir(folder))
-            except OSError:
-                names = []
-            known = (base_name(name) for name in names if name.lower().endswith((".idsl", ".ice")))
+            known = (base_name(name) for name in names_in(folder) if name.lower().endswith((".idsl", ".ice")))
             self._listed[folder] = {stem.lower(): stem for stem in known}
         return self._listed[folder]
 

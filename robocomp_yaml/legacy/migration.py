@@ -25,6 +25,7 @@ from robocomp_yaml.legacy.settings.components import Inferred, settle
 from robocomp_yaml.legacy.settings.plan import Guesses
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.legacy.upgrade import upgrade
+from robocomp_yaml.link import workspace_files
 from robocomp_yaml.link.workspace import Search, above
 from robocomp_yaml.model.build_interface import build
 from robocomp_yaml.plugins import Plugins
@@ -71,8 +72,8 @@ def migrate(
         by_path[diagnostic.span.file].diagnostics.append(diagnostic)
     _link(run, good, chosen, known, extra)
     networks = settle_networks(good, chosen, known)
-    settled = settle(good, chosen, run.remembers, guesses, exact=exact)
-    _plan(run, good, chosen, known, networks | dict(settled.documents), settled.inferred, force)
+    configs, inferred = settle(good, chosen, run.remembers, guesses, exact=exact)
+    _plan(run, good, chosen, known, networks | configs, inferred, force)
     upgrade(run, paths)
     return run
 
@@ -165,7 +166,7 @@ def _plan(
         gap = "\n" if around.head else ""
         root = run.root(entry.legacy.root)
         heading = HEADING if kind == "idsl" and _has_taken(content) else ""
-        text = raw or _modeline(document, home, kind, content) + heading + gap + yaml.text(content, around)
+        text = raw or f"{_modeline(document, home, kind, content)}\n{heading}{gap}{yaml.text(content, around)}"
         output = root.add(os.path.relpath(document, entry.legacy.root), text, force=force, sources=(entry.file.path,))
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
@@ -191,4 +192,4 @@ def _modeline(document: str, home: str, kind: str, content: yaml.Map) -> str:
     if kind == "config" and component.endswith(".cdsl.yaml"):
         folder = os.path.join(os.path.dirname(document), os.path.dirname(component))
         return workspaces.values_modeline(document, folder)
-    return workspaces.modeline(document, home, kind)
+    return workspace_files.modeline(kind, document, home)

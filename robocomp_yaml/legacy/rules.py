@@ -94,7 +94,7 @@ Formats = tuple[Rules, ...]
 
 def built_in() -> list[str]:
     folder = resources.folder("migrate")
-    return [name for name in sorted(os.listdir(folder)) if os.path.isfile(os.path.join(folder, name, "rules.yaml"))]
+    return [name for name in resources.names("migrate") if os.path.isfile(os.path.join(folder, name, "rules.yaml"))]
 
 
 @cache

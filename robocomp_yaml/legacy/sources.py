@@ -59,13 +59,14 @@ def find(paths: Sequence[str], output: str | None, known: Formats) -> Found:
         if not is_folder and kind_of(path) is not None and os.path.isfile(path):
             continue  # a document of ours: it may be an older one
         below = list(_below(path, found.diagnostics, known)) if is_folder else [os.path.normpath(path)]
-        root = output or (os.path.normpath(path) if is_folder else _root_of(path))
+        root = output or (os.path.normpath(path) if is_folder else root_of(path))
         if is_folder:
             if root not in found.folders:
                 found.folders.append(root)
             if not below and next(documents_below(path), None) is None:
-                suffixes = "the suffixes are known: " + ", ".join(sorted(_suffixes(known)))
-                found.diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=suffixes))
+                suffixes = sorted({suffix for rules in known for suffix in rules.suffixes})
+                hint = f"the suffixes are known: {', '.join(suffixes)}"
+                found.diagnostics.append(codes.NOTHING_FOUND.at(Span(path), hint=hint))
         for file in below:
             real = os.path.realpath(file)
             if real not in seen:
@@ -77,13 +78,10 @@ def find(paths: Sequence[str], output: str | None, known: Formats) -> Found:
     return found
 
 
-def _root_of(path: str) -> str:
+def root_of(path: str) -> str:
+    """The root of the workspace that a file is in, or its folder."""
     folder = os.path.dirname(path)
     return root_above(folder) or folder or "."
-
-
-def _suffixes(known: Formats) -> set[str]:
-    return {suffix for rules in known for suffix in rules.suffixes}
 
 
 def _below(folder: str, said: list[Diagnostic], known: Formats) -> Iterator[str]:

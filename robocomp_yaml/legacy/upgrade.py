@@ -13,7 +13,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.outputs import UPGRADED, Output
 from robocomp_yaml.legacy.result import Migration
-from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.legacy.sources import root_of
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.source.text import read_bytes
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, parse
@@ -118,12 +118,12 @@ def _plan(run: Migration, document: str) -> None:
         whole = raw.decode("utf-8")
     except UnicodeDecodeError:
         return  # `check` tells
-    mark = "\ufeff" if whole.startswith("\ufeff") else ""
-    made = upgraded(document, kind, whole.removeprefix(mark) if mark else whole)
+    text = whole.removeprefix("\ufeff")
+    mark = whole[: len(whole) - len(text)]
+    made = upgraded(document, kind, text)
     run.general += made.diagnostics
     if mark + made.text != whole:
-        folder = os.path.dirname(document)
-        root = run.root(root_above(folder) or folder or ".")
+        root = run.root(root_of(document))
         relative = os.path.relpath(os.path.realpath(document), root.root.real)
         output = Output(relative, mark + made.text, UPGRADED, whole)
         root.outputs.append(output)

@@ -66,17 +66,14 @@ def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
         notes = Notes(head=["Components that have the same name are kept as they were."])
         lint.put(cdsl.SAME_NAME.id, "warning", notes)
     document.put("lint", lint, Notes(head=["Files that were not there to be migrated are named still."]))
-    return modeline(os.path.join(root, WORKSPACE_FILE), root, "workspace") + text(document, Notes())
-
-
-def modeline(document: str, root: str, kind: str) -> str:
-    return workspace_files.modeline(kind, document, root) + "\n"
+    modeline = workspace_files.modeline("workspace", os.path.join(root, WORKSPACE_FILE), root)
+    return f"{modeline}\n{text(document, Notes())}"
 
 
 def values_modeline(document: str, folder: str) -> str:
     """The modeline of values of the component in a folder."""
     schema = os.path.join(folder, "generated", "config.schema.json")
-    return f"# yaml-language-server: $schema={os.path.relpath(schema, os.path.dirname(document) or '.')}\n"
+    return f"# yaml-language-server: $schema={os.path.relpath(schema, os.path.dirname(document) or '.')}"
 
 
 def _component(content: Map) -> list[str]:

@@ -13,6 +13,7 @@ from robocomp_yaml.legacy import literals
 from robocomp_yaml.legacy.document import TRUE, Doc, List, Map, Name, Notes, Value
 from robocomp_yaml.legacy.draft import ModuleDraft, ModuleNames, Reader, Reference, plain
 from robocomp_yaml.legacy.grammar import token, trees
+from robocomp_yaml.legacy.settings.headers import free
 
 FEW = 4
 """A struct with more members than this stands in a block."""
@@ -115,9 +116,8 @@ class _Converter:
         return body
 
     def exception(self, tree: Tree[Token], name: str) -> Map | None:
-        members = trees(tree, "member")
         body = self.struct(tree, name)
-        if not members:
+        if not trees(tree, "member"):
             body.entries.pop()
         return body if body.entries else None
 
@@ -186,7 +186,8 @@ class _Converter:
         for method in declared:
             legacy = key = self.reader.name(method)
             if legacy in used:
-                key = free_name(legacy, taken)
+                key = legacy + free(legacy.lower(), taken)[len(legacy) :]
+                taken.add(key.lower())
                 at = self.reader.span(token(method, "NAME") or method)
                 self.reader.diagnostics.append(codes.OVERLOAD.at(at, name=legacy, new=key))
             used.add(key)
@@ -226,15 +227,6 @@ def _foot_inside(notes: Notes, body: Value) -> Notes:
     inner.value.block = True
     inner.notes.foot += notes.foot
     return Notes(notes.head, notes.tail)
-
-
-def free_name(name: str, taken: set[str]) -> str:
-    """`name_2`, or the next that is free; it is taken then."""
-    number = 2
-    while f"{name}_{number}".lower() in taken:
-        number += 1
-    taken.add(f"{name}_{number}".lower())
-    return f"{name}_{number}"
 
 
 BODIES: dict[str, Callable[[_Converter, Tree[Token], str], Value]] = {

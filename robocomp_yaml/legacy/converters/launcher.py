@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from lark import Token, Tree
 
-from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.converters import toml
 from robocomp_yaml.legacy.document import Notes
-from robocomp_yaml.legacy.draft import DeploymentDraft, Reader
+from robocomp_yaml.legacy.draft import DeploymentDraft, Reader, named_node
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.networks import command, endpoint
-from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+from robocomp_yaml.legacy.networks.node import NetworkDraft
 
 _KEYS = {"name": "", "cwd": "cwd", "cmd": "program", "ice_name": "endpoints"}
 """The keys of a component, and those of the document that take their comments."""
@@ -54,14 +53,7 @@ class _Converter:
         texts = {key: text for key, (text, _) in pairs.items()}
         name = texts.get("name", "")
         at = pairs["name"][1] if "name" in pairs else head
-        if not name.strip():
-            self.reader.refused("unnamed", at)
-        taken = [node.name for node in self.network.nodes]
-        node = Node(name, safe_name(name, taken), self.reader.span(at), notes=self.reader.notes(head))
-        if any(name == known.alias for known in self.network.nodes):
-            self.reader.diagnostics.append(codes.DUPLICATE.at(node.span, name=name))
-        elif node.name != name and name.strip():
-            self.reader.repaired("name", at, name, name=node.name)
+        node = named_node(self.reader, self.network, name, at, self.reader.notes(head), at)
         node.by_key = {_KEYS[key]: self.reader.notes(pair) for key, (_, pair) in pairs.items()}
         node.notes.add(node.by_key.pop("", Notes()))
         node.command = command.parse(texts.get("cmd", ""), texts.get("cwd", ""))
@@ -72,7 +64,6 @@ class _Converter:
                 node.extra.put("endpoint", texts["ice_name"])
         if node.endpoint is not None:
             node.interface = node.endpoint.identity
-        self.network.nodes.append(node)
 
     def text(self, pair: Tree[Token]) -> str:
         value = trees(pair)[1]

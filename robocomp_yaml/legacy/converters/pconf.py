@@ -25,7 +25,7 @@ def convert(reader: Reader) -> ValuesDraft | None:
             reader.repaired("repeated", node, name)
             continue
         seen.add(name)
-        parameters.put(name, value("", literal(node)), reader.notes(node))
+        parameters.put(name, value(literal(node)), reader.notes(node))
     document.put_some("parameters", parameters)
     reader.placed.around.foot[:0] = notes.foot
     return ValuesDraft(document, reader.placed.around)

@@ -7,12 +7,11 @@ import re
 import msgspec
 from lark import Token, Tree
 
-from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
-from robocomp_yaml.legacy.draft import DeploymentDraft, Reader
+from robocomp_yaml.legacy.draft import DeploymentDraft, Reader, named_node
 from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.networks import command, endpoint
-from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+from robocomp_yaml.legacy.networks.node import NetworkDraft, Node
 
 ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
@@ -56,14 +55,11 @@ class _Converter:
         network = NetworkDraft(notes=root.notes)
         if root.name != "rcmanager":
             self.reader.refused("root", token(tree, "OPEN") or tree, root.name)
-        taken: set[str] = set()
         for child in root.children:
-            if child.name != "node":
+            if child.name == "node":
+                self.node(child, network)
+            else:
                 network.extra.entries.append(Entry(child.name, self.generic(child), child.notes))
-                continue
-            node = self.node(child, network, taken)
-            taken.add(node.name)
-            network.nodes.append(node)
         for name, value in root.attributes.items():
             network.extra.put(name, exact(value))
         return DeploymentDraft(network, self.reader.placed.around)
@@ -103,16 +99,10 @@ class _Converter:
 
         return _ENTITY.sub(character, re.sub(r"[\t\n\r]", " ", value[1:-1]))
 
-    def node(self, element: _Element, network: NetworkDraft, taken: set[str]) -> Node:
+    def node(self, element: _Element, network: NetworkDraft) -> None:
         alias = element.get("alias")
-        if not alias.strip():
-            self.reader.refused("unnamed", element.tree)
-        is_double = any(known.alias == alias for known in network.nodes)
-        if is_double:
-            self.reader.diagnostics.append(codes.DUPLICATE.at(self.reader.span(element.place("alias")), name=alias))
-        node = Node(alias, safe_name(alias, taken), self.reader.span(element.place("alias")), notes=element.notes)
-        if node.name != alias and alias.strip() and not is_double:
-            self.reader.repaired("name", element.place("alias"), alias, name=node.name)
+        node = named_node(self.reader, network, alias, element.place("alias"), element.notes, element.tree)
+        if node.name != alias:
             node.extra.put("alias", exact(alias))
         node.endpoint_span = self.reader.span(element.place("endpoint"))
         node.endpoint = endpoint.parse(element.get("endpoint"))
@@ -124,7 +114,6 @@ class _Converter:
             if name not in ("alias", "endpoint"):
                 node.extra.put(name, exact(value))
         self.children(element, node, network)
-        return node
 
     def children(self, element: _Element, node: Node, network: NetworkDraft) -> None:
         said: dict[str, _Element] = {}

@@ -71,7 +71,10 @@ class _Converter:
     def _block(self, tree: Tree[Token]) -> _Block:
         block = _Block(tree, self.reader.name(tree), token(tree, "PARALLEL") is not None)
         for clause in trees(tree, "initial_state", "end_state"):
-            self._end(block, clause)
+            which = "initial" if clause.data == "initial_state" else "final"
+            if getattr(block, which):
+                self._refused("refused_two", clause, str(clause.data))
+            setattr(block, which, self.reader.name(trees(clause, "name")[0]))
         listed: dict[str, Tree[Token]] = {}
         for clause in trees(tree, "states"):
             self._comments_to(self.reader.notes(clause), self.reader.notes(tree))
@@ -103,13 +106,6 @@ class _Converter:
                 state.final = False
             block.initial = ""
         return block
-
-    def _end(self, block: _Block, clause: Tree[Token]) -> None:
-        name = self.reader.name(trees(clause, "name")[0])
-        which = "initial" if clause.data == "initial_state" else "final"
-        if getattr(block, which):
-            self._refused("refused_two", clause, str(clause.data))
-        setattr(block, which, name)
 
     def _declare(self, block: _Block, name: str, item: Tree[Token]) -> None:
         if name in self.known:

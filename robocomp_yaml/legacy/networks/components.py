@@ -27,11 +27,10 @@ class Known(msgspec.Struct, frozen=True):
 
 def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[Known]:
     """Those that this run writes."""
-    found = []
-    for file in files:
-        if isinstance(file.draft, ComponentDraft):
-            found.append(_known(chosen[file.path], data(file.draft.document)))
-    return found
+    return [
+        _known(chosen[file.path], data(file.draft.document))
+        for file in files if isinstance(file.draft, ComponentDraft)
+    ]  # fmt: skip
 
 
 def of_folder(folder: str, but: Iterable[str]) -> list[Known]:

@@ -27,8 +27,7 @@ class Endpoint(msgspec.Struct, frozen=True):
     @property
     def text(self) -> str:
         """What the adapter listens at: at every address of its host."""
-        more = f" {self.options}" if self.options else ""
-        return f"{self.protocol} -p {self.port}{more}"
+        return f"{self.protocol} -p {self.port} {self.options}".rstrip()
 
     @property
     def is_storm(self) -> bool:
@@ -36,8 +35,7 @@ class Endpoint(msgspec.Struct, frozen=True):
 
     def proxy(self, host: str) -> str:
         """How others on any host find it: the spelling that needs not be kept."""
-        more = f" {self.options}" if self.options else ""
-        return f"{self.identity}:{self.protocol} -h {spelled_host(host)} -p {self.port}{more}"
+        return f"{self.identity}:{self.protocol} -h {spelled_host(host)} -p {self.port} {self.options}".rstrip()
 
 
 def parse(text: str) -> Endpoint | None:

@@ -29,13 +29,6 @@ class Inferred(msgspec.Struct, frozen=True):
     entry: Entry
 
 
-class Settled(msgspec.Struct, frozen=True):
-    """The documents of configs, by the configs' paths, and the PDSLs that they imply."""
-
-    documents: Mapping[str, Map]
-    inferred: tuple[Inferred, ...]
-
-
 def settle(
     good: Sequence[Entry],
     chosen: Mapping[str, str],
@@ -43,13 +36,14 @@ def settle(
     guesses: Guesses,
     *,
     exact: bool,
-) -> Settled:
-    """`is_ours`: whether an earlier run wrote the document at a path."""
+) -> tuple[dict[str, Map], list[Inferred]]:
+    """The documents of configs, by the configs' paths, and the PDSLs that they imply. `is_ours`: whether an earlier run
+    wrote the document at a path."""
     found = Components(good, chosen, is_ours)
     found.declare()
     documents: dict[str, Map] = {}
     inferred = [_settle(component, chosen, guesses, exact, documents) for component in found.all()]
-    return Settled(documents, tuple(made for made in inferred if made is not None))
+    return documents, [made for made in inferred if made is not None]
 
 
 def _settle(

@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from robocomp_yaml.legacy.settings.entries import BOOL, DOUBLE, FLOAT, INT, LONG, STRING
 from robocomp_yaml.legacy.settings.plan import Guesses
+from robocomp_yaml.parameters.types import BASIC_TYPES
 from robocomp_yaml.source.tree import parse
 
-TYPES = (BOOL, INT, LONG, FLOAT, DOUBLE, STRING)
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 
 
@@ -41,8 +40,8 @@ def _file(path: str) -> Guesses:
     columns = {key: _columns(f"{path}: {key}", value) for key, value in _mapping(path, data, "names").items()}
     types = {str(key): str(value) for key, value in _mapping(path, data, "types").items()}
     for key, value in types.items():
-        if value not in TYPES:
-            raise Wrong(f"{path}: {key} cannot be '{value}'; the types are {', '.join(TYPES)}")
+        if value not in BASIC_TYPES:
+            raise Wrong(f"{path}: {key} cannot be '{value}'; the types are {', '.join(BASIC_TYPES)}")
     text = data.get("text") or []
     if not isinstance(text, list):
         raise Wrong(f"{path}: text is a list of keys")

@@ -10,6 +10,7 @@ from robocomp_yaml.legacy.settings.planning import give_back
 from robocomp_yaml.legacy.settings.shapes import Scalar
 from robocomp_yaml.parameters.types import BASIC_TYPES
 from robocomp_yaml.source.discover import kind_of
+from robocomp_yaml.source.disk import names_in
 from robocomp_yaml.source.heading import component_in, root_of
 
 Types = dict[str, str]
@@ -24,11 +25,7 @@ def types(document: object) -> Types:
 def beside(component: str) -> Iterator[str]:
     """The PDSL documents in the folder of a component's document that name it as theirs."""
     folder = os.path.dirname(component)
-    try:
-        names = sorted(os.listdir(folder or "."))
-    except OSError:
-        return
-    for path in (os.path.join(folder, name) for name in names if kind_of(name) == "pdsl"):
+    for path in (os.path.join(folder, name) for name in names_in(folder) if kind_of(name) == "pdsl"):
         said = component_in(path)
         if said and os.path.realpath(os.path.join(folder, said)) == os.path.realpath(component):
             yield path

@@ -10,9 +10,11 @@ import msgspec
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.settings.entries import Item, Leaf, Setting, Tree, guess
 from robocomp_yaml.legacy.settings.headers import Column, columns, sanitized, unique
-from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan, Spelled
-from robocomp_yaml.legacy.settings.rows import are_rows, cells, joiner
+from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan
+from robocomp_yaml.legacy.settings.rows import are_rows, joiner
 from robocomp_yaml.legacy.settings.sorting import Named
+from robocomp_yaml.semantics.rows import split
+from robocomp_yaml.semantics.spellings import Spelling
 
 _INDEXED = re.compile(r"(?P<stem>.*[^\d.])(?P<index>\d+)\Z")
 _RANGE = re.compile(r"(?P<stem>[^\d].*?[^\w]|[A-Za-z_]+)(?P<from>\d+)-(?P<to>\d+)\Z")
@@ -91,16 +93,16 @@ def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Conf
     texts = [row.setting.text for group in groups for row in group]
     keyed = first is None
     index = unique([*(column.name for column in names), "index"])[-1]
-    plan.spelled = Spelled(
+    plan.spelled = Spelling(
         f"{stem}{{{index}}}" if keyed else f"{stem}{{i}}",
         first=first or 0,
-        columns=[column.name for column in names],
+        columns=tuple(column.name for column in names),
         separator=joiner(texts, ","),
     )
 
     def record(row: _Row) -> dict[str, Item]:
         found = {index: Item(guess(row.index))} if keyed else {}
-        return found | {c.name: Item(guess(cell)) for c, cell in zip(names, cells(row.setting.text), strict=False)}
+        return found | {c.name: Item(guess(cell)) for c, cell in zip(names, split(row.setting.text, ","), strict=False)}
 
     return _filled(plan, by_config, record)
 
@@ -111,8 +113,8 @@ def _titles(stem: str, groups: Sequence[list[_Row]], guesses: Guesses) -> tuple[
     found: dict[int, tuple[list[Column], str]] = {}
     for group in groups:
         top = min(group, key=lambda row: row.setting.span.line)
-        arity = len(cells(top.setting.text))
-        if any(len(cells(row.setting.text)) != arity for row in group):
+        arity = len(split(top.setting.text, ","))
+        if any(len(split(row.setting.text, ",")) != arity for row in group):
             return None
         made = columns(stem, arity, top.config.source, top.setting.span.line, top.config.rules, guesses.names)
         if arity not in found or (made[1] and not found[arity][1]):
@@ -126,7 +128,7 @@ def _titles(stem: str, groups: Sequence[list[_Row]], guesses: Guesses) -> tuple[
 
 def _texts(stem: str, by_config: dict[str, list[_Row]], first: int) -> Plan:
     """Rows that differ in their columns, as a list of texts."""
-    plan = Plan(_path(stem), spelled=Spelled(f"{stem}{{i}}", first=first), is_unnamed=True)
+    plan = Plan(_path(stem), spelled=Spelling(f"{stem}{{i}}", first=first), is_unnamed=True)
     plan.guessed = f"the rows {stem}… have different columns, so they are kept as texts"
     return _filled(plan, by_config, lambda row: Leaf(row.setting.text))
 
@@ -191,7 +193,7 @@ def _ranges(configs: Sequence[Config]) -> Iterator[Plan]:
             continue
         name = unique(["from", "to", _value_name(by_config)])[-1]
         plan = Plan(_path(re.sub(r"\W+\Z", "", stem)), guessed=f"what the ranges {stem}… are for is called {name}")
-        plan.spelled = Spelled(f"{stem}{{from}}-{{to}}", columns=[name])
+        plan.spelled = Spelling(f"{stem}{{from}}-{{to}}", columns=(name,))
 
         def record(row: _Row, name: str = name) -> dict[str, Item]:
             match = _RANGE.match(row.setting.key)
@@ -235,8 +237,8 @@ def _fields(group: str, names: list[str], stems: Stems, count: str, configs: Seq
     told = ", ".join(fields)
     plan = Plan(path, guessed=f"{', '.join(names)} count alike, so they are fields of one list, {title}: {told}")
     groups = list(stems[names[0]].values())
-    plan.spelled = Spelled(
-        fields={field: f"{name}{{i}}" for field, name in zip(fields, names, strict=True)},
+    plan.spelled = Spelling(
+        fields=tuple((field, f"{name}{{i}}") for field, name in zip(fields, names, strict=True)),
         first=_numbering(groups) or 0,
     )
     for config in configs:

@@ -14,6 +14,7 @@ from robocomp_yaml.legacy.draft import ComponentDraft, ConfigDraft, ParametersDr
 from robocomp_yaml.legacy.ledger import Entry
 from robocomp_yaml.legacy.settings import declared
 from robocomp_yaml.legacy.settings.sorting import Ports
+from robocomp_yaml.source.disk import names_in
 from robocomp_yaml.source.heading import component_in
 
 
@@ -119,14 +120,10 @@ class Components:
         if os.path.realpath(folder) not in (own, os.path.dirname(own)):
             return []
         if folder not in self.listed:
-            try:
-                names = sorted(os.listdir(folder))
-            except OSError:
-                names = []
-            self.listed[folder] = [os.path.join(folder, name) for name in names if name.endswith(".cdsl.yaml")]
+            self.listed[folder] = [name for name in names_in(folder) if name.endswith(".cdsl.yaml")]
         shown = os.path.dirname(self.chosen[file])
         base = shown if folder == own else os.path.normpath(os.path.join(shown, os.pardir))
-        return [os.path.normpath(os.path.join(base, os.path.basename(path))) for path in self.listed[folder]]
+        return [os.path.normpath(os.path.join(base, name)) for name in self.listed[folder]]
 
     def _written(self, path: str) -> Component:
         if path not in self.known:

@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from robocomp_yaml.legacy.document import TRUE, Entry, List, Map, Notes, Raw, Value
 from robocomp_yaml.legacy.settings.entries import STRING
 from robocomp_yaml.legacy.settings.headers import free
-from robocomp_yaml.legacy.settings.plan import Path, Plan, Spelled
+from robocomp_yaml.legacy.settings.plan import Path, Plan
 from robocomp_yaml.legacy.settings.shapes import Field, ListOf, Record, Scalar, Shape, leaves
+from robocomp_yaml.semantics.spellings import Spelling
 from robocomp_yaml.source.allowances import GUESSED
 
 MARK = f"rcyaml: {GUESSED}"
@@ -115,11 +116,11 @@ def _is_sometimes_empty(plan: Plan) -> bool:
     return plan.optional and plan.shape == Scalar(STRING) and any(not leaf.text for leaf in texts if leaf)
 
 
-def _spelling(spelled: Spelled) -> Value:
+def _spelling(spelled: Spelling) -> Value:
     if not (spelled.columns or spelled.separators or spelled.fields or spelled.first or "{i}" in spelled.key):
         return spelled.key
     body = Map()
-    body.put_some("fields", Map([Entry(name, key) for name, key in spelled.fields.items()]))
+    body.put_some("fields", Map([Entry(name, key) for name, key in spelled.fields]))
     body.put_some("key", "" if spelled.fields else spelled.key)
     body.put_some("first", Raw(str(spelled.first)) if spelled.first else None)
     body.put_some("columns", List.of(spelled.columns))

@@ -12,6 +12,7 @@ from robocomp_yaml.legacy.settings.entries import Item, Setting
 from robocomp_yaml.legacy.settings.headers import Column
 from robocomp_yaml.legacy.settings.shapes import Shape
 from robocomp_yaml.legacy.settings.sorting import Sorted
+from robocomp_yaml.semantics.spellings import Spelling
 
 Path = tuple[str, ...]
 
@@ -49,24 +50,12 @@ class Given(msgspec.Struct, frozen=True):
         return min((setting.span.line for setting in self.settings), default=0)
 
 
-class Spelled(msgspec.Struct, frozen=True):
-    """How a flat file spells a parameter: an entry of the PDSL's legacy table."""
-
-    key: str = ""
-    fields: dict[str, str] = {}
-    first: int = 0
-    columns: list[str] = []
-    separator: str = ","
-    separators: list[str] = []
-    trailing: bool = False
-
-
 class Plan(msgspec.Struct):
     """A parameter. `built_in`: every component has it, so that no PDSL has to define it. `guessed` says what."""
 
     path: Path
     given: dict[str, Given] = {}
-    spelled: Spelled | None = None
+    spelled: Spelling | None = None
     shape: Shape | None = None
     docs: tuple[Column, ...] = ()
     built_in: bool = False

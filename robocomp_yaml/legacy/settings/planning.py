@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from typing import Any
 
-from robocomp_yaml.legacy.settings.entries import INT, TOML, Item, Leaf, Setting, guess
+from robocomp_yaml.legacy.settings.entries import INT, TOML, Item, Leaf, Setting, Tree, guess
 from robocomp_yaml.legacy.settings.families import families
 from robocomp_yaml.legacy.settings.headers import free, sanitized
-from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan, Spelled
-from robocomp_yaml.legacy.settings.rows import could_be_list, is_list, joiner, separators, split
+from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan
+from robocomp_yaml.legacy.settings.rows import could_be_list, is_list, joiner, separators
 from robocomp_yaml.legacy.settings.shapes import becomes_text, retyped, shape_of
+from robocomp_yaml.semantics.rows import nested
+from robocomp_yaml.semantics.spellings import Spelling
 
 _PERIODS = {
     ("period",): "compute",
@@ -30,7 +33,7 @@ def plans(configs: Sequence[Config], guesses: Guesses) -> list[Plan]:
         for setting in config.parameters:
             by_key.setdefault(setting.path, {})[config.name] = setting
     for path, settings in by_key.items():
-        found.append(_plan(path, settings, configs, guesses))
+        found.append(_plan(path, settings, guesses))
     kept = list(_placed(found, configs))
     for plan in kept:
         plan.optional = len(plan.given) < len(configs)
@@ -42,35 +45,31 @@ def plans(configs: Sequence[Config], guesses: Guesses) -> list[Plan]:
     return kept
 
 
-def _plan(path: Path, settings: dict[str, Setting], configs: Sequence[Config], guesses: Guesses) -> Plan:
+def _plan(path: Path, settings: dict[str, Setting], guesses: Guesses) -> Plan:
     """A key of its own: a plain value, or a list in one property."""
     plan = Plan(path)
     texts = {name: setting.text for name, setting in settings.items()}
     key = next(iter(settings.values())).key
     flat = all(isinstance(s.value, Leaf) and s.raw and not s.is_quoted for s in settings.values())
     lists = flat and any(map(is_list, texts.values())) and all(map(could_be_list, texts.values()))
+    between = separators(texts.values())
     if lists and key not in guesses.text and not re.search(r"[{}]", key):
-        between = separators(texts.values())
-        parts = {name: split(text, between) for name, text in texts.items()}
-        plan.spelled = Spelled(
+        plan.spelled = Spelling(
             key,
-            separators=[joiner(texts.values(), separator) for separator in between],
-            trailing=any(part.trailing for part in parts.values()),
+            separators=tuple(joiner(texts.values(), separator) for separator in between),
+            trailing=any(text.endswith(between[0]) for text in texts.values()),
         )
         plan.guessed = f"{key} is split into a list at every '{between[0]}'" + (
             f", and again at every '{between[1]}'" if between[1:] else ""
         )
-        for name, setting in settings.items():
-            items = [_item(part) for part in parts[name].parts]
-            plan.given[name] = Given(Item(items, setting.notes), [setting])
-        return plan
     for name, setting in settings.items():
-        plan.given[name] = Given(Item(setting.value, setting.notes), [setting])
+        value = _listed(nested(setting.text, between, len(between), True)) if plan.spelled else setting.value
+        plan.given[name] = Given(Item(value, setting.notes), [setting])
     return plan
 
 
-def _item(part: str | list[str]) -> Item:
-    return Item(guess(part)) if isinstance(part, str) else Item([Item(guess(cell)) for cell in part])
+def _listed(texts: Any) -> Tree:
+    return guess(texts) if isinstance(texts, str) else [Item(_listed(part)) for part in texts]
 
 
 def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
@@ -94,7 +93,7 @@ def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
             continue
         taken.add(plan.path)
         if plan.path != original and plan.spelled is None:
-            plan.spelled = Spelled(".".join(original))
+            plan.spelled = Spelling(".".join(original))
     order = {config.name: number for number, config in enumerate(configs)}
     kept = [plan for plan in found if plan.shape is not None]
     yield from sorted(kept, key=lambda plan: min((order[name], given.line) for name, given in plan.given.items()))

@@ -6,34 +6,21 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-import msgspec
+from robocomp_yaml.semantics.rows import split
+from robocomp_yaml.semantics.texts import BLANKS
 
 _NO_ROW = re.compile(r"""[\[\](){}"';]|://""")
 _NO_LIST = re.compile(r"""[\[\](){}"']|://""")
 _PATH_WITH_BLANK = re.compile(r"/[^,;]*[^\s,;]\s+[^\s,;]|[^\s,;]\s+[^\s,;]*/")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?\Z")
 _WHOLE = re.compile(r"[-+]?\d+\Z")
-BLANKS = " \t"
-
-
-def cells(text: str) -> list[str]:
-    """The columns of a row."""
-    return [part.strip(BLANKS) for part in text.split(",")]
 
 
 def are_rows(texts: Sequence[str]) -> bool:
     """Whether all texts are rows of columns, and no numbers with a decimal comma."""
     if not texts or any("," not in text or _NO_ROW.search(text) for text in texts):
         return False
-    return not all(len(row) == 2 and all(map(_WHOLE.match, row)) for row in map(cells, texts))
-
-
-class Split(msgspec.Struct, frozen=True):
-    """A text as a list: of texts, or of lists of texts."""
-
-    parts: list[str] | list[list[str]]
-    separators: tuple[str, ...]
-    trailing: bool = False
+    return not all(len(row) == 2 and all(map(_WHOLE.match, row)) for row in (split(text, ",") for text in texts))
 
 
 def could_be_list(text: str) -> bool:
@@ -49,20 +36,10 @@ def is_list(text: str) -> bool:
         return False
     if ";" in text:
         return True
-    parts = cells(text)
+    parts = split(text, ",")
     if len(parts) == 2:
         return all(parts) and not any(_NUMBER.match(part) for part in parts)
     return len(parts) > 2
-
-
-def split(text: str, separators: tuple[str, ...]) -> Split:
-    """A text by separators that are known: `;` outside, `,` inside."""
-    trailing = text.rstrip(BLANKS).endswith(separators[0])
-    body = text.rstrip(BLANKS)[:-1] if trailing else text
-    outer = [part.strip(BLANKS) for part in body.split(separators[0])]
-    if len(separators) == 1:
-        return Split(outer, separators, trailing)
-    return Split([cells(part) for part in outer], separators, trailing)
 
 
 def separators(texts: Iterable[str]) -> tuple[str, ...]:

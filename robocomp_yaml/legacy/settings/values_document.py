@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterator, Sequence
 import msgspec
 
 from robocomp_yaml.legacy.document import Entry, Map, Value
-from robocomp_yaml.legacy.settings import rows
 from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, STRING, TOML, Leaf
 from robocomp_yaml.legacy.settings.plan import Config, Path, Plan
+from robocomp_yaml.legacy.settings.rows import squeezed
 from robocomp_yaml.legacy.settings.shapes import plain, written
 from robocomp_yaml.legacy.settings.sorting import Named
+from robocomp_yaml.semantics.rows import joined, nested, split
 from robocomp_yaml.semantics.texts import unquoted
 
 
@@ -100,18 +101,19 @@ def _originals(config: Config, plans: Sequence[Plan], exact: bool) -> Iterator[t
         spelled = plan.spelled
         if given is None:
             continue
-        separators = spelled.separators or [spelled.separator] if spelled else []
+        separators = spelled.separators or (spelled.separator,) if spelled else ()
         for setting in given.settings:
             made = setting.raw
             if spelled and spelled.columns:
-                made = spelled.separator.join(rows.cells(setting.raw))
+                made = spelled.separator.join(split(setting.raw, ","))
             elif spelled and spelled.key.endswith("{i}"):
                 made = setting.raw
             elif spelled and spelled.separators:
-                made = _joined(setting.raw, spelled.separators, spelled.trailing)
+                parts = nested(setting.raw, spelled.separators, len(spelled.separators), True)
+                made = joined(parts, spelled.separators, spelled.trailing)
             elif config.sorted.dialect == FLAT_TOML:
                 made = _requoted(setting.raw, plan)
-            same = rows.squeezed(made, separators) == rows.squeezed(setting.raw, separators)
+            same = squeezed(made, separators) == squeezed(setting.raw, separators)
             if made != setting.raw and (exact or not (same and separators)):
                 yield setting.key, setting.raw
     if config.sorted.dialect == FLAT_TOML:
@@ -121,13 +123,6 @@ def _originals(config: Config, plans: Sequence[Plan], exact: bool) -> Iterator[t
             raw = named.setting.raw
             if '"' not in unquoted(raw) and raw != f'"{named.setting.text}"':
                 yield named.setting.key, raw
-
-
-def _joined(raw: str, separators: Sequence[str], trailing: bool) -> str:
-    bare = tuple(separator.strip() for separator in separators)
-    found = rows.split(raw, bare)
-    parts = [part if isinstance(part, str) else separators[-1].join(part) for part in found.parts]
-    return separators[0].join(parts) + (separators[0] if trailing else "")
 
 
 def _requoted(raw: str, plan: Plan) -> str:
