@@ -11,9 +11,9 @@ import msgspec
 from robocomp_yaml.diag.codes import managers as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.digraph import reached
-from robocomp_yaml.legacy.document import List, Map, Notes, Raw
+from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
 from robocomp_yaml.legacy.draft import DeploymentDraft
-from robocomp_yaml.legacy.ledger import Entry
+from robocomp_yaml.legacy.ledger import Entry as LedgerEntry
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
 from robocomp_yaml.legacy.networks.components import Known, match, of_folder, of_run
 from robocomp_yaml.legacy.networks.entries import COMMON, Site, component_entry, program_entry
@@ -24,7 +24,7 @@ from robocomp_yaml.source.text import OF_NO_LINE
 _IP = re.compile(r"[\d.:]+")
 
 
-def settle(good: Sequence[Entry], chosen: Mapping[str, str], workspaces: Workspaces) -> dict[str, Map]:
+def settle(good: Sequence[LedgerEntry], chosen: Mapping[str, str], workspaces: Workspaces) -> dict[str, Map]:
     """The document of each network among these files, all of which become documents, by the file's path."""
     made: dict[str, Map] = {}
     networks = [(entry, entry.file.draft) for entry in good if isinstance(entry.file.draft, DeploymentDraft)]
@@ -75,10 +75,13 @@ class _Builder(msgspec.Struct, eq=False):
         self.find_waits()
         hosts = self.hosts(running)
         notes = self.network.notes
-        document, services, components = Map(block=True), Map(block=True), Map(block=True)
+        document, listed, services, components, kept = (Map(block=True) for _ in range(5))
         document.put("deployment", self.name, Notes(notes.head, notes.tail))
-        document.put_some("hosts", self.hosts_map(hosts))
-        kept = Map(block=True)
+        users = self.network.users
+        for address, name in hosts.items():
+            user = [Entry("user", users[address])] if address in users else []
+            listed.put(name, Map([Entry("address", address), *user]))
+        document.put_some("hosts", listed)
         for node in nodes:
             self.judge(node)
             if node not in running:
@@ -133,16 +136,6 @@ class _Builder(msgspec.Struct, eq=False):
             wanted = f"host{len(names) + 1}" if _IP.fullmatch(address) else address.partition(".")[0]
             names[address] = safe_name(wanted, names.values())
         return names
-
-    def hosts_map(self, hosts: dict[str, str]) -> Map:
-        made = Map(block=True)
-        for address, name in hosts.items():
-            host = Map()
-            host.put("address", address)
-            if address in self.network.users:
-                host.put("user", self.network.users[address])
-            made.put(name, host)
-        return made
 
     def judge(self, node: Node) -> None:
         """What is odd about a node, though the document can say it."""

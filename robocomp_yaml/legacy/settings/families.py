@@ -46,7 +46,7 @@ def families(configs: Sequence[Config], guesses: Guesses) -> Iterator[Plan]:
     yield from _parallel(configs)
 
 
-def _stems(configs: Sequence[Config], proxies: bool = False) -> Stems:
+def _stems(configs: Sequence[Config], pattern: re.Pattern[str] = _INDEXED, proxies: bool = False) -> Stems:
     """The settings whose keys differ in a last number only. Where one of them cannot be a row, none is: its key would
     be that of a row."""
     found: Stems = {}
@@ -56,11 +56,11 @@ def _stems(configs: Sequence[Config], proxies: bool = False) -> Stems:
         if proxies:
             entries += [(named.setting, named) for named in config.sorted.proxies]
         for setting, named in entries:
-            match = _INDEXED.match(setting.key)
+            match = pattern.match(setting.key)
             if match is None or not setting.raw or _FREE.search(setting.key):
                 continue
             if isinstance(setting.value, Leaf) and not setting.is_quoted:
-                row = _Row(config, setting, match["index"], named)
+                row = _Row(config, setting, match.groupdict().get("index", "0"), named)
                 found.setdefault(match["stem"], {}).setdefault(config.name, []).append(row)
             else:
                 spoilt.add(match["stem"])
@@ -136,7 +136,7 @@ def _texts(stem: str, by_config: dict[str, list[_Row]], first: int) -> Plan:
 def _filled(plan: Plan, by_config: dict[str, list[_Row]], value: Callable[[_Row], Tree]) -> Plan:
     """The plan with a value for each row, in the order of their numbers."""
     for name, group in by_config.items():
-        rows = sorted(group, key=lambda row: int(row.index or 0))
+        rows = sorted(group, key=lambda row: int(row.index))
         items = [Item(value(row), row.setting.notes) for row in rows]
         plan.given[name] = Given(Item(items), [row.setting for row in rows])
         for row in rows:
@@ -179,17 +179,9 @@ def _path(stem: str) -> Path:
 
 def _ranges(configs: Sequence[Config]) -> Iterator[Plan]:
     """Ranges in the key: `ID:0-10 = 100`."""
-    found: Stems = {}
-    for config in configs:
-        for setting in config.parameters:
-            match = _RANGE.match(setting.key)
-            if match and isinstance(setting.value, Leaf) and setting.raw and not setting.is_quoted:
-                if not _FREE.search(setting.key):
-                    found.setdefault(match["stem"], {}).setdefault(config.name, []).append(_Row(config, setting, ""))
-    for stem, by_config in found.items():
-        if not _is_alone(stem, by_config, configs) or "," in "".join(
-            row.setting.text for group in by_config.values() for row in group
-        ):
+    for stem, by_config in _stems(configs, _RANGE).items():
+        rows = [row for group in by_config.values() for row in group]
+        if not _is_alone(stem, by_config, configs) or any("," in row.setting.text for row in rows):
             continue
         name = unique(["from", "to", _value_name(by_config)])[-1]
         plan = Plan(_path(re.sub(r"\W+\Z", "", stem)), guessed=f"what the ranges {stem}… are for is called {name}")
