@@ -12,7 +12,7 @@ from lark import Token, Tree
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.document import Notes
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.source.yaml_text import escaped
 
@@ -20,17 +20,17 @@ _DOC = re.compile(r"///(?!/)|/\*\*(?![*/])")
 _BEHIND = re.compile(r"///<|/\*\*<")
 
 
-class _Place(msgspec.Struct, eq=False):
+class _Construct(msgspec.Struct, eq=False):
     """A construct that comments can belong to; `parent` is the one around it."""
 
     start: int
     end: int
     rule: str
-    parent: _Place | None
+    parent: _Construct | None
     notes: Notes
 
 
-class Placed(msgspec.Struct, frozen=True):
+class PlacedComments(msgspec.Struct, frozen=True):
     """The notes of each construct, by its rule and its place, and those around the whole file."""
 
     by_place: dict[tuple[str, int, int], Notes] = {}
@@ -47,10 +47,10 @@ def _key(tree: Tree[Token]) -> tuple[str, int, int]:
     return str(tree.data), meta.start_pos, meta.end_pos
 
 
-def place(tree: Tree[Token], comments: Sequence[Token], source: Source, rules: Rules) -> Placed:
+def place(tree: Tree[Token], comments: Sequence[Token], source: SourceText, rules: Rules) -> PlacedComments:
     """Every comment ends in the notes of exactly one construct, or around the file."""
-    placed = Placed()
-    places: list[_Place] = []
+    placed = PlacedComments()
+    places: list[_Construct] = []
     _collect(tree, None, rules, places, placed)
     starts = [at.start for at in places]
     for comment in _grouped([_Comment(token, source) for token in comments]):
@@ -63,12 +63,14 @@ def place(tree: Tree[Token], comments: Sequence[Token], source: Source, rules: R
     return placed
 
 
-def _collect(tree: Tree[Token], parent: _Place | None, rules: Rules, places: list[_Place], placed: Placed) -> None:
+def _collect(
+    tree: Tree[Token], parent: _Construct | None, rules: Rules, places: list[_Construct], placed: PlacedComments
+) -> None:
     for child in tree.children:
         if isinstance(child, Tree):
             inner = parent
             if child.data in rules.places and not child.meta.empty:
-                inner = _Place(child.meta.start_pos, child.meta.end_pos, str(child.data), parent, Notes())
+                inner = _Construct(child.meta.start_pos, child.meta.end_pos, str(child.data), parent, Notes())
                 places.append(inner)
                 placed.by_place[_key(child)] = inner.notes
             _collect(child, inner, rules, places, placed)
@@ -77,7 +79,7 @@ def _collect(tree: Tree[Token], parent: _Place | None, rules: Rules, places: lis
 class _Comment:
     """A comment's lines without their marks, and how it stands among the lines of the file."""
 
-    def __init__(self, token: Token, source: Source) -> None:
+    def __init__(self, token: Token, source: SourceText) -> None:
         text = str(token)
         self.start, self.end = token.start_pos or 0, token.end_pos or 0
         self.block = text.startswith(("/*", "<!--"))
@@ -152,7 +154,12 @@ def _block_lines(text: str) -> list[str]:
 
 
 def _put(
-    comment: _Comment, places: list[_Place], starts: list[int], placed: Placed, source: Source, rules: Rules
+    comment: _Comment,
+    places: list[_Construct],
+    starts: list[int],
+    placed: PlacedComments,
+    source: SourceText,
+    rules: Rules,
 ) -> None:
     before, around, after = _neighbours(comment, places, starts)
     behind = before is not None and source.line(before.end) == comment.first and not comment.alone
@@ -173,11 +180,11 @@ def _put(
 
 
 def _neighbours(
-    comment: _Comment, places: list[_Place], starts: list[int]
-) -> tuple[_Place | None, _Place | None, _Place | None]:
+    comment: _Comment, places: list[_Construct], starts: list[int]
+) -> tuple[_Construct | None, _Construct | None, _Construct | None]:
     """The construct that ended last before a comment, the one around it, and the next one that is inside of that."""
     index = bisect.bisect_left(starts, comment.start)
-    before: _Place | None = None
+    before: _Construct | None = None
     around = places[index - 1] if index else None
     while around is not None and around.end <= comment.start:
         before, around = around, around.parent
@@ -187,7 +194,7 @@ def _neighbours(
     return before, around, after
 
 
-def _above(comment: _Comment, target: _Place, notes: Notes, not_first: bool, rules: Rules) -> None:
+def _above(comment: _Comment, target: _Construct, notes: Notes, not_first: bool, rules: Rules) -> None:
     """`notes` take plain comments: those of the construct below, or at the top of the file, the file's."""
     if comment.doc and not comment.behind and rules.places[target.rule] == "doc":
         doc = target.notes.doc
@@ -200,7 +207,7 @@ def _above(comment: _Comment, target: _Place, notes: Notes, not_first: bool, rul
         notes.head.append("")
 
 
-def _at_end(comment: _Comment, target: _Place, rules: Rules) -> None:
+def _at_end(comment: _Comment, target: _Construct, rules: Rules) -> None:
     if comment.doc and rules.places[target.rule] == "doc" and not target.notes.doc:
         target.notes.doc += comment.lines
         return

@@ -15,7 +15,7 @@ from robocomp_yaml.legacy import comments, directives
 from robocomp_yaml.legacy.draft import FileDraft, Reader, plain
 from robocomp_yaml.legacy.formats import by_name, recognize
 from robocomp_yaml.legacy.grammar import Parsed, marked, parse, words
-from robocomp_yaml.legacy.reading import Source, read
+from robocomp_yaml.legacy.reading import SourceText, read
 from robocomp_yaml.legacy.rules import Formats, Rules, formats
 
 
@@ -24,7 +24,7 @@ class Converted(msgspec.Struct, frozen=True):
 
     path: str
     rules: Rules | None = None
-    source: Source | None = None
+    source: SourceText | None = None
     parsed: Parsed | None = None
     draft: FileDraft | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -51,7 +51,7 @@ def convert(path: str, known: Formats | None = None) -> Converted:
     return Converted(path, rules, source, parsed, draft, tuple(said))
 
 
-def _draft(parsed: Parsed, source: Source, rules: Rules, said: list[Diagnostic]) -> FileDraft | None:
+def _draft(parsed: Parsed, source: SourceText, rules: Rules, said: list[Diagnostic]) -> FileDraft | None:
     if parsed.tree is None:
         return None
     placed = comments.place(parsed.tree, parsed.comments, source, rules)

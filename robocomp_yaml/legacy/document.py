@@ -48,7 +48,7 @@ class Raw(msgspec.Struct, frozen=True):
 TRUE = Raw("true")
 
 
-class Name(msgspec.Struct):
+class ReferredName(msgspec.Struct):
     """The name of something, which may turn out to be spelled in another way."""
 
     text: str
@@ -63,12 +63,12 @@ class Doc(msgspec.Struct, frozen=True):
 class Map(msgspec.Struct):
     """`block`: never on one line. `limit`: the longest line that it may stand on, with its key."""
 
-    entries: list[Entry] = []
+    entries: list[DocumentEntry] = []
     block: bool = False
     limit: int = WIDTH
 
-    def put(self, key: str, value: Value, notes: Notes | None = None) -> Entry:
-        entry = Entry(key, value, notes or Notes())
+    def put(self, key: str, value: Value, notes: Notes | None = None) -> DocumentEntry:
+        entry = DocumentEntry(key, value, notes or Notes())
         self.entries.append(entry)
         return entry
 
@@ -83,23 +83,23 @@ class Map(msgspec.Struct):
 
 
 class List(msgspec.Struct):
-    items: list[Entry] = []
+    items: list[DocumentEntry] = []
     block: bool = False
 
     @classmethod
     def of(cls, values: Iterable[Value]) -> List:
-        return cls([Entry("", value) for value in values])
+        return cls([DocumentEntry("", value) for value in values])
 
-    def put(self, value: Value, notes: Notes | None = None) -> Entry:
-        entry = Entry("", value, notes or Notes())
+    def put(self, value: Value, notes: Notes | None = None) -> DocumentEntry:
+        entry = DocumentEntry("", value, notes or Notes())
         self.items.append(entry)
         return entry
 
 
-Value = str | Raw | Name | Doc | Map | List | None
+Value = str | Raw | ReferredName | Doc | Map | List | None
 
 
-class Entry(msgspec.Struct):
+class DocumentEntry(msgspec.Struct):
     key: str
     value: Value
     notes: Notes = msgspec.field(default_factory=Notes)
@@ -117,7 +117,7 @@ def data(document: Map) -> dict[str, Any]:
 
 
 def _node(value: Value) -> Node:
-    if isinstance(value, str | Name | Doc):
+    if isinstance(value, str | ReferredName | Doc):
         return _scalar(_string(value))
     if isinstance(value, Map):
         return tree(value)
@@ -126,7 +126,7 @@ def _node(value: Value) -> Node:
     return scalar_at(_NOWHERE, value.lexeme if value else "")
 
 
-def _string(value: str | Name | Doc) -> str:
+def _string(value: str | ReferredName | Doc) -> str:
     return value if isinstance(value, str) else value.text
 
 
@@ -163,7 +163,7 @@ def _list(node: List, indent: str) -> Iterator[Line]:
             yield from _entry(item, indent, start)
 
 
-def _entry(entry: Entry, indent: str, start: str) -> Iterator[Line]:
+def _entry(entry: DocumentEntry, indent: str, start: str) -> Iterator[Line]:
     tail = "  # " + escaped(" # ".join(entry.notes.tail))[0] if entry.notes.tail else ""
     line = _line(entry.value, start)
     inner = indent + "  "
@@ -202,7 +202,7 @@ def _flow(value: Value) -> str | None:
         return "null"
     if isinstance(value, Raw):
         return value.lexeme
-    if isinstance(value, str | Name | Doc):
+    if isinstance(value, str | ReferredName | Doc):
         said = _string(value)
         return None if isinstance(value, Doc) and "\n" in said else text_of(said, in_flow=True)
     entries = value.entries if isinstance(value, Map) else value.items
@@ -232,7 +232,7 @@ def _block_text(value: str, indent: str) -> tuple[str, list[str]]:
     )
 
 
-def _head(entry: Entry, first: bool, indent: str) -> Iterator[Line]:
+def _head(entry: DocumentEntry, first: bool, indent: str) -> Iterator[Line]:
     """The comments above an entry; the first one of a block stands close to what opens it."""
     lines = entry.notes.head
     start = next((at for at, line in enumerate(lines) if line), 0) if first and indent else 0

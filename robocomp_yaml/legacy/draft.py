@@ -13,13 +13,13 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.legacy.comments import Placed
-from robocomp_yaml.legacy.document import Entry, List, Map, Name, Notes, Value
+from robocomp_yaml.legacy.comments import PlacedComments
+from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Notes, ReferredName, Value
 from robocomp_yaml.legacy.grammar import Parsed, token
-from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode, safe_name
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
-from robocomp_yaml.legacy.settings.entries import Settings
+from robocomp_yaml.legacy.settings.entries import ConfigSettings
 
 
 class ImportDraft(msgspec.Struct, frozen=True):
@@ -27,7 +27,7 @@ class ImportDraft(msgspec.Struct, frozen=True):
 
     path: str
     span: Span
-    entry: Entry
+    entry: DocumentEntry
 
     @property
     def stem(self) -> str:
@@ -39,7 +39,7 @@ class Reference(msgspec.Struct, frozen=True):
 
     module: str
     name: str
-    written: Name
+    written: ReferredName
     span: Span
 
 
@@ -56,7 +56,7 @@ class NamedMachine(msgspec.Struct, frozen=True):
 
     path: str
     span: Span
-    entry: Entry
+    entry: DocumentEntry
 
     @property
     def document(self) -> str:
@@ -96,7 +96,7 @@ class ValuesDraft(_Document, frozen=True):
 class ConfigDraft(msgspec.Struct, frozen=True):
     """Of a config: its document is made together with those of the other configs of its component."""
 
-    settings: Settings
+    settings: ConfigSettings
     around: Notes
 
 
@@ -119,10 +119,10 @@ FileDraft = ModuleDraft | ComponentDraft | ParametersDraft | ValuesDraft | Confi
 class Reader(msgspec.Struct, eq=False):
     """What converters share: the file, its rules, where its comments belong, and what there is to say about it."""
 
-    source: Source
+    source: SourceText
     rules: Rules
     parsed: Parsed
-    placed: Placed
+    placed: PlacedComments
     diagnostics: list[Diagnostic] = []
 
     @property
@@ -170,7 +170,7 @@ class Reader(msgspec.Struct, eq=False):
         """Toolkit and base class of a window, and where each stands."""
         toolkit = self.word("toolkit", words[0], at[0])
         base = self.word("base", words[1], at[1]) if words[1:] else self.rules.defaults["base"]
-        return Map([Entry("toolkit", toolkit), Entry("base", base)])
+        return Map([DocumentEntry("toolkit", toolkit), DocumentEntry("base", base)])
 
     def port(self, interface: str, used: Collection[str], declared: Collection[str], ros: Tree[Token] | None) -> Value:
         """An entry of a list of ports: a second one of the same interface has a number behind its name. `ros` is what
@@ -181,8 +181,14 @@ class Reader(msgspec.Struct, eq=False):
             name = f"{interface}{number}"
         if ros is not None:
             self.diagnostics.append(codes.MIDDLEWARE.at(self.span(ros), name=interface))
-            return Map([Entry(name, Map([Entry("interface", interface), Entry("x-middleware", "ros")]))])
-        return interface if name == interface else Map([Entry(name, interface)])
+            return Map(
+                [
+                    DocumentEntry(
+                        name, Map([DocumentEntry("interface", interface), DocumentEntry("x-middleware", "ros")])
+                    )
+                ]
+            )
+        return interface if name == interface else Map([DocumentEntry(name, interface)])
 
     def doc(self, tree: Tree[Token], *names: str) -> str:
         """The doc comments of a construct as Markdown; markup that only names it goes."""
@@ -215,9 +221,9 @@ class Reader(msgspec.Struct, eq=False):
 
 def named_node(
     reader: Reader, network: NetworkDraft, name: str, at: Tree[Token] | Token, notes: Notes, whole: Tree[Token]
-) -> Node:
+) -> NetworkNode:
     """A node of a network. `at` is where its name stands, in `whole`."""
-    node = Node(name, safe_name(name, [known.name for known in network.nodes]), reader.span(at), notes=notes)
+    node = NetworkNode(name, safe_name(name, [known.name for known in network.nodes]), reader.span(at), notes=notes)
     if not name.strip():
         reader.refused("unnamed", whole)
     if any(name == known.alias for known in network.nodes):
@@ -233,11 +239,11 @@ class ComponentBuilder:
 
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self.entries: dict[str, Entry] = {}
+        self.entries: dict[str, DocumentEntry] = {}
         self.machine: NamedMachine | None = None
 
-    def put(self, key: str, value: Value, notes: Notes | None = None) -> Entry:
-        self.entries[key] = Entry(key, value, notes or Notes())
+    def put(self, key: str, value: Value, notes: Notes | None = None) -> DocumentEntry:
+        self.entries[key] = DocumentEntry(key, value, notes or Notes())
         return self.entries[key]
 
     def put_machine(self, path: str, at: Tree[Token] | Token, notes: Notes | None = None) -> None:

@@ -7,7 +7,7 @@ import os
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.legacy.reading import Source, read
+from robocomp_yaml.legacy.reading import SourceText, read
 from robocomp_yaml.legacy.rules import Formats, Rules, formats
 from robocomp_yaml.legacy.syntax_error import without_silent
 from robocomp_yaml.source import properties
@@ -22,7 +22,7 @@ def _has_suffix(path: str, rules: Rules) -> bool:
     return os.path.splitext(path)[1].lower() in rules.suffixes
 
 
-def recognize(source: Source, known: Formats | None = None) -> tuple[Rules | None, list[Diagnostic]]:
+def recognize(source: SourceText, known: Formats | None = None) -> tuple[Rules | None, list[Diagnostic]]:
     """Which of the known formats, by default the built-in ones, a text is in; None with the reason where it is in
     none."""
     known = formats() if known is None else known
@@ -51,7 +51,7 @@ def _may_be(rules: Rules, said: Rules | None) -> bool:
     return said is None or said is rules or (said.kind == rules.kind and rules.rank < said.rank)
 
 
-def _unless_foreign(rules: Rules, source: Source) -> tuple[Rules | None, list[Diagnostic]]:
+def _unless_foreign(rules: Rules, source: SourceText) -> tuple[Rules | None, list[Diagnostic]]:
     """Other programs' files look alike: None where one of their marks is in this one."""
     if rules.weak and not os.path.basename(source.path).isprintable():
         reason = "the name of this file is no text, so no document can say it; rename the file"

@@ -16,7 +16,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import syntax_error
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.source import properties
 
@@ -42,14 +42,14 @@ class Parsed(msgspec.Struct, frozen=True):
         return [token for token in self.trivia if token.type in COMMENTS]
 
 
-class _Parser(msgspec.Struct, frozen=True):
+class _FormatParser(msgspec.Struct, frozen=True):
     lark: Lark
     trivia: list[Token]
     literals: dict[str, str]
 
 
 @cache
-def _parser(text: str) -> _Parser:
+def _parser(text: str) -> _FormatParser:
     trivia: list[Token] = []
 
     def keep(token: Token) -> Token:
@@ -75,10 +75,10 @@ def _parser(text: str) -> _Parser:
         lexer_callbacks=dict.fromkeys(_IGNORED.findall(text), keep),
         edit_terminals=edit,
     )
-    return _Parser(lark, trivia, literals)
+    return _FormatParser(lark, trivia, literals)
 
 
-def parse(source: Source, rules: Rules) -> Parsed:
+def parse(source: SourceText, rules: Rules) -> Parsed:
     """After an error, the statement it stands in is blanked out and all is parsed again, for the next one."""
     if not rules.grammar:
         return parse_flat(source.text)
@@ -90,7 +90,7 @@ def parse(source: Source, rules: Rules) -> Parsed:
         try:
             tree = parser.lark.parse(text)
         except UnexpectedInput as error:
-            fault = syntax_error.Explainer(source, rules, parser.literals, text).explain(error)
+            fault = syntax_error.SyntaxExplainer(source, rules, parser.literals, text).explain(error)
             if not (fault.at_end and any(diagnostic.fact("missing") == "}" for diagnostic in said)):
                 said.append(fault.diagnostic)
             text = fault.rest

@@ -20,7 +20,7 @@ CLASSES = ("blank", "converted", "comment", "repaired", "lost", "refused")
 _REPAIRS = {codes.REPAIRED.id: "repaired", codes.OVERLOAD.id: "repaired", codes.LOST.id: "lost"}
 
 
-class Entry(msgspec.Struct):
+class LedgerEntry(msgspec.Struct):
     """What became of one file. `skipped`: its document was left as it is, on purpose. `blocked`: it could not be
     written."""
 
@@ -69,7 +69,7 @@ class Entry(msgspec.Struct):
         return Counter(classes)
 
 
-def as_json(entries: Sequence[Entry]) -> str:
+def as_json(entries: Sequence[LedgerEntry]) -> str:
     """The report of `--report`."""
     totals: dict[str, object] = {"files": len(entries)}
     totals |= {status: sum(entry.status == status for entry in entries) for status in STATUSES}

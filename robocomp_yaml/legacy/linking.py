@@ -18,7 +18,7 @@ from robocomp_yaml.source.disk import names_in
 INTERFACES = "idsl"
 
 
-class Neighbours(msgspec.Struct, frozen=True):
+class InterfaceFiles(msgspec.Struct, frozen=True):
     """The interface files of a run by their stem, and where else a document may be found."""
 
     search: Search
@@ -26,12 +26,12 @@ class Neighbours(msgspec.Struct, frozen=True):
     _listed: dict[str, dict[str, str]] = {}
 
     @classmethod
-    def of(cls, files: Iterable[Converted], search: Search) -> Neighbours:
-        neighbours = cls(search)
+    def of(cls, files: Iterable[Converted], search: Search) -> InterfaceFiles:
+        interfaces = cls(search)
         for file in files:
             if file.rules is not None and file.rules.kind == INTERFACES:
-                neighbours.by_stem.setdefault(base_name(file.path), []).append(file)
-        return neighbours
+                interfaces.by_stem.setdefault(base_name(file.path), []).append(file)
+        return interfaces
 
     def imported(self, importer: Converted, stem: str) -> Converted | None:
         """The file of the run that an import means: the one beside it, else the first."""
@@ -47,7 +47,7 @@ class Neighbours(msgspec.Struct, frozen=True):
             self._listed[folder] = {stem.lower(): stem for stem in known}
         return self._listed[folder]
 
-    def who_defines(self, name: str) -> str:
+    def definer_hint(self, name: str) -> str:
         """Where a name that is missing can be found, as a hint."""
         for stem, files in sorted(self.by_stem.items()):
             for file in files:
@@ -61,10 +61,12 @@ def _imports(file: Converted) -> tuple[ImportDraft, ...]:
     return file.draft.imports if isinstance(file.draft, ModuleDraft | ComponentDraft) else ()
 
 
-def name_imports(file: Converted, document: str, workspace: Workspace, neighbours: Neighbours) -> Iterable[Diagnostic]:
+def name_imports(
+    file: Converted, document: str, workspace: Workspace, interfaces: InterfaceFiles
+) -> Iterable[Diagnostic]:
     """Puts each import's name into the document; warns of those found in another spelling, or not at all."""
     for wanted in _imports(file):
-        name = _name(wanted, file, document, workspace, neighbours)
+        name = _name(wanted, file, document, workspace, interfaces)
         if name is None:
             yield codes.IMPORT_UNKNOWN.at(wanted.span, name=wanted.stem)
         elif name.lower() == wanted.stem.lower() and name != wanted.stem:
@@ -73,18 +75,18 @@ def name_imports(file: Converted, document: str, workspace: Workspace, neighbour
 
 
 def _name(
-    wanted: ImportDraft, file: Converted, document: str, workspace: Workspace, neighbours: Neighbours
+    wanted: ImportDraft, file: Converted, document: str, workspace: Workspace, interfaces: InterfaceFiles
 ) -> str | None:
-    stem, beside = wanted.stem, neighbours.beside(file)
-    found, other_case = neighbours.search.find(stem, document, workspace)
-    if stem in neighbours.by_stem or beside.get(stem.lower()) == stem or (found and not other_case):
+    stem, beside = wanted.stem, interfaces.beside(file)
+    found, other_case = interfaces.search.find(stem, document, workspace)
+    if stem in interfaces.by_stem or beside.get(stem.lower()) == stem or (found and not other_case):
         return stem
     path = wanted.path.replace("\\", "/")
     if "/" in path and not path.startswith("/"):
         there = os.path.join(os.path.dirname(file.path), path)
         if os.path.isfile(there) or os.path.isfile(f"{there}.idsl"):
             return os.path.normpath(path).removesuffix(".idsl").removesuffix(".ice")
-    spelled = {known.lower(): known for known in sorted(neighbours.by_stem)}
+    spelled = {known.lower(): known for known in sorted(interfaces.by_stem)}
     if found:
         return os.path.basename(found).removesuffix(".idsl.yaml")
     return spelled.get(stem.lower()) or beside.get(stem.lower())
@@ -107,13 +109,13 @@ def name_machine(file: Converted, chosen: Mapping[str, str]) -> Iterable[Diagnos
 
 
 def not_searched(
-    file: Converted, workspace: Workspace, chosen: Mapping[str, str], neighbours: Neighbours
+    file: Converted, workspace: Workspace, chosen: Mapping[str, str], interfaces: InterfaceFiles
 ) -> Iterable[tuple[str, Diagnostic]]:
     """Imports whose documents will stand where this one's workspace does not look, each with its folder."""
-    looked_in = {os.path.dirname(chosen[file.path]), *workspace.interfaces, *neighbours.search.extra}
+    looked_in = {os.path.dirname(chosen[file.path]), *workspace.interfaces, *interfaces.search.extra}
     known = {os.path.realpath(folder or ".") for folder in looked_in}
     for wanted in _imports(file):
-        target = neighbours.imported(file, str(wanted.entry.value))
+        target = interfaces.imported(file, str(wanted.entry.value))
         document = chosen.get(target.path) if target is not None else None
         folder = os.path.dirname(document) or "." if document is not None else ""
         if folder and os.path.realpath(folder) not in known:
@@ -122,7 +124,7 @@ def not_searched(
             yield folder, codes.NOT_SEARCHED.at(wanted.span, name=wanted.entry.value, folder=folder, hint=hint)
 
 
-def resolve_references(file: Converted, neighbours: Neighbours) -> Iterable[Diagnostic]:
+def resolve_references(file: Converted, interfaces: InterfaceFiles) -> Iterable[Diagnostic]:
     """Warns of references of a module that nothing defines. What an import from elsewhere defines is not known here.
 
     In Slice, several files may hold parts of one module, and need not qualify each other's names; documents do.
@@ -132,7 +134,7 @@ def resolve_references(file: Converted, neighbours: Neighbours) -> Iterable[Diag
     imported: list[tuple[str, ModuleNames]] = []
     complete = True
     for wanted in file.draft.imports:
-        target = neighbours.imported(file, str(wanted.entry.value))
+        target = interfaces.imported(file, str(wanted.entry.value))
         if target is None or not isinstance(target.draft, ModuleDraft):
             complete = False
         else:
@@ -150,7 +152,7 @@ def resolve_references(file: Converted, neighbours: Neighbours) -> Iterable[Diag
         if not any(stem == reference.module and reference.name in module.defined for stem, module in imported):
             problem = _problem(reference, own, dict(imported), complete)
             if problem:
-                hint = neighbours.who_defines(reference.name)
+                hint = interfaces.definer_hint(reference.name)
                 yield codes.UNKNOWN_TYPE.at(reference.span, problem=problem, name=reference.name, hint=hint)
 
 

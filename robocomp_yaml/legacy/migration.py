@@ -16,14 +16,14 @@ from robocomp_yaml.legacy import workspaces
 from robocomp_yaml.legacy.convert import convert
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, DeploymentDraft, MachineDraft
-from robocomp_yaml.legacy.ledger import Entry
-from robocomp_yaml.legacy.linking import Neighbours, name_imports, name_machine, not_searched, resolve_references
-from robocomp_yaml.legacy.networks.deployment import settle as settle_networks
-from robocomp_yaml.legacy.result import Migration
+from robocomp_yaml.legacy.ledger import LedgerEntry
+from robocomp_yaml.legacy.linking import InterfaceFiles, name_imports, name_machine, not_searched, resolve_references
+from robocomp_yaml.legacy.networks.deployment import build_deployments
+from robocomp_yaml.legacy.result import MigrationRun
 from robocomp_yaml.legacy.rules import Formats, with_plugins
-from robocomp_yaml.legacy.settings.components import Inferred, settle
-from robocomp_yaml.legacy.settings.plan import Guesses
-from robocomp_yaml.legacy.sources import LegacyFile, find, names
+from robocomp_yaml.legacy.settings.components import InferredParameters, build_config_documents
+from robocomp_yaml.legacy.settings.plan import Corrections
+from robocomp_yaml.legacy.sources import LegacyFile, assign_documents, discover
 from robocomp_yaml.legacy.upgrade import upgrade
 from robocomp_yaml.link import workspace_files
 from robocomp_yaml.link.workspace import Search, above
@@ -34,7 +34,7 @@ from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.migrated import HEADING
 
 _IMPORTS = (idsl.UNRESOLVED_IMPORT.id, cdsl.UNRESOLVED_IMPORT.id)
-_SAME = {
+_SAME_FAULT = {
     codes.UNKNOWN_TYPE.id: (idsl.UNKNOWN_TYPE.id,),
     codes.IMPORT_UNKNOWN.id: _IMPORTS,
     codes.NOT_SEARCHED.id: _IMPORTS,
@@ -47,14 +47,14 @@ Progress = Callable[[Sequence[LegacyFile]], Iterator[LegacyFile]]
 
 def migrate(
     paths: Sequence[str], output: str | None, extra: Sequence[str], *, force: bool, progress: Progress = iter,
-    guesses: Guesses = Guesses(), exact: bool = False,
-) -> Migration:  # fmt: skip
+    guesses: Corrections = Corrections(), exact: bool = False,
+) -> MigrationRun:  # fmt: skip
     """Everything but the writing."""
     formats, said = _formats(paths)
-    found = find(paths, output, formats)
-    run = Migration(general=[*said, *found.diagnostics])
+    found = discover(paths, output, formats)
+    run = MigrationRun(general=[*said, *found.diagnostics])
     for file in progress(found.files):
-        entry = Entry(file, convert(file.path, formats), skipped=bool(file.preferred))
+        entry = LedgerEntry(file, convert(file.path, formats), skipped=bool(file.preferred))
         entry.diagnostics = [*entry.file.diagnostics]
         if file.preferred:
             entry.diagnostics = [codes.PREFERRED.at(Span(file.path), other=file.preferred)]
@@ -64,15 +64,17 @@ def migrate(
     known = workspaces.Workspaces()
     for folder in found.workspaces():
         root = run.root(folder)
-        if workspaces.wants_file(root) and good:
+        if workspaces.needs_file(root) and good:
             known.new.append(folder)
-    chosen, said = names([(entry.legacy, entry.file.rules) for entry in good if entry.file.rules is not None])
+    chosen, said = assign_documents(
+        [(entry.legacy, entry.file.rules) for entry in good if entry.file.rules is not None]
+    )
     by_path = {entry.file.path: entry for entry in good}
     for diagnostic in said:
         by_path[diagnostic.span.file].diagnostics.append(diagnostic)
     _link(run, good, chosen, known, extra)
-    networks = settle_networks(good, chosen, known)
-    configs, inferred = settle(good, chosen, run.remembers, guesses, exact=exact)
+    networks = build_deployments(good, chosen, known)
+    configs, inferred = build_config_documents(good, chosen, run.was_written, guesses, exact=exact)
     _plan(run, good, chosen, known, networks | configs, inferred, force)
     upgrade(run, paths)
     return run
@@ -86,7 +88,7 @@ def _formats(paths: Sequence[str]) -> tuple[Formats, list[Diagnostic]]:
     return with_plugins(Plugins(tuple(active.values()))), told
 
 
-def look_back(run: Migration, extra: Sequence[str]) -> None:
+def check_written(run: MigrationRun, extra: Sequence[str]) -> None:
     """Says of each document that was written what `check` says against it, at the legacy file that it comes from."""
     documents = [(path, entry) for entry in run.entries if not entry.skipped for path in entry.outputs
                  if path.endswith(".yaml")]  # fmt: skip
@@ -99,7 +101,7 @@ def look_back(run: Migration, extra: Sequence[str]) -> None:
         if told.severity == ERROR:
             found.setdefault(os.path.realpath(told.span.file), []).append(told)
     for path, entry in documents:
-        errors = [told for told in found.get(os.path.realpath(path), []) if not _is_said(told, entry.diagnostics)]
+        errors = [told for told in found.get(os.path.realpath(path), []) if not _is_reported(told, entry.diagnostics)]
         if errors:
             first, more = errors[0], f" (and {len(errors) - 1} more)" if errors[1:] else ""
             entry.diagnostics.append(
@@ -109,48 +111,49 @@ def look_back(run: Migration, extra: Sequence[str]) -> None:
             )
 
 
-def _is_said(error: Diagnostic, said: Sequence[Diagnostic]) -> bool:
+def _is_reported(error: Diagnostic, said: Sequence[Diagnostic]) -> bool:
     """Whether an error of `check` is of what migrating has told already: the same thing that is not there."""
     for told in said:
-        if error.code in _SAME.get(told.code, ()):
-            name = re.escape(_missing(told).rpartition("::")[2])
-            if re.search(rf"(?<!\w){name}(?!\w)", _missing(error)):
+        if error.code in _SAME_FAULT.get(told.code, ()):
+            name = re.escape(_missing_name(told).rpartition("::")[2])
+            if re.search(rf"(?<!\w){name}(?!\w)", _missing_name(error)):
                 return True
     return False
 
 
-def _missing(told: Diagnostic) -> str:
+def _missing_name(told: Diagnostic) -> str:
     """The name or path that is not there."""
     return str(told.fact("path") if told.fact("name") is None else told.fact("name"))
 
 
 def _link(
-    run: Migration, good: Sequence[Entry], chosen: dict[str, str], known: workspaces.Workspaces, extra: Sequence[str]
+    run: MigrationRun, good: Sequence[LedgerEntry], chosen: dict[str, str], known: workspaces.Workspaces,
+    extra: Sequence[str],
 ) -> None:  # fmt: skip
-    neighbours = Neighbours.of((entry.file for entry in run.entries if not entry.skipped), Search(tuple(extra)))
+    interfaces = InterfaceFiles.of((entry.file for entry in run.entries if not entry.skipped), Search(tuple(extra)))
     for entry in good:
         document = chosen[entry.file.path]
-        entry.diagnostics += name_imports(entry.file, document, known.of(document), neighbours)
+        entry.diagnostics += name_imports(entry.file, document, known.of(document), interfaces)
         entry.diagnostics += name_machine(entry.file, chosen)
     told: set[tuple[str, str]] = set()
     for entry in good:
-        entry.diagnostics += resolve_references(entry.file, neighbours)
+        entry.diagnostics += resolve_references(entry.file, interfaces)
         workspace = known.of(chosen[entry.file.path])
         if workspace.root in known.new:
             continue
-        for folder, diagnostic in not_searched(entry.file, workspace, chosen, neighbours):
+        for folder, diagnostic in not_searched(entry.file, workspace, chosen, interfaces):
             if (workspace.root, folder) not in told:  # once for a folder
                 told.add((workspace.root, folder))
                 entry.diagnostics.append(diagnostic)
 
 
 def _plan(
-    run: Migration, good: Sequence[Entry], chosen: dict[str, str], known: workspaces.Workspaces,
-    settled: Mapping[str, yaml.Map], inferred: Sequence[Inferred], force: bool,
+    run: MigrationRun, good: Sequence[LedgerEntry], chosen: dict[str, str], known: workspaces.Workspaces,
+    settled: Mapping[str, yaml.Map], inferred: Sequence[InferredParameters], force: bool,
 ) -> None:  # fmt: skip
     """`settled` are the documents that were made for several files together, by the path of each."""
     written: dict[str, list[tuple[str, str, yaml.Map]]] = {folder: [] for folder in known.new}
-    planned: list[tuple[Entry, str, str, yaml.Map, Notes, str]] = []
+    planned: list[tuple[LedgerEntry, str, str, yaml.Map, Notes, str]] = []
     for entry in good:
         rules, draft = entry.file.rules, entry.file.draft
         assert rules is not None and draft is not None
@@ -165,19 +168,19 @@ def _plan(
         home = known.of(document).root
         gap = "\n" if around.head else ""
         root = run.root(entry.legacy.root)
-        heading = HEADING if kind == "idsl" and _has_taken(content) else ""
+        heading = HEADING if kind == "idsl" and _has_reserved_names(content) else ""
         text = raw or f"{_modeline(document, home, kind, content)}\n{heading}{gap}{yaml.text(content, around)}"
         output = root.add(os.path.relpath(document, entry.legacy.root), text, force=force, sources=(entry.file.path,))
         run.homes.setdefault(home, []).append(output)
         run.add(entry, root, output)
         if home in written and not raw:
             written[home].append((kind, document, content))
-    run.tell_failures()
+    run.report_failures()
     for folder in known.new:
         run.roots[folder].add(WORKSPACE_FILE, workspaces.file_text(folder, written[folder]), force=force)
 
 
-def _has_taken(content: yaml.Map) -> bool:
+def _has_reserved_names(content: yaml.Map) -> bool:
     """Whether a document of interfaces has names that some language takes."""
     tree = yaml.tree(content)
     if schema.validate("idsl", tree):

@@ -72,7 +72,7 @@ class OutputRoot(msgspec.Struct):
             made.memory = {}
         return made
 
-    def is_ours(self, path: str) -> bool:
+    def is_unchanged(self, path: str) -> bool:
         """Whether a file is as an earlier run wrote it."""
         found = self.root.look(path)
         return found.data is not None and self.memory.get(path) == digest(found.data)
@@ -99,7 +99,7 @@ class OutputRoot(msgspec.Struct):
                 output.state = EDITED
         return output
 
-    def has_news(self, output: Output) -> bool:
+    def differs_from_last(self, output: Output) -> bool:
         """Whether an edited file would get something else than the last run wrote."""
         return self.memory.get(output.path) != digest(output.text.encode())
 

@@ -16,7 +16,7 @@ MAX_SOURCE = 4 << 20
 """Bytes. The largest legacy file known has 20 KiB."""
 
 
-class Source(msgspec.Struct, eq=False):
+class SourceText(msgspec.Struct, eq=False):
     """A legacy file's text, with '\\n' as its only line end, and places in it."""
 
     path: str
@@ -52,13 +52,13 @@ class Source(msgspec.Struct, eq=False):
         return Span(self.path, line, column, line, column + width)
 
 
-def read(path: str) -> tuple[Source | None, list[Diagnostic]]:
+def read(path: str) -> tuple[SourceText | None, list[Diagnostic]]:
     """The text of a legacy file, with a warning where it is not UTF-8; or why there is none."""
     raw, diagnostics = read_bytes(path, MAX_SOURCE)
     if raw is None:
         return None, diagnostics
     text, diagnostics = _decoded(path, raw)
-    source = Source(path, text.replace("\r\n", "\n"))
+    source = SourceText(path, text.replace("\r\n", "\n"))
     zero = source.text.find("\0")
     if zero >= 0:
         return None, [file_codes.BINARY.at(source.span(zero, zero + 1), byte="U+0000")]

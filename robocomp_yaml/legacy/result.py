@@ -11,22 +11,22 @@ import msgspec
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.legacy.ledger import Entry
+from robocomp_yaml.legacy.ledger import LedgerEntry
 from robocomp_yaml.legacy.outputs import CHANGED, EDITED, FAILED, TAKEN, Output, OutputRoot
 from robocomp_yaml.link import workspace_files
 
 
-class Migration(msgspec.Struct):
+class MigrationRun(msgspec.Struct):
     """`general` are diagnostics that belong to no legacy file alone."""
 
-    entries: list[Entry] = []
+    entries: list[LedgerEntry] = []
     roots: dict[str, OutputRoot] = {}
     general: list[Diagnostic] = []
     homes: dict[str, list[Output]] = {}
     """The documents of each workspace, whose first line names a schema there."""
     upgrades: list[tuple[str, Output]] = []
     """Older documents of ours, by their paths."""
-    _documents: list[tuple[Entry, OutputRoot, Output]] = []
+    _documents: list[tuple[LedgerEntry, OutputRoot, Output]] = []
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
@@ -44,7 +44,7 @@ class Migration(msgspec.Struct):
             self.roots[path] = OutputRoot.at(path)
         return self.roots[path]
 
-    def remembers(self, entry: Entry, path: str) -> bool:
+    def was_written(self, entry: LedgerEntry, path: str) -> bool:
         """Whether an earlier run wrote the document at a path."""
         root = entry.legacy.root
         return os.path.relpath(path, root) in self.root(root).memory
@@ -58,10 +58,10 @@ class Migration(msgspec.Struct):
         """The files that a user edited and `--force` overwrites."""
         for root in self.roots.values():
             for output in root.outputs:
-                if output.state == CHANGED and not root.is_ours(output.path):
+                if output.state == CHANGED and not root.is_unchanged(output.path):
                     yield root.root.shown(output.path), output
 
-    def add(self, entry: Entry, root: OutputRoot, output: Output) -> None:
+    def add(self, entry: LedgerEntry, root: OutputRoot, output: Output) -> None:
         """An entry's document, with what its state means to the user."""
         shown = root.root.shown(output.path)
         at = Span(entry.file.path)
@@ -72,13 +72,13 @@ class Migration(msgspec.Struct):
         entry.outputs.append(shown)
         if output.state == EDITED:
             entry.skipped = True
-            if root.has_news(output):
+            if root.differs_from_last(output):
                 entry.diagnostics.append(codes.EDITED.at(at, path=shown, hint="--diff shows the difference"))
 
     def write(self) -> None:
         for root in self.roots.values():
             root.write()
-        self.tell_failures()
+        self.report_failures()
         for path, output in self.upgrades:
             if output.state == FAILED:
                 self.general.append(codes.NOT_WRITTEN.at(Span(path), path=path, reason=output.problem))
@@ -87,9 +87,9 @@ class Migration(msgspec.Struct):
                 with contextlib.suppress(OSError):  # a workspace that cannot be written to has migrated all the same
                     workspace_files.install(home)
 
-    def tell_failures(self) -> None:
+    def report_failures(self) -> None:
         """What could not be written: one diagnostic for the files of one folder that share a reason."""
-        causes: dict[tuple[str, str], list[tuple[Entry, str]]] = {}
+        causes: dict[tuple[str, str], list[tuple[LedgerEntry, str]]] = {}
         for entry, root, output in self._documents:
             if output.state == FAILED and not entry.blocked:
                 entry.blocked = True

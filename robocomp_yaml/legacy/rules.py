@@ -19,7 +19,7 @@ _CONVERTERS = "robocomp_yaml.legacy.converters"
 Texts = Mapping[str, str]
 
 
-class Files(msgspec.Struct, frozen=True, eq=False):
+class FilePatterns(msgspec.Struct, frozen=True, eq=False):
     """Which files of a folder may be of a format, by their names: surely, or only if their content says so too."""
 
     certain: re.Pattern[str]
@@ -36,7 +36,7 @@ class Files(msgspec.Struct, frozen=True, eq=False):
         return "perhaps" if os.path.basename(os.path.dirname(os.path.abspath(path))) == self.folder else ""
 
 
-class Foreign(msgspec.Struct, frozen=True, eq=False):
+class ForeignMark(msgspec.Struct, frozen=True, eq=False):
     """What shows that a file is another program's, and which one."""
 
     pattern: re.Pattern[str]
@@ -80,8 +80,8 @@ class Rules(msgspec.Struct, frozen=True, eq=False, forbid_unknown_fields=True):
     weak: bool = False
     keep_suffix: bool = False
     by_content: bool = False
-    files: Files | None = None
-    foreign: tuple[Foreign, ...] = ()
+    files: FilePatterns | None = None
+    foreign: tuple[ForeignMark, ...] = ()
     invalid: Mapping[str, Any] = {}
     sections: Mapping[str, re.Pattern[str]] = {}
     records: tuple[Mapping[str, Any], ...] = ()

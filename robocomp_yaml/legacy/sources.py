@@ -35,7 +35,7 @@ class LegacyFile(msgspec.Struct, frozen=True):
         return os.path.normpath(os.path.join(self.root, self.folder, name))
 
 
-class Found(msgspec.Struct):
+class LegacyFiles(msgspec.Struct):
     files: list[LegacyFile] = []
     folders: list[str] = []
     """The output roots of the folders given: each becomes a workspace."""
@@ -50,16 +50,16 @@ class Found(msgspec.Struct):
         ]  # fmt: skip
 
 
-def find(paths: Sequence[str], output: str | None, known: Formats) -> Found:
+def discover(paths: Sequence[str], output: str | None, known: Formats) -> LegacyFiles:
     """The files named, and below the folders named all with a suffix of a legacy format; each once."""
-    found = Found()
+    found = LegacyFiles()
     seen: set[str] = set()
     for path in paths:
         is_folder = os.path.isdir(path)
         if not is_folder and kind_of(path) is not None and os.path.isfile(path):
             continue  # a document of ours: it may be an older one
         below = list(_below(path, found.diagnostics, known)) if is_folder else [os.path.normpath(path)]
-        root = output or (os.path.normpath(path) if is_folder else root_of(path))
+        root = output or (os.path.normpath(path) if is_folder else root_for(path))
         if is_folder:
             if root not in found.folders:
                 found.folders.append(root)
@@ -78,7 +78,7 @@ def find(paths: Sequence[str], output: str | None, known: Formats) -> Found:
     return found
 
 
-def root_of(path: str) -> str:
+def root_for(path: str) -> str:
     """The root of the workspace that a file is in, or its folder."""
     folder = os.path.dirname(path)
     return root_above(folder) or folder or "."
@@ -92,7 +92,7 @@ def _below(folder: str, said: list[Diagnostic], known: Formats) -> Iterator[str]
 
     entered: set[tuple[int, int]] = set()
     compiled: set[str] = set()
-    for where, folders, names in os.walk(folder, followlinks=True, onerror=closed):
+    for where, folders, assign_documents in os.walk(folder, followlinks=True, onerror=closed):
         status = os.stat(where)
         if (status.st_dev, status.st_ino) in entered:
             folders.clear()
@@ -100,7 +100,7 @@ def _below(folder: str, said: list[Diagnostic], known: Formats) -> Iterator[str]
         entered.add((status.st_dev, status.st_ino))
         compiled |= _compiled(where)
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and not name.startswith("."))
-        for name in sorted(names):
+        for name in sorted(assign_documents):
             path = os.path.normpath(os.path.join(where, name))
             # A config that became a document is a source still, though `compile` now writes it.
             made = path in compiled and (by_name(name, known) is not None or not os.path.exists(f"{path}.yaml"))
@@ -132,7 +132,7 @@ def _preferences(files: Sequence[LegacyFile], known: Formats) -> Iterator[Legacy
             yield file
 
 
-def names(
+def assign_documents(
     files: Sequence[tuple[LegacyFile, Rules]],
 ) -> tuple[dict[str, str], list[Diagnostic]]:
     """The document of each file, by the file's path. Where two would meet, the later one keeps its suffix."""

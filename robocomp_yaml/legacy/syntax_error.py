@@ -14,7 +14,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import meaning, suggest
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
 
 _BRACE_HINT = "a '}' is probably missing before it"
@@ -24,7 +24,7 @@ _SILENT = re.compile(r'//[^\n]*|/\*[\s\S]*?\*/|#[^\n]*|"(?:[^"\\\n]|\\.)*"')
 _LAST = re.compile(r'(?:\w+|"[^"]*"|\S)\Z')
 
 
-class Fault(msgspec.Struct, frozen=True):
+class SyntaxFault(msgspec.Struct, frozen=True):
     """`rest` is the text without the statement at fault, as long as before; None: nothing more can be found out."""
 
     diagnostic: Diagnostic
@@ -42,23 +42,23 @@ def without_silent(text: str) -> str:
     return _SILENT.sub(blank, text)
 
 
-class Explainer:
+class SyntaxExplainer:
     """Explains an error in a text, which is the source's but for statements that are blanked out."""
 
-    def __init__(self, source: Source, rules: Rules, literals: Mapping[str, str], text: str) -> None:
+    def __init__(self, source: SourceText, rules: Rules, literals: Mapping[str, str], text: str) -> None:
         self.source, self.rules, self.literals, self.text = source, rules, literals, text
         self.bare = without_silent(text)
 
-    def explain(self, error: UnexpectedInput) -> Fault:
+    def explain(self, error: UnexpectedInput) -> SyntaxFault:
         if isinstance(error, UnexpectedToken) and error.token.type == "$END":
-            return Fault(self._at_end(error), None, at_end=True)
+            return SyntaxFault(self._at_end(error), None, at_end=True)
         at = error.pos_in_stream or 0
         start, end = self._statement(at)
         depth = self.bare.count("{", 0, start) - self.bare.count("}", 0, start)
         rest = None
         if depth > 0 and self.text[start:end].strip():
             rest = self.text[:start] + re.sub(r"[^\n]", " ", self.text[start:end]) + self.text[end:]
-        return Fault(self._diagnostic(error, at, start, depth), rest)
+        return SyntaxFault(self._diagnostic(error, at, start, depth), rest)
 
     def _diagnostic(self, error: UnexpectedInput, at: int, start: int, depth: int) -> Diagnostic:
         keyword = self._misplaced_keyword(error, start) if depth > 0 else None

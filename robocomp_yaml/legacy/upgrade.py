@@ -12,8 +12,8 @@ from robocomp_yaml import resources
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.outputs import UPGRADED, Output
-from robocomp_yaml.legacy.result import Migration
-from robocomp_yaml.legacy.sources import root_of
+from robocomp_yaml.legacy.result import MigrationRun
+from robocomp_yaml.legacy.sources import root_for
 from robocomp_yaml.source.discover import documents_below, kind_of
 from robocomp_yaml.source.text import read_bytes
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, parse
@@ -22,7 +22,7 @@ MAX_DOCUMENT = 4 << 20
 _FILE = "upgrades.yaml"
 
 
-class Change(msgspec.Struct, frozen=True):
+class KeyRename(msgspec.Struct, frozen=True):
     """A key that has another name now."""
 
     kind: str
@@ -38,17 +38,17 @@ class Upgraded(msgspec.Struct):
 
 
 @cache
-def changes() -> tuple[Change, ...]:
+def changes() -> tuple[KeyRename, ...]:
     tree, said = parse(_FILE, resources.text(f"migrate/{_FILE}"))
     if tree is None or not isinstance(tree.data, list):
         raise ValueError(f"migrate/{_FILE} is broken: {said}")
     return tuple(
-        Change(entry["kind"], tuple(entry["at"]), old, new, entry["reason"])
+        KeyRename(entry["kind"], tuple(entry["at"]), old, new, entry["reason"])
         for entry in tree.data for old, new in entry["rename"].items()
     )  # fmt: skip
 
 
-def upgraded(path: str, kind: str, text: str, known: Iterable[Change] | None = None) -> Upgraded:
+def upgraded(path: str, kind: str, text: str, known: Iterable[KeyRename] | None = None) -> Upgraded:
     """The text with every old key under its new name; all else, comments too, stays as it is."""
     result = Upgraded(text)
     for change in changes() if known is None else known:
@@ -57,7 +57,7 @@ def upgraded(path: str, kind: str, text: str, known: Iterable[Change] | None = N
     return result
 
 
-def _apply(change: Change, path: str, result: Upgraded) -> None:
+def _apply(change: KeyRename, path: str, result: Upgraded) -> None:
     tree, said = parse(path, result.text)
     if tree is None or any(fault.severity == "error" for fault in said):
         return  # `check` tells what is wrong with it
@@ -85,7 +85,7 @@ def _mappings(root: Node, path: Sequence[str]) -> list[Mapping]:
     return [node for node in nodes if isinstance(node, Mapping)]
 
 
-def _renamed(text: str, key: Scalar, change: Change) -> str | None:
+def _renamed(text: str, key: Scalar, change: KeyRename) -> str | None:
     """The text with another key in the place of one; None where the key is not spelled out there."""
     lines = text.split("\n")
     line, start = lines[key.span.line - 1], key.span.column - 1
@@ -96,7 +96,7 @@ def _renamed(text: str, key: Scalar, change: Change) -> str | None:
     return "\n".join(lines)
 
 
-def upgrade(run: Migration, paths: Sequence[str]) -> None:
+def upgrade(run: MigrationRun, paths: Sequence[str]) -> None:
     """Plans what changes in the documents among, or below, these paths. What the run writes anyway is left alone."""
     outputs = [(root.root.real, output.path) for root in run.roots.values() for output in root.outputs]
     taken = {os.path.realpath(os.path.join(*parts)) for parts in outputs}
@@ -109,7 +109,7 @@ def upgrade(run: Migration, paths: Sequence[str]) -> None:
                 _plan(run, document)
 
 
-def _plan(run: Migration, document: str) -> None:
+def _plan(run: MigrationRun, document: str) -> None:
     raw, _ = read_bytes(document, MAX_DOCUMENT)
     kind = kind_of(document)
     if raw is None or kind is None or not any(change.old.encode() in raw for change in changes()):
@@ -123,7 +123,7 @@ def _plan(run: Migration, document: str) -> None:
     made = upgraded(document, kind, text)
     run.general += made.diagnostics
     if mark + made.text != whole:
-        root = run.root(root_of(document))
+        root = run.root(root_for(document))
         relative = os.path.relpath(os.path.realpath(document), root.root.real)
         output = Output(relative, mark + made.text, UPGRADED, whole)
         root.outputs.append(output)

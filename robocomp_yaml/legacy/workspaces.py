@@ -39,12 +39,12 @@ class Workspaces(msgspec.Struct, frozen=True):
         return self._known[folder]
 
 
-def wants_file(root: OutputRoot) -> bool:
+def needs_file(root: OutputRoot) -> bool:
     """Whether a migrated folder gets an `rcyaml.yaml`: it is in no workspace, or ours is there already."""
     above = root_above(root.root.path)
     if above is None:
         return True
-    return os.path.realpath(above) == root.root.real and root.is_ours(WORKSPACE_FILE)
+    return os.path.realpath(above) == root.root.real and root.is_unchanged(WORKSPACE_FILE)
 
 
 def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:

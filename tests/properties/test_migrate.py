@@ -283,7 +283,7 @@ PIECES = st.lists(st.sampled_from([*SAMPLE.split(" "), *OTHERS]))
 def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str | bytes) -> None:
     result, written = _converted(name, text)
     assert result.refused == any(d.severity == "error" for d in result.diagnostics)
-    entry = ledger.Entry(LegacyFile(name, "", ""), result, diagnostics=[*result.diagnostics])
+    entry = ledger.LedgerEntry(LegacyFile(name, "", ""), result, diagnostics=[*result.diagnostics])
     if result.source is not None:
         assert entry.lines().total() == result.source.lines
         for diagnostic in result.diagnostics:

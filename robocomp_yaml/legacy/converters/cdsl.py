@@ -10,7 +10,7 @@ from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
-from robocomp_yaml.legacy.document import Doc, Entry, List, Map, Notes, Value
+from robocomp_yaml.legacy.document import Doc, DocumentEntry, List, Map, Notes, Value
 from robocomp_yaml.legacy.draft import ComponentBuilder, ComponentDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
 from robocomp_yaml.source import regular
@@ -21,10 +21,10 @@ LISTS = ("implements", "requires", "publishes", "subscribesto")
 def convert(reader: Reader) -> ComponentDraft | None:
     """The document of a file's component."""
     tree = reader.tree
-    return _Converter(reader).document(tree, trees(tree, "component")[0])
+    return _CdslConverter(reader).document(tree, trees(tree, "component")[0])
 
 
-class _Converter(ComponentBuilder):
+class _CdslConverter(ComponentBuilder):
     def __init__(self, reader: Reader) -> None:
         super().__init__(reader)
         self.seen: dict[str, Tree[Token]] = {}
@@ -148,7 +148,7 @@ class _Converter(ComponentBuilder):
         ))  # fmt: skip
 
     def libraries(self, clause: Tree[Token]) -> None:
-        self._uses(clause, lambda item, text: ("libraries", Map([Entry("link", text)])))
+        self._uses(clause, lambda item, text: ("libraries", Map([DocumentEntry("link", text)])))
 
     def _uses(self, clause: Tree[Token], place: Callable[[Tree[Token], str], tuple[str, Value]]) -> None:
         """The entries of a block under `uses:`, with the comments of the block."""
@@ -172,8 +172,8 @@ class _Converter(ComponentBuilder):
             del self.entries["uses"]
 
 
-CLAUSES: dict[str, Callable[[_Converter, Tree[Token]], None]] = {
-    "language": _Converter.language, "gui": _Converter.gui, "options": _Converter.options,
-    "statemachine": _Converter.statemachine, "useqt": _Converter.obsolete, "worker": _Converter.obsolete,
-    "robocompclasses": _Converter.sources, "robocompmodules": _Converter.libraries,
+CLAUSES: dict[str, Callable[[_CdslConverter, Tree[Token]], None]] = {
+    "language": _CdslConverter.language, "gui": _CdslConverter.gui, "options": _CdslConverter.options,
+    "statemachine": _CdslConverter.statemachine, "useqt": _CdslConverter.obsolete, "worker": _CdslConverter.obsolete,
+    "robocompclasses": _CdslConverter.sources, "robocompmodules": _CdslConverter.libraries,
 }  # fmt: skip

@@ -13,11 +13,11 @@ from robocomp_yaml.legacy.settings.entries import (
     CLASSIC,
     FLAT_TOML,
     STRING,
+    ConfigSettings,
     Leaf,
     Setting,
-    Settings,
+    assign_head_comments,
     guess,
-    settle_head,
 )
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
@@ -33,7 +33,7 @@ def convert(reader: Reader) -> ConfigDraft | None:
     lines = [line for line in tree.children if isinstance(line, grammar.LineTree)]
     last = properties.last(line.entry for line in lines if line.entry is not None)
     dialect = _dialect(reader, lines)
-    found = Settings(dialect)
+    found = ConfigSettings(dialect)
     around, waiting = reader.placed.around, list[str]()
     for node in lines:
         entry, notes = node.entry, reader.notes(node)
@@ -57,7 +57,7 @@ def convert(reader: Reader) -> ConfigDraft | None:
             reader.repaired("overridden", node, entry.key)
         waiting += [*notes.head, *_as_comment(reader, node, notes)]
     around.foot[:0] = waiting
-    settle_head(found, around)
+    assign_head_comments(found, around)
     return ConfigDraft(found, around)
 
 

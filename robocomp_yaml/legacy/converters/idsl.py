@@ -10,7 +10,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy import literals
-from robocomp_yaml.legacy.document import TRUE, Doc, List, Map, Name, Notes, Value
+from robocomp_yaml.legacy.document import TRUE, Doc, List, Map, Notes, ReferredName, Value
 from robocomp_yaml.legacy.draft import ModuleDraft, ModuleNames, Reader, Reference, plain
 from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.settings.headers import free
@@ -34,10 +34,10 @@ def convert(reader: Reader) -> ModuleDraft | None:
         return None
     for extra in modules[1:]:
         reader.refused("refused_second_module", extra.children[0])
-    return _Converter(reader).document(tree, modules[0])
+    return _IdslConverter(reader).document(tree, modules[0])
 
 
-class _Converter:
+class _IdslConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
         self.names = ModuleNames("")
@@ -83,17 +83,17 @@ class _Converter:
         doc = self.reader.doc(tree, *names)
         into.put_some("doc", Doc(doc) if doc else None)
 
-    def _type(self, tree: Tree[Token]) -> Name:
+    def _type(self, tree: Tree[Token]) -> ReferredName:
         """A type as a document names it, noted as a reference."""
         qname = next((child for child in trees(tree) if child.data == "qname"), None)
-        return self._name(qname) if qname is not None else Name(str(tree.children[0]))
+        return self._name(qname) if qname is not None else ReferredName(str(tree.children[0]))
 
-    def _name(self, qname: Tree[Token]) -> Name:
+    def _name(self, qname: Tree[Token]) -> ReferredName:
         parts = [plain(child) for child in qname.children if isinstance(child, Token) and child.type == "NAME"]
         if len(parts) > 2:
             self.reader.refused("refused_scope", qname)
         module = parts[0] if len(parts) > 1 else ""
-        written = Name(".".join(parts))
+        written = ReferredName(".".join(parts))
         self.names.references.append(Reference(module, parts[-1], written, self.reader.span(qname)))
         return written
 
@@ -229,8 +229,8 @@ def _foot_inside(notes: Notes, body: Value) -> Notes:
     return Notes(notes.head, notes.tail)
 
 
-BODIES: dict[str, Callable[[_Converter, Tree[Token], str], Value]] = {
-    "constant": _Converter.constant, "struct": _Converter.struct, "enum": _Converter.enum,
-    "sequence": _Converter.sequence, "dictionary": _Converter.dictionary, "exception": _Converter.exception,
-    "interface": _Converter.interface,
+BODIES: dict[str, Callable[[_IdslConverter, Tree[Token], str], Value]] = {
+    "constant": _IdslConverter.constant, "struct": _IdslConverter.struct, "enum": _IdslConverter.enum,
+    "sequence": _IdslConverter.sequence, "dictionary": _IdslConverter.dictionary, "exception": _IdslConverter.exception,
+    "interface": _IdslConverter.interface,
 }  # fmt: skip

@@ -22,10 +22,10 @@ def convert(reader: Reader) -> ComponentDraft | None:
     if not top or top[0].data != "object":
         reader.diagnostics.append(codes.SYNTAX.at(reader.source.span(0, 1), problem="this is no JSON object", hint=""))
         return None
-    return _Converter(reader).document(top[0])
+    return _JcdslConverter(reader).document(top[0])
 
 
-class _Converter(ComponentBuilder):
+class _JcdslConverter(ComponentBuilder):
     def __init__(self, reader: Reader) -> None:
         super().__init__(reader)
         self.imports: list[ImportDraft] = []
@@ -128,11 +128,11 @@ class _Converter(ComponentBuilder):
 
 
 _CLAUSES = {
-    "imports": _Converter.import_,
-    "language": _Converter.language,
-    "gui": _Converter.gui,
-    "options": _Converter.option,
-    "statemachine": _Converter.statemachine,
+    "imports": _JcdslConverter.import_,
+    "language": _JcdslConverter.language,
+    "gui": _JcdslConverter.gui,
+    "options": _JcdslConverter.option,
+    "statemachine": _JcdslConverter.statemachine,
 }
 
 

@@ -19,10 +19,10 @@ _Pairs = dict[str, tuple[str, Tree[Token]]]
 
 def convert(reader: Reader) -> DeploymentDraft | None:
     tree = toml.toml_tree(reader)
-    return None if tree is None else _Converter(reader).draft(tree)
+    return None if tree is None else _LauncherConverter(reader).draft(tree)
 
 
-class _Converter:
+class _LauncherConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
         self.network = NetworkDraft()

@@ -7,11 +7,11 @@ import re
 import msgspec
 from lark import Token, Tree
 
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
+from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Notes, Raw
 from robocomp_yaml.legacy.draft import DeploymentDraft, Reader, named_node
 from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.networks import command, endpoint
-from robocomp_yaml.legacy.networks.node import NetworkDraft, Node
+from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode
 
 ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
@@ -43,10 +43,10 @@ def convert(reader: Reader) -> DeploymentDraft | None:
     tree = reader.tree
     if trees(tree, "refused_doctype"):
         return None
-    return _Converter(reader).draft(trees(tree, "element")[0])
+    return _RcmanagerConverter(reader).draft(trees(tree, "element")[0])
 
 
-class _Converter:
+class _RcmanagerConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
 
@@ -59,7 +59,7 @@ class _Converter:
             if child.name == "node":
                 self.node(child, network)
             else:
-                network.extra.entries.append(Entry(child.name, self.generic(child), child.notes))
+                network.extra.entries.append(DocumentEntry(child.name, self.generic(child), child.notes))
         for name, value in root.attributes.items():
             network.extra.put(name, exact(value))
         return DeploymentDraft(network, self.reader.placed.around)
@@ -115,7 +115,7 @@ class _Converter:
                 node.extra.put(name, exact(value))
         self.children(element, node, network)
 
-    def children(self, element: _Element, node: Node, network: NetworkDraft) -> None:
+    def children(self, element: _Element, node: NetworkNode, network: NetworkDraft) -> None:
         said: dict[str, _Element] = {}
         for child in element.children:
             if child.name == "dependence":
@@ -136,12 +136,12 @@ class _Converter:
         if "downCommand" in said and (user := _SSH.search(said["downCommand"].get("command"))):
             network.users.setdefault(user["host"], user["user"])
 
-    def extra(self, child: _Element) -> Entry:
+    def extra(self, child: _Element) -> DocumentEntry:
         """An element as RCManager's exporter finds it again: one value where it says one thing."""
         simple = ATTRIBUTES.get(child.name)
         if simple is not None and list(child.attributes) == [simple] and not child.children:
-            return Entry(child.name, exact(child.get(simple)), child.notes)
-        return Entry(child.name, self.generic(child), child.notes)
+            return DocumentEntry(child.name, exact(child.get(simple)), child.notes)
+        return DocumentEntry(child.name, self.generic(child), child.notes)
 
     def generic(self, element: _Element) -> Map:
         """Any element: its attributes, and the elements in it by their names, lists where there are several."""
@@ -153,9 +153,9 @@ class _Converter:
             if name in element.attributes:
                 self.reader.refused("collision", same[0].tree, name)
             elif len(same) == 1:
-                made.entries.append(Entry(name, self.generic(same[0]), same[0].notes))
+                made.entries.append(DocumentEntry(name, self.generic(same[0]), same[0].notes))
             else:
-                made.put(name, List([Entry("", self.generic(child), child.notes) for child in same]))
+                made.put(name, List([DocumentEntry("", self.generic(child), child.notes) for child in same]))
         return made
 
 

@@ -42,10 +42,10 @@ class _Block(msgspec.Struct, eq=False):
 
 def convert(reader: Reader) -> MachineDraft | None:
     """The document of a file's machine."""
-    return _Converter(reader).draft(reader.tree)
+    return _SmdslConverter(reader).draft(reader.tree)
 
 
-class _Converter:
+class _SmdslConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
         self.known: dict[str, ScxmlState] = {}

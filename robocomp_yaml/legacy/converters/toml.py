@@ -11,7 +11,7 @@ from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, Reader
 from robocomp_yaml.legacy.grammar import trees
 from robocomp_yaml.legacy.settings import entries
-from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, Item, Leaf, Setting, Settings
+from robocomp_yaml.legacy.settings.entries import BOOL, STRING, TOML, ConfigSettings, Item, Leaf, Setting
 
 _Path = tuple[str, ...]
 
@@ -19,7 +19,7 @@ _Path = tuple[str, ...]
 def convert(reader: Reader) -> ConfigDraft | None:
     """The settings of a file, by their full paths."""
     tree = toml_tree(reader)
-    return None if tree is None else _Converter(reader).draft(tree)
+    return None if tree is None else _TomlConverter(reader).draft(tree)
 
 
 def toml_tree(reader: Reader) -> Tree[Token] | None:
@@ -33,10 +33,10 @@ def toml_tree(reader: Reader) -> Tree[Token] | None:
     return reader.tree
 
 
-class _Converter:
+class _TomlConverter:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self.found = Settings(TOML)
+        self.found = ConfigSettings(TOML)
         self.arrays: dict[_Path, Setting] = {}
         self.waiting: list[str] = []
 
@@ -63,7 +63,7 @@ class _Converter:
                 self.found.settings.append(Setting(".".join(full), full, leaf, self.reader.span(node), notes))
                 notes = Notes()
         self.reader.placed.around.foot[:0] = self.waiting
-        entries.settle_head(self.found, self.reader.placed.around)
+        entries.assign_head_comments(self.found, self.reader.placed.around)
         return ConfigDraft(self.found, self.reader.placed.around)
 
     def flat(self, path: _Path, value: entries.Tree) -> list[tuple[_Path, entries.Tree]]:

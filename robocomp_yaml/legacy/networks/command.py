@@ -17,7 +17,7 @@ _OPTION = re.compile(r"(?P<option>--Ice\.Config)=(?P<path>.+)", re.DOTALL)
 _CONFIG = re.compile(r"(?:^|/)(?:etc/[^/]+|[^/]*config[^/]*|[^/]+\.(?:conf|cfg|toml|ini))$", re.IGNORECASE)
 
 
-class Command(msgspec.Struct, frozen=True):
+class NodeCommand(msgspec.Struct, frozen=True):
     """`words` are the program and its arguments, without its configuration, which `config` names. `config_as` is the
     option that takes it, '' where it is an argument."""
 
@@ -52,7 +52,7 @@ class Command(msgspec.Struct, frozen=True):
         return (self.host, posixpath.normpath(self.folder), self.words, self.config)
 
 
-def parse(text: str, folder: str) -> Command | None:
+def parse(text: str, folder: str) -> NodeCommand | None:
     """A manager's `rcremote HOST TAB FOLDER PROGRAM ARGUMENTS…`, or a plain command that runs here, in `folder`; None
     where there is nothing to run."""
     remote = _REMOTE.fullmatch(text)
@@ -61,20 +61,20 @@ def parse(text: str, folder: str) -> Command | None:
     if not rest.strip() or (remote is None and text.split()[0] == "rcremote"):
         return None
     if _NEEDS_SHELL.search(_unquoted(rest)):
-        return Command(host, folder, ("sh", "-c", rest.strip()), in_shell=True)
+        return NodeCommand(host, folder, ("sh", "-c", rest.strip()), in_shell=True)
     words = _split(rest)
     return _with_config(host, folder, words) if words else None
 
 
-def _with_config(host: str, folder: str, words: tuple[str, ...]) -> Command:
+def _with_config(host: str, folder: str, words: tuple[str, ...]) -> NodeCommand:
     last = words[-1]
     option = _OPTION.fullmatch(last)
-    plain = Command(host, folder, words)
+    plain = NodeCommand(host, folder, words)
     if option and len(words) > 1:
-        return Command(host, folder, words[:-1], option["path"], option["option"])
+        return NodeCommand(host, folder, words[:-1], option["path"], option["option"])
     is_first = len(words) > 1 and words[-2] == plain.program and not last.startswith("-")
     if is_first and _CONFIG.search(last):
-        return Command(host, folder, words[:-1], last)
+        return NodeCommand(host, folder, words[:-1], last)
     return plain
 
 

@@ -11,12 +11,12 @@ import msgspec
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.document import data
 from robocomp_yaml.legacy.draft import ComponentDraft
-from robocomp_yaml.legacy.networks.command import Command
+from robocomp_yaml.legacy.networks.command import NodeCommand
 from robocomp_yaml.source.discover import of_kind
 from robocomp_yaml.source.heading import root_of
 
 
-class Known(msgspec.Struct, frozen=True):
+class KnownComponent(msgspec.Struct, frozen=True):
     """A component's document at `path`; `implements` and `requires` are interfaces, the latter by proxy name."""
 
     name: str
@@ -25,7 +25,7 @@ class Known(msgspec.Struct, frozen=True):
     requires: Mapping[str, str] = {}
 
 
-def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[Known]:
+def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[KnownComponent]:
     """Those that this run writes."""
     return [
         _known(chosen[file.path], data(file.draft.document))
@@ -33,7 +33,7 @@ def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[Known]
     ]  # fmt: skip
 
 
-def of_folder(folder: str, but: Iterable[str]) -> list[Known]:
+def of_folder(folder: str, but: Iterable[str]) -> list[KnownComponent]:
     """Those that stand below a folder, but for these paths."""
     skipped = {os.path.normpath(path) for path in but}
     found = []
@@ -45,7 +45,7 @@ def of_folder(folder: str, but: Iterable[str]) -> list[Known]:
     return found
 
 
-def match(command: Command, known: Iterable[Known]) -> Known | None:
+def match(command: NodeCommand, known: Iterable[KnownComponent]) -> KnownComponent | None:
     """The component that a command runs, by its name; of several, the one in the folder where it runs, else none."""
     same = [component for component in known if component.name.lower() == command.stem.lower()]
     if len(same) > 1:
@@ -54,7 +54,7 @@ def match(command: Command, known: Iterable[Known]) -> Known | None:
     return same[0] if len(same) == 1 else None
 
 
-def _known(path: str, content: Mapping[str, object]) -> Known:
+def _known(path: str, content: Mapping[str, object]) -> KnownComponent:
     implements, requires = content.get("implements"), content.get("requires")
     needed: dict[str, str] = {}
     for item in requires if isinstance(requires, list) else []:
@@ -63,4 +63,6 @@ def _known(path: str, content: Mapping[str, object]) -> Known:
             needed[str(name)] = str(told).rpartition(".")[2]
     served = implements if isinstance(implements, list) else []
     names = [str(next(iter(item), "")) if isinstance(item, dict) else str(item) for item in served]
-    return Known(str(content.get("component", "")), path, tuple(name.rpartition(".")[2] for name in names), needed)
+    return KnownComponent(
+        str(content.get("component", "")), path, tuple(name.rpartition(".")[2] for name in names), needed
+    )

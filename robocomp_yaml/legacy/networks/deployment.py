@@ -11,20 +11,20 @@ import msgspec
 from robocomp_yaml.diag.codes import managers as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.digraph import reached
-from robocomp_yaml.legacy.document import Entry, List, Map, Notes, Raw
+from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Notes, Raw
 from robocomp_yaml.legacy.draft import DeploymentDraft
-from robocomp_yaml.legacy.ledger import Entry as LedgerEntry
+from robocomp_yaml.legacy.ledger import LedgerEntry
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
-from robocomp_yaml.legacy.networks.components import Known, match, of_folder, of_run
-from robocomp_yaml.legacy.networks.entries import COMMON, Site, component_entry, program_entry
-from robocomp_yaml.legacy.networks.node import NetworkDraft, Node, safe_name
+from robocomp_yaml.legacy.networks.components import KnownComponent, match, of_folder, of_run
+from robocomp_yaml.legacy.networks.entries import COMMON, Destination, component_entry, program_entry
+from robocomp_yaml.legacy.networks.node import NetworkDraft, NetworkNode, safe_name
 from robocomp_yaml.legacy.workspaces import Workspaces
 from robocomp_yaml.source.text import OF_NO_LINE
 
 _IP = re.compile(r"[\d.:]+")
 
 
-def settle(good: Sequence[LedgerEntry], chosen: Mapping[str, str], workspaces: Workspaces) -> dict[str, Map]:
+def build_deployments(good: Sequence[LedgerEntry], chosen: Mapping[str, str], workspaces: Workspaces) -> dict[str, Map]:
     """The document of each network among these files, all of which become documents, by the file's path."""
     made: dict[str, Map] = {}
     networks = [(entry, entry.file.draft) for entry in good if isinstance(entry.file.draft, DeploymentDraft)]
@@ -32,7 +32,7 @@ def settle(good: Sequence[LedgerEntry], chosen: Mapping[str, str], workspaces: W
         return made
     migrated = of_run((entry.file for entry in good), chosen)
     documents = {os.path.realpath(path): document for path, document in chosen.items()}
-    there: dict[str, list[Known]] = {}
+    there: dict[str, list[KnownComponent]] = {}
     for entry, draft in networks:
         rules = entry.file.rules
         assert rules is not None
@@ -42,24 +42,24 @@ def settle(good: Sequence[LedgerEntry], chosen: Mapping[str, str], workspaces: W
             there[home] = of_folder(home, [known.path for known in migrated])
         name = safe_name(os.path.basename(document).removesuffix(rules.document))
         known = [*migrated, *there[home]]
-        builder = _Builder(name, draft.network, known, Site(document, documents), f"x-{rules.name}")
+        builder = _DeploymentBuilder(name, draft.network, known, Destination(document, documents), f"x-{rules.name}")
         made[entry.file.path] = builder.document()
         entry.diagnostics += builder.said
     return made
 
 
-class _Builder(msgspec.Struct, eq=False):
+class _DeploymentBuilder(msgspec.Struct, eq=False):
     """The document of the network of a name, which starts some of the components known. What only an exporter needs
     stands under `key`."""
 
     name: str
     network: NetworkDraft
-    known: Sequence[Known]
-    site: Site
+    known: Sequence[KnownComponent]
+    site: Destination
     key: str
     said: list[Diagnostic] = []
-    by_alias: dict[str, Node] = {}
-    owners: dict[str, Node] = {}
+    by_alias: dict[str, NetworkNode] = {}
+    owners: dict[str, NetworkNode] = {}
     """By the name of a node, the node whose process it is too."""
     waits: dict[str, set[str]] = {}
     """By the name of a process's first node, those that it waits for."""
@@ -79,8 +79,8 @@ class _Builder(msgspec.Struct, eq=False):
         document.put("deployment", self.name, Notes(notes.head, notes.tail))
         users = self.network.users
         for address, name in hosts.items():
-            user = [Entry("user", users[address])] if address in users else []
-            listed.put(name, Map([Entry("address", address), *user]))
+            user = [DocumentEntry("user", users[address])] if address in users else []
+            listed.put(name, Map([DocumentEntry("address", address), *user]))
         document.put_some("hosts", listed)
         for node in nodes:
             self.judge(node)
@@ -98,7 +98,7 @@ class _Builder(msgspec.Struct, eq=False):
         document.entries[-1].notes.foot += notes.foot
         return document
 
-    def is_started(self, node: Node) -> bool:
+    def is_started(self, node: NetworkNode) -> bool:
         if node.command is None:
             reason = "it has no command that names a program"
         elif any(map(OF_NO_LINE.search, (node.command.folder, node.command.words[0], node.command.config))):
@@ -108,8 +108,8 @@ class _Builder(msgspec.Struct, eq=False):
         self.said.append(codes.NOT_STARTED.at(node.span, name=node.alias, reason=reason))
         return False
 
-    def find_owners(self, running: Sequence[Node]) -> None:
-        first: dict[tuple[object, ...], Node] = {}
+    def find_owners(self, running: Sequence[NetworkNode]) -> None:
+        first: dict[tuple[object, ...], NetworkNode] = {}
         for node in running:
             if node.command is None or (node.endpoint is not None and node.endpoint.is_storm):
                 continue
@@ -126,7 +126,7 @@ class _Builder(msgspec.Struct, eq=False):
             names = {self.owners.get(target.name, target).name for target in targets} - {owner}
             self.waits.setdefault(owner, set()).update(names)
 
-    def hosts(self, running: Sequence[Node]) -> dict[str, str]:
+    def hosts(self, running: Sequence[NetworkNode]) -> dict[str, str]:
         """The name of each host by its address; none where everything runs here."""
         addresses = dict.fromkeys(_address(node) for node in running)
         if set(addresses) <= {LOCAL}:
@@ -137,7 +137,7 @@ class _Builder(msgspec.Struct, eq=False):
             names[address] = safe_name(wanted, names.values())
         return names
 
-    def judge(self, node: Node) -> None:
+    def judge(self, node: NetworkNode) -> None:
         """What is odd about a node, though the document can say it."""
         command, endpoint = node.command, node.endpoint
         if command is not None and command.in_shell:
@@ -157,7 +157,7 @@ class _Builder(msgspec.Struct, eq=False):
             problem = f"'{node.alias}' is started on {_address(node)}, but its endpoint is on {endpoint.host}"
             self.said.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
 
-    def service(self, node: Node, hosts: dict[str, str]) -> Map:
+    def service(self, node: NetworkNode, hosts: dict[str, str]) -> Map:
         storm, made = Map(), Map()
         if hosts:
             storm.put("host", hosts[_address(node)])
@@ -166,7 +166,7 @@ class _Builder(msgspec.Struct, eq=False):
         made.put("icestorm", storm)
         return made
 
-    def keep(self, kept: Map, node: Node) -> None:
+    def keep(self, kept: Map, node: NetworkNode) -> None:
         """All that is said of a node which is no entry of `components:`."""
         if node.after:
             self.keep_dependences(node)
@@ -174,7 +174,7 @@ class _Builder(msgspec.Struct, eq=False):
                 node.extra.entries[-1].notes.add(notes)
         kept.put(node.name, node.extra, Notes() if node.command is not None else node.notes)
 
-    def entry(self, node: Node, hosts: dict[str, str]) -> Map:
+    def entry(self, node: NetworkNode, hosts: dict[str, str]) -> Map:
         owner = self.owners.get(node.name)
         if owner is not None:
             if node.after:
@@ -192,7 +192,7 @@ class _Builder(msgspec.Struct, eq=False):
             self.said.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
         return made
 
-    def after(self, node: Node) -> List:
+    def after(self, node: NetworkNode) -> List:
         """The entries that a process waits for: those of all its names, but for itself."""
         listed, is_plain = List(), True
         second = [other for other in self.network.nodes if self.owners.get(other.name) is node]
@@ -212,22 +212,22 @@ class _Builder(msgspec.Struct, eq=False):
             self.keep_dependences(node)
         return listed
 
-    def is_in_circle(self, node: Node) -> bool:
+    def is_in_circle(self, node: NetworkNode) -> bool:
         """Whether it waits, by way of others, for itself: a deployment passes over one of these dependences."""
         waits = self.waits
         return node.name in reached(waits.get(node.name, ()), lambda name: waits.get(name, ()))
 
-    def keep_dependences(self, node: Node) -> None:
+    def keep_dependences(self, node: NetworkNode) -> None:
         """The dependences as the file has them, where `after:` does not say the same."""
         node.extra.put("dependence", List.of(alias for alias, _, _ in node.after))
 
 
-def _spellings(known: Sequence[Known]) -> dict[str, str]:
+def _spellings(known: Sequence[KnownComponent]) -> dict[str, str]:
     """Interfaces as components spell them, by their identities."""
     names = [COMMON, *(name for item in known for name in (*item.implements, *item.requires.values()))]
     return {name.lower(): name for name in names}
 
 
-def _address(node: Node) -> str:
+def _address(node: NetworkNode) -> str:
     host = node.command.host if node.command is not None else LOCAL
     return LOCAL if host in LOOPBACK else host

@@ -15,7 +15,7 @@ _INTERFACE = re.compile(r"[_A-Za-z][A-Za-z0-9_]*(\.[A-Za-z0-9_]+)?")  # a key of
 _PROTOCOLS = frozenset(("tcp", "udp", "ssl", "default", "ws", "wss"))
 
 
-class Endpoint(msgspec.Struct, frozen=True):
+class NodeEndpoint(msgspec.Struct, frozen=True):
     """`options` are those but host and port, as they are spelled."""
 
     identity: str
@@ -38,7 +38,7 @@ class Endpoint(msgspec.Struct, frozen=True):
         return f"{self.identity}:{self.protocol} -h {spelled_host(host)} -p {self.port} {self.options}".rstrip()
 
 
-def parse(text: str) -> Endpoint | None:
+def parse(text: str) -> NodeEndpoint | None:
     """None for what is no proxy with one address, names no port, or has an identity that no interface can have."""
     found = proxy_at(text)
     if found is None or found.options or found.unknown or len(found.endpoints) != 1:
@@ -49,4 +49,4 @@ def parse(text: str) -> Endpoint | None:
         return None
     if "--sourceAddress" in where.options or OF_NO_LINE.search(where.options):  # nothing that an adapter can have
         return None
-    return Endpoint(found.identity, where.protocol, where.port, where.host, where.options)
+    return NodeEndpoint(found.identity, where.protocol, where.port, where.host, where.options)

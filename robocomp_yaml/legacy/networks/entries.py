@@ -8,15 +8,15 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.legacy.document import Entry, List, Map, Raw
-from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, Command
-from robocomp_yaml.legacy.networks.components import Known
-from robocomp_yaml.legacy.networks.node import Node
+from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Raw
+from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, NodeCommand
+from robocomp_yaml.legacy.networks.components import KnownComponent
+from robocomp_yaml.legacy.networks.node import NetworkNode
 
 COMMON = "CommonBehavior"
 
 
-class Site(msgspec.Struct, frozen=True):
+class Destination(msgspec.Struct, frozen=True):
     """Where a document will stand, and what each legacy file of the run becomes (by its real path)."""
 
     document: str
@@ -27,7 +27,7 @@ class Site(msgspec.Struct, frozen=True):
         return os.path.dirname(self.document) or "."
 
 
-def program_entry(node: Node, host: str, after: List, key: str, *, process: str = "") -> Map:
+def program_entry(node: NetworkNode, host: str, after: List, key: str, *, process: str = "") -> Map:
     made = Map(block=True)
     command = node.command
     if process:
@@ -38,13 +38,19 @@ def program_entry(node: Node, host: str, after: List, key: str, *, process: str 
         made.put_some("cwd", command.folder, node.by_key.get("cwd"))
         made.put_some("args", List.of(command.full[1:]))
     if node.endpoint is not None:
-        endpoints = Map([Entry(node.interface, node.endpoint.text)])
+        endpoints = Map([DocumentEntry(node.interface, node.endpoint.text)])
         made.put("endpoints", endpoints, node.by_key.get("endpoints"))
     return _closed(made, node, after, key)
 
 
 def component_entry(
-    node: Node, component: Known, host: str, after: List, key: str, site: Site, depends: Sequence[Node]
+    node: NetworkNode,
+    component: KnownComponent,
+    host: str,
+    after: List,
+    key: str,
+    site: Destination,
+    depends: Sequence[NetworkNode],
 ) -> tuple[Map, str]:
     """The entry, and what is odd about its endpoint, or ''."""
     command = node.command
@@ -70,7 +76,7 @@ def component_entry(
     return _closed(made, node, after, key), problem
 
 
-def _ports(made: Map, node: Node, component: Known) -> str:
+def _ports(made: Map, node: NetworkNode, component: KnownComponent) -> str:
     endpoint = node.endpoint
     assert endpoint is not None
     served = [*component.implements, COMMON]
@@ -80,15 +86,15 @@ def _ports(made: Map, node: Node, component: Known) -> str:
     port = Raw(str(endpoint.port))
     notes = node.by_key.get("endpoints")
     if endpoint.options or endpoint.protocol not in ("tcp", "default"):
-        made.put("endpoints", Map([Entry(name, endpoint.text)]), notes)
+        made.put("endpoints", Map([DocumentEntry(name, endpoint.text)]), notes)
     elif name == served[0]:
         made.put("port", port, notes)
     else:
-        made.put("ports", Map([Entry(name, port)]), notes)
+        made.put("ports", Map([DocumentEntry(name, port)]), notes)
     return ""
 
 
-def _config(command: Command, home: str, site: Site) -> str:
+def _config(command: NodeCommand, home: str, site: Destination) -> str:
     """The component's configuration from its folder: what this run makes of it, where it makes something."""
     below = _below(command.config, command.folder, home)
     if not below:
@@ -106,7 +112,7 @@ def _below(path: str, folder: str, home: str) -> str:
     return inner if found else ""
 
 
-def _closed(made: Map, node: Node, after: List, key: str) -> Map:
+def _closed(made: Map, node: NetworkNode, after: List, key: str) -> Map:
     """The entry with what it waits for, and with what only an exporter needs and cannot know otherwise."""
     made.put_some("after", after)
     known = _known_anyway(node, made)
@@ -118,7 +124,7 @@ def _closed(made: Map, node: Node, after: List, key: str) -> Map:
     return made
 
 
-def _known_anyway(node: Node, made: Map) -> dict[str, str]:
+def _known_anyway(node: NetworkNode, made: Map) -> dict[str, str]:
     """What an exporter says where nothing is kept."""
     command, known = node.command, dict[str, str]()
     if command is not None and any(entry.key == "cwd" for entry in made.entries):

@@ -9,15 +9,15 @@ import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import Map, Notes
-from robocomp_yaml.legacy.networks.command import Command
-from robocomp_yaml.legacy.networks.endpoint import Endpoint
+from robocomp_yaml.legacy.networks.command import NodeCommand
+from robocomp_yaml.legacy.networks.endpoint import NodeEndpoint
 from robocomp_yaml.legacy.settings.headers import free
 
 _NO_NAME = re.compile(r"[^A-Za-z0-9_-]+[^A-Za-z0-9_]*")
 _LONGEST = 100
 
 
-class Node(msgspec.Struct, eq=False):
+class NetworkNode(msgspec.Struct, eq=False):
     """`alias` is its name in the file, `name` that in the document. `command` is None where nothing starts it.
     `interface` is what its endpoint is called. `after` are the aliases that it depends on. `extra` is what only an
     exporter needs. `by_key` are comments by the key that they belong to."""
@@ -25,8 +25,8 @@ class Node(msgspec.Struct, eq=False):
     alias: str
     name: str
     span: Span
-    command: Command | None = None
-    endpoint: Endpoint | None = None
+    command: NodeCommand | None = None
+    endpoint: NodeEndpoint | None = None
     endpoint_span: Span = msgspec.field(default_factory=lambda: Span(""))
     interface: str = ""
     after: list[tuple[str, Span, Notes]] = []
@@ -40,7 +40,7 @@ class Node(msgspec.Struct, eq=False):
 class NetworkDraft(msgspec.Struct, eq=False):
     """`users` are the names for ssh by host; `extra` is what only an exporter needs of the network as such."""
 
-    nodes: list[Node] = []
+    nodes: list[NetworkNode] = []
     users: dict[str, str] = {}
     notes: Notes = msgspec.field(default_factory=Notes)
     extra: Map = msgspec.field(default_factory=Map)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 
-from robocomp_yaml.legacy.settings.plan import Config, Plan
-from robocomp_yaml.legacy.settings.planning import give_back
-from robocomp_yaml.legacy.settings.shapes import Scalar
+from robocomp_yaml.legacy.settings.plan import Config, ParameterPlan
+from robocomp_yaml.legacy.settings.planning import keep_as_properties
+from robocomp_yaml.legacy.settings.shapes import ScalarShape
 from robocomp_yaml.parameters.types import BASIC_TYPES
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.disk import names_in
@@ -47,16 +47,16 @@ def _plain(members: object, prefix: str) -> Iterator[tuple[str, str]]:
                 yield f"{prefix}{name}", str(kind)
 
 
-def fitted(plans: Sequence[Plan], known: Mapping[str, str], configs: Sequence[Config]) -> list[Plan]:
+def fitted(plans: Sequence[ParameterPlan], known: Mapping[str, str], configs: Sequence[Config]) -> list[ParameterPlan]:
     """The plans that are declared, by their declared types; what the others hold goes back to the configs."""
     kept = []
     for plan in plans:
         kind = known.get(".".join(plan.path))
         if plan.built_in and plan.spelled is None:
             kept.append(plan)
-        elif kind is not None and plan.spelled is None and isinstance(plan.shape, Scalar):
-            plan.shape, plan.guessed = Scalar(kind), ""
+        elif kind is not None and plan.spelled is None and isinstance(plan.shape, ScalarShape):
+            plan.shape, plan.guessed = ScalarShape(kind), ""
             kept.append(plan)
         else:
-            give_back(plan, configs)
+            keep_as_properties(plan, configs)
     return kept

@@ -54,14 +54,14 @@ class Setting(msgspec.Struct, frozen=True):
         return self.value.text if isinstance(self.value, Leaf) else ""
 
 
-class Settings(msgspec.Struct, frozen=True):
+class ConfigSettings(msgspec.Struct, frozen=True):
     """A whole config: `settings` in the order of the file, each key once."""
 
     dialect: str
     settings: list[Setting] = []
 
 
-def settle_head(found: Settings, around: Notes) -> None:
+def assign_head_comments(found: ConfigSettings, around: Notes) -> None:
     """Comments at the top of a file that stand close to the first entry are that entry's."""
     if found.settings:
         last = max((at for at, line in enumerate(around.head) if not line), default=-1)

@@ -10,9 +10,9 @@ import msgspec
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.settings.entries import Item, Leaf, Setting, Tree, guess
 from robocomp_yaml.legacy.settings.headers import Column, columns, sanitized, unique
-from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan
+from robocomp_yaml.legacy.settings.plan import Config, Corrections, ParameterPlan, Path, PlannedValue
 from robocomp_yaml.legacy.settings.rows import are_rows, joiner
-from robocomp_yaml.legacy.settings.sorting import Named
+from robocomp_yaml.legacy.settings.sorting import NamedSetting
 from robocomp_yaml.semantics.rows import split
 from robocomp_yaml.semantics.spellings import Spelling
 
@@ -25,7 +25,7 @@ class _Row(msgspec.Struct, frozen=True):
     config: Config
     setting: Setting
     index: str
-    named: Named | None = None
+    named: NamedSetting | None = None
     """The proxy that the setting is, too."""
 
 
@@ -33,7 +33,7 @@ _Numbers = tuple[tuple[str, tuple[int, ...]], ...]
 Stems = dict[str, dict[str, list[_Row]]]
 
 
-def families(configs: Sequence[Config], guesses: Guesses) -> Iterator[Plan]:
+def families(configs: Sequence[Config], guesses: Corrections) -> Iterator[ParameterPlan]:
     """The plans of all families; their settings are taken out of the configs."""
     yield from _ranges(configs)
     stems = _stems(configs)
@@ -52,7 +52,7 @@ def _stems(configs: Sequence[Config], pattern: re.Pattern[str] = _INDEXED, proxi
     found: Stems = {}
     spoilt: set[str] = set()
     for config in configs:
-        entries: list[tuple[Setting, Named | None]] = [(setting, None) for setting in config.parameters]
+        entries: list[tuple[Setting, NamedSetting | None]] = [(setting, None) for setting in config.parameters]
         if proxies:
             entries += [(named.setting, named) for named in config.sorted.proxies]
         for setting, named in entries:
@@ -78,7 +78,9 @@ def _numbering(groups: Sequence[list[_Row]]) -> int | None:
     return first if first <= 1_000_000 else None
 
 
-def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Config], guesses: Guesses) -> Plan | None:
+def _records(
+    stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Config], guesses: Corrections
+) -> ParameterPlan | None:
     """Rows of columns."""
     groups = list(by_config.values())
     first = _numbering(groups)
@@ -88,7 +90,7 @@ def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Conf
     if titles is None:
         return None if first is None else _texts(stem, by_config, first)
     names, origin = titles
-    plan = Plan(_path(stem), docs=tuple(names), guessed=_why(stem, origin, names, guesses))
+    plan = ParameterPlan(_path(stem), docs=tuple(names), guessed=_why(stem, origin, names, guesses))
     plan.is_unnamed = not origin
     texts = [row.setting.text for group in groups for row in group]
     keyed = first is None
@@ -107,7 +109,7 @@ def _records(stem: str, by_config: dict[str, list[_Row]], configs: Sequence[Conf
     return _filled(plan, by_config, record)
 
 
-def _titles(stem: str, groups: Sequence[list[_Row]], guesses: Guesses) -> tuple[list[Column], str] | None:
+def _titles(stem: str, groups: Sequence[list[_Row]], guesses: Corrections) -> tuple[list[Column], str] | None:
     """The columns of all rows. Configs of several versions of a component differ: where those of one are the first ones
     of the other, the rest is optional. None where nothing fits all."""
     found: dict[int, tuple[list[Column], str]] = {}
@@ -126,19 +128,19 @@ def _titles(stem: str, groups: Sequence[list[_Row]], guesses: Guesses) -> tuple[
     return names, origin
 
 
-def _texts(stem: str, by_config: dict[str, list[_Row]], first: int) -> Plan:
+def _texts(stem: str, by_config: dict[str, list[_Row]], first: int) -> ParameterPlan:
     """Rows that differ in their columns, as a list of texts."""
-    plan = Plan(_path(stem), spelled=Spelling(f"{stem}{{i}}", first=first), is_unnamed=True)
+    plan = ParameterPlan(_path(stem), spelled=Spelling(f"{stem}{{i}}", first=first), is_unnamed=True)
     plan.guessed = f"the rows {stem}… have different columns, so they are kept as texts"
     return _filled(plan, by_config, lambda row: Leaf(row.setting.text))
 
 
-def _filled(plan: Plan, by_config: dict[str, list[_Row]], value: Callable[[_Row], Tree]) -> Plan:
+def _filled(plan: ParameterPlan, by_config: dict[str, list[_Row]], value: Callable[[_Row], Tree]) -> ParameterPlan:
     """The plan with a value for each row, in the order of their numbers."""
     for name, group in by_config.items():
         rows = sorted(group, key=lambda row: int(row.index))
         items = [Item(value(row), row.setting.notes) for row in rows]
-        plan.given[name] = Given(Item(items), [row.setting for row in rows])
+        plan.given[name] = PlannedValue(Item(items), [row.setting for row in rows])
         for row in rows:
             _take(row)
     return plan
@@ -151,7 +153,7 @@ def _take(row: _Row) -> None:
         row.config.parameters.remove(row.setting)
 
 
-def _why(stem: str, origin: str, names: Sequence[Column], guesses: Guesses) -> str:
+def _why(stem: str, origin: str, names: Sequence[Column], guesses: Corrections) -> str:
     """What was guessed; nothing where the user said it."""
     told = ", ".join(column.name for column in names)
     wrong = guesses.names.get(stem) or guesses.names.get(stem.rstrip("_.-"))
@@ -177,14 +179,16 @@ def _path(stem: str) -> Path:
     return tuple(parts) or ("rows",)
 
 
-def _ranges(configs: Sequence[Config]) -> Iterator[Plan]:
+def _ranges(configs: Sequence[Config]) -> Iterator[ParameterPlan]:
     """Ranges in the key: `ID:0-10 = 100`."""
     for stem, by_config in _stems(configs, _RANGE).items():
         rows = [row for group in by_config.values() for row in group]
         if not _is_alone(stem, by_config, configs) or any("," in row.setting.text for row in rows):
             continue
         name = unique(["from", "to", _value_name(by_config)])[-1]
-        plan = Plan(_path(re.sub(r"\W+\Z", "", stem)), guessed=f"what the ranges {stem}… are for is called {name}")
+        plan = ParameterPlan(
+            _path(re.sub(r"\W+\Z", "", stem)), guessed=f"what the ranges {stem}… are for is called {name}"
+        )
         plan.spelled = Spelling(f"{stem}{{from}}-{{to}}", columns=(name,))
 
         def record(row: _Row, name: str = name) -> dict[str, Item]:
@@ -203,7 +207,7 @@ def _value_name(by_config: dict[str, list[_Row]]) -> str:
     return sanitized(words[-1]) if 0 < len(words) <= 3 and words[-1].isalpha() else "value"
 
 
-def _parallel(configs: Sequence[Config]) -> Iterator[Plan]:
+def _parallel(configs: Sequence[Config]) -> Iterator[ParameterPlan]:
     """Several keys with the same numbers, one for each field: `rx_0`, `ry_0`, `rx_1`, `ry_1`."""
     alike: dict[tuple[str, _Numbers], list[str]] = {}
     stems = _stems(configs, proxies=True)
@@ -221,13 +225,15 @@ def _parallel(configs: Sequence[Config]) -> Iterator[Plan]:
         yield _fields(group, names, stems, count, configs)
 
 
-def _fields(group: str, names: list[str], stems: Stems, count: str, configs: Sequence[Config]) -> Plan:
+def _fields(group: str, names: list[str], stems: Stems, count: str, configs: Sequence[Config]) -> ParameterPlan:
     bare = [name.rpartition(".")[2] if group else name for name in names]
     fields = unique([sanitized(name) for name in bare])
     title = count or "_".join(field.strip("_") for field in fields[:3])
     path = (*(group.split(".") if group else ()), title)
     told = ", ".join(fields)
-    plan = Plan(path, guessed=f"{', '.join(names)} count alike, so they are fields of one list, {title}: {told}")
+    plan = ParameterPlan(
+        path, guessed=f"{', '.join(names)} count alike, so they are fields of one list, {title}: {told}"
+    )
     groups = list(stems[names[0]].values())
     plan.spelled = Spelling(
         fields=tuple((field, f"{name}{{i}}") for field, name in zip(fields, names, strict=True)),
@@ -236,7 +242,7 @@ def _fields(group: str, names: list[str], stems: Stems, count: str, configs: Seq
     for config in configs:
         if config.name not in stems[names[0]]:
             continue
-        given, records = Given(Item([])), dict[int, dict[str, Item]]()
+        given, records = PlannedValue(Item([])), dict[int, dict[str, Item]]()
         for field, name in zip(fields, names, strict=True):
             for row in stems[name][config.name]:
                 records.setdefault(int(row.index), {})[field] = Item(guess(row.setting.text), row.setting.notes)

@@ -11,40 +11,40 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import Map, data
 from robocomp_yaml.legacy.draft import ComponentDraft, ConfigDraft, ParametersDraft, ValuesDraft
-from robocomp_yaml.legacy.ledger import Entry
+from robocomp_yaml.legacy.ledger import LedgerEntry
 from robocomp_yaml.legacy.settings import declared
-from robocomp_yaml.legacy.settings.sorting import Ports
+from robocomp_yaml.legacy.settings.sorting import PortNames
 from robocomp_yaml.source.disk import names_in
 from robocomp_yaml.source.heading import component_in
 
 
-class Component(msgspec.Struct, eq=False):
+class ConfiguredComponent(msgspec.Struct, eq=False):
     """A component with its configs. `document`: its CDSL; '' where it has none, and is called as its config.
     `declared`: what the PDSL at `parameters` says already; None where it is to be inferred."""
 
     name: str
     document: str
     parameters: str
-    ports: Ports = Ports()
+    ports: PortNames = PortNames()
     declared: declared.Types | None = None
-    configs: list[Entry] = []
+    configs: list[LedgerEntry] = []
 
 
-def first_half(path: str) -> str:
+def generic_config(path: str) -> str:
     """`generic_config` for `specific_config`: RoboComp's first generator split configs in two."""
     folder, name = os.path.split(path)
     return os.path.join(folder, name.replace("specific", "generic")) if "specific" in name else ""
 
 
-class Components:
+class ConfiguredComponents:
     def __init__(
-        self, good: Sequence[Entry], chosen: Mapping[str, str], is_ours: Callable[[Entry, str], bool]
+        self, good: Sequence[LedgerEntry], chosen: Mapping[str, str], is_ours: Callable[[LedgerEntry, str], bool]
     ) -> None:  # fmt: skip
         self.good, self.chosen, self.is_ours = good, chosen, is_ours
-        self.by_folder: dict[str, list[tuple[str, Component]]] = {}
+        self.by_folder: dict[str, list[tuple[str, ConfiguredComponent]]] = {}
         self.taken = set(chosen.values())
         self.listed: dict[str, list[str]] = {}
-        self.known: dict[str, Component] = {}
+        self.known: dict[str, ConfiguredComponent] = {}
         for file in (entry.file for entry in good):
             if isinstance(file.draft, ComponentDraft):
                 self._join(file.path, _of_cdsl(chosen[file.path], file.draft.document))
@@ -60,7 +60,7 @@ class Components:
                 named[os.path.basename(file.path)] = path
                 component = self._of(file.path)
                 if component is None:
-                    component = Component(name, "", path)
+                    component = ConfiguredComponent(name, "", path)
                     self._join(file.path, component)
                 elif component.document:
                     draft.entries[0].value = os.path.relpath(component.document, os.path.dirname(path) or ".")
@@ -76,15 +76,15 @@ class Components:
                 else:
                     entry.diagnostics.append(codes.NO_PDSL.at(Span(entry.file.path), name=wanted))
 
-    def all(self) -> list[Component]:
+    def all(self) -> list[ConfiguredComponent]:
         """The components that have configs."""
-        found: dict[Component, None] = {}
-        own: dict[str, Component] = {}
+        found: dict[ConfiguredComponent, None] = {}
+        own: dict[str, ConfiguredComponent] = {}
         configs = {entry.file.path: entry for entry in self.good if isinstance(entry.file.draft, ConfigDraft)}
         for config, entry in configs.items():
             component = self._of(config)
             if component is None:
-                first = first_half(config)
+                first = generic_config(config)
                 name = first if first in configs else config
                 if name not in own:
                     own[name] = self._of_its_own(config, name)
@@ -98,10 +98,10 @@ class Components:
             found[component] = None
         return list(found)
 
-    def _join(self, path: str, component: Component) -> None:
+    def _join(self, path: str, component: ConfiguredComponent) -> None:
         self.by_folder.setdefault(_folder(path), []).append((_stem(path), component))
 
-    def _of(self, file: str) -> Component | None:
+    def _of(self, file: str) -> ConfiguredComponent | None:
         """The component in a config's folder, or in the one above: the only one, or the one of its name."""
         here = _folder(file)
         for folder in (here, os.path.dirname(here)):
@@ -125,13 +125,13 @@ class Components:
         base = shown if folder == own else os.path.normpath(os.path.join(shown, os.pardir))
         return [os.path.normpath(os.path.join(base, name)) for name in self.listed[folder]]
 
-    def _written(self, path: str) -> Component:
+    def _written(self, path: str) -> ConfiguredComponent:
         if path not in self.known:
             name = component_in(path) or _stem(path)
-            self.known[path] = Component(name, path, os.path.join(os.path.dirname(path), f"{name}.pdsl.yaml"))
+            self.known[path] = ConfiguredComponent(name, path, os.path.join(os.path.dirname(path), f"{name}.pdsl.yaml"))
         return self.known[path]
 
-    def _of_its_own(self, file: str, named: str) -> Component:
+    def _of_its_own(self, file: str, named: str) -> ConfiguredComponent:
         """A component that has only its config: `config.new` is called so, `side.conf` is called `side`."""
         base = os.path.basename(named)
         stem = base.removesuffix(".conf")
@@ -140,7 +140,7 @@ class Components:
         while path in self.taken:
             path, number = os.path.join(folder, f"{base if number == 2 else number}.pdsl.yaml"), number + 1
         self.taken.add(path)
-        return Component(os.path.basename(path).removesuffix(".pdsl.yaml"), "", path)
+        return ConfiguredComponent(os.path.basename(path).removesuffix(".pdsl.yaml"), "", path)
 
 
 def _folder(path: str) -> str:
@@ -151,12 +151,12 @@ def _stem(path: str) -> str:
     return os.path.basename(path).split(".")[0].lower()
 
 
-def _of_cdsl(document: str, draft: Map) -> Component:
+def _of_cdsl(document: str, draft: Map) -> ConfiguredComponent:
     content = data(draft)
     ports = [_ports(content.get(part)) for part in ("implements", "requires", "publishes", "subscribes")]
     name = str(content["component"])
     parameters = os.path.join(os.path.dirname(document), f"{name}.pdsl.yaml")
-    return Component(name, document, parameters, Ports(ports[0], ports[1], ports[2] | ports[3]))
+    return ConfiguredComponent(name, document, parameters, PortNames(ports[0], ports[1], ports[2] | ports[3]))
 
 
 def _ports(listed: object) -> frozenset[str]:

@@ -7,7 +7,7 @@ from collections.abc import Container, Iterator, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
 
 REACH = 25
@@ -24,7 +24,7 @@ class Column(msgspec.Struct, frozen=True):
 
 
 def columns(
-    stem: str, arity: int, source: Source, line: int, rules: Rules, given: Mapping[str, Sequence[str]]
+    stem: str, arity: int, source: SourceText, line: int, rules: Rules, given: Mapping[str, Sequence[str]]
 ) -> tuple[list[Column], str]:
     """The columns of the rows `stem`0, `stem`1, … whose first one stands at a line, and where their names are from:
     `names`, `header`, `known`, or '' where nobody knows."""
@@ -41,7 +41,7 @@ def columns(
     return [Column(f"f{number}") for number in range(1, arity + 1)], ""
 
 
-def _comments_above(source: Source, line: int, stem: str) -> Iterator[str]:
+def _comments_above(source: SourceText, line: int, stem: str) -> Iterator[str]:
     """Comments above a line, the nearest first, without rows that are commented out."""
     row = re.compile(rf"[#~;\s]*{re.escape(stem)}\d+\s*=")
     for number in range(line - 1, max(line - 1 - REACH, 0), -1):

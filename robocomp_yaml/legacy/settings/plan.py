@@ -6,18 +6,18 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.legacy.settings.entries import Item, Setting
 from robocomp_yaml.legacy.settings.headers import Column
 from robocomp_yaml.legacy.settings.shapes import Shape
-from robocomp_yaml.legacy.settings.sorting import Sorted
+from robocomp_yaml.legacy.settings.sorting import SortedSettings
 from robocomp_yaml.semantics.spellings import Spelling
 
 Path = tuple[str, ...]
 
 
-class Guesses(msgspec.Struct, frozen=True):
+class Corrections(msgspec.Struct, frozen=True):
     """What the user knows better (`--names`, `--rules`): columns by the key of their rows, types by parameter, and
     keys whose values are plain text, no lists."""
 
@@ -30,16 +30,16 @@ class Config(msgspec.Struct, frozen=True):
     """One config of a component. `sorted` loses what becomes part of a plan."""
 
     name: str
-    source: Source
+    source: SourceText
     rules: Rules
-    sorted: Sorted
+    sorted: SortedSettings
 
     @property
     def parameters(self) -> list[Setting]:
         return self.sorted.parameters
 
 
-class Given(msgspec.Struct, frozen=True):
+class PlannedValue(msgspec.Struct, frozen=True):
     """A parameter's value in one config, and the settings that hold it there."""
 
     item: Item
@@ -50,11 +50,11 @@ class Given(msgspec.Struct, frozen=True):
         return min((setting.span.line for setting in self.settings), default=0)
 
 
-class Plan(msgspec.Struct):
+class ParameterPlan(msgspec.Struct):
     """A parameter. `built_in`: every component has it, so that no PDSL has to define it. `guessed` says what."""
 
     path: Path
-    given: dict[str, Given] = {}
+    given: dict[str, PlannedValue] = {}
     spelled: Spelling | None = None
     shape: Shape | None = None
     docs: tuple[Column, ...] = ()

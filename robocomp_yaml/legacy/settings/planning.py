@@ -9,7 +9,7 @@ from typing import Any
 from robocomp_yaml.legacy.settings.entries import INT, TOML, Item, Leaf, Setting, Tree, guess
 from robocomp_yaml.legacy.settings.families import families
 from robocomp_yaml.legacy.settings.headers import free, sanitized
-from robocomp_yaml.legacy.settings.plan import Config, Given, Guesses, Path, Plan
+from robocomp_yaml.legacy.settings.plan import Config, Corrections, ParameterPlan, Path, PlannedValue
 from robocomp_yaml.legacy.settings.rows import could_be_list, is_list, joiner, separators
 from robocomp_yaml.legacy.settings.shapes import becomes_text, retyped, shape_of
 from robocomp_yaml.semantics.rows import nested
@@ -25,7 +25,7 @@ _PERIODS = {
 _MEMBER = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]*\Z")
 
 
-def plans(configs: Sequence[Config], guesses: Guesses) -> list[Plan]:
+def plans(configs: Sequence[Config], guesses: Corrections) -> list[ParameterPlan]:
     """Each parameter of the component. What has no place among them stays in the configs, under `properties`."""
     found = list(families(configs, guesses))
     by_key: dict[Path, dict[str, Setting]] = {}
@@ -45,9 +45,9 @@ def plans(configs: Sequence[Config], guesses: Guesses) -> list[Plan]:
     return kept
 
 
-def _plan(path: Path, settings: dict[str, Setting], guesses: Guesses) -> Plan:
+def _plan(path: Path, settings: dict[str, Setting], guesses: Corrections) -> ParameterPlan:
     """A key of its own: a plain value, or a list in one property."""
-    plan = Plan(path)
+    plan = ParameterPlan(path)
     texts = {name: setting.text for name, setting in settings.items()}
     key = next(iter(settings.values())).key
     flat = all(isinstance(s.value, Leaf) and s.raw and not s.is_quoted for s in settings.values())
@@ -64,7 +64,7 @@ def _plan(path: Path, settings: dict[str, Setting], guesses: Guesses) -> Plan:
         )
     for name, setting in settings.items():
         value = _listed(nested(setting.text, between, len(between), True)) if plan.spelled else setting.value
-        plan.given[name] = Given(Item(value, setting.notes), [setting])
+        plan.given[name] = PlannedValue(Item(value, setting.notes), [setting])
     return plan
 
 
@@ -72,7 +72,7 @@ def _listed(texts: Any) -> Tree:
     return guess(texts) if isinstance(texts, str) else [Item(_listed(part)) for part in texts]
 
 
-def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
+def _placed(found: Sequence[ParameterPlan], configs: Sequence[Config]) -> Iterator[ParameterPlan]:
     """Plans with a path that is theirs alone, and a type. The others go back to the configs' `properties`."""
     taken: set[Path] = set()
     groups = {tuple(map(_legal, plan.path[:depth])) for plan in found for depth in range(1, len(plan.path))}
@@ -89,7 +89,7 @@ def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
         if plan.shape is not None and plan.spelled is not None and plan.path in taken | groups:
             plan.path = (*plan.path[:-1], free(f"{plan.path[-1]}_list", {path[-1] for path in taken | groups}))
         if plan.shape is None or plan.path in taken or (plan.path in groups and not plan.built_in):
-            give_back(plan, configs)
+            keep_as_properties(plan, configs)
             continue
         taken.add(plan.path)
         if plan.path != original and plan.spelled is None:
@@ -99,7 +99,7 @@ def _placed(found: Sequence[Plan], configs: Sequence[Config]) -> Iterator[Plan]:
     yield from sorted(kept, key=lambda plan: min((order[name], given.line) for name, given in plan.given.items()))
 
 
-def _is_period(plan: Plan) -> bool:
+def _is_period(plan: ParameterPlan) -> bool:
     """Whether a plan is one of the periods that every component has."""
     if plan.path not in _PERIODS or plan.spelled is not None:
         return False
@@ -113,7 +113,7 @@ def _legal(part: str) -> str:
     return sanitized(part)
 
 
-def give_back(plan: Plan, configs: Sequence[Config]) -> None:
+def keep_as_properties(plan: ParameterPlan, configs: Sequence[Config]) -> None:
     """What a plan holds becomes properties, as they are."""
     plan.shape = None
     for config in configs:

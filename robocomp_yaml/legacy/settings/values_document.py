@@ -6,17 +6,17 @@ from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
 
-from robocomp_yaml.legacy.document import Entry, Map, Value
+from robocomp_yaml.legacy.document import DocumentEntry, Map, Value
 from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, STRING, TOML, Leaf
-from robocomp_yaml.legacy.settings.plan import Config, Path, Plan
+from robocomp_yaml.legacy.settings.plan import Config, ParameterPlan, Path
 from robocomp_yaml.legacy.settings.rows import squeezed
 from robocomp_yaml.legacy.settings.shapes import plain, written
-from robocomp_yaml.legacy.settings.sorting import Named
+from robocomp_yaml.legacy.settings.sorting import NamedSetting
 from robocomp_yaml.semantics.rows import joined, nested, split
 from robocomp_yaml.semantics.texts import unquoted
 
 
-class Links(msgspec.Struct, frozen=True):
+class DocumentLinks(msgspec.Struct, frozen=True):
     """What a values document says of itself: its component, the file it was, and the document it comes after."""
 
     component: str
@@ -24,7 +24,7 @@ class Links(msgspec.Struct, frozen=True):
     after: str = ""
 
 
-def values_document(config: Config, plans: Sequence[Plan], links: Links, *, exact: bool) -> Map:
+def values_document(config: Config, plans: Sequence[ParameterPlan], links: DocumentLinks, *, exact: bool) -> Map:
     found, dialect = config.sorted, config.sorted.dialect
     document = Map(block=True)
     document.put("component", links.component)
@@ -41,33 +41,33 @@ def values_document(config: Config, plans: Sequence[Plan], links: Links, *, exac
     return document
 
 
-def _section(entries: Sequence[Named], value: Callable[[Named], Value]) -> Map:
-    return Map([Entry(named.name, value(named), named.setting.notes) for named in entries], block=True)
+def _section(entries: Sequence[NamedSetting], value: Callable[[NamedSetting], Value]) -> Map:
+    return Map([DocumentEntry(named.name, value(named), named.setting.notes) for named in entries], block=True)
 
 
-def _proxy(named: Named) -> Value:
+def _proxy(named: NamedSetting) -> Value:
     body = _text(named)
-    return Map([Entry("proxy", body), Entry("key", named.key)]) if named.key else body
+    return Map([DocumentEntry("proxy", body), DocumentEntry("key", named.key)]) if named.key else body
 
 
-def _text(named: Named) -> Value:
+def _text(named: NamedSetting) -> Value:
     return named.setting.text
 
 
-def _typed(named: Named) -> Value:
+def _typed(named: NamedSetting) -> Value:
     """A value as text where it stands in quotes, else as it is."""
     leaf = named.setting.value
     assert isinstance(leaf, Leaf)
     return plain(leaf, leaf.kind)
 
 
-def _verbatim(named: Named) -> str:
+def _verbatim(named: NamedSetting) -> str:
     leaf = named.setting.value
     assert isinstance(leaf, Leaf)
     return f'"{leaf.text}"' if leaf.kind == STRING else leaf.text
 
 
-def _parameters(config: Config, plans: Sequence[Plan]) -> Map:
+def _parameters(config: Config, plans: Sequence[ParameterPlan]) -> Map:
     """The values of one config, nested by their paths, in the order of the file."""
     own = [plan for plan in plans if config.name in plan.given]
     top = Map(block=True)
@@ -84,17 +84,17 @@ def _parameters(config: Config, plans: Sequence[Plan]) -> Map:
     return top
 
 
-def _legacy(config: Config, plans: Sequence[Plan], links: Links, exact: bool) -> Map:
+def _legacy(config: Config, plans: Sequence[ParameterPlan], links: DocumentLinks, exact: bool) -> Map:
     body = Map()
     body.put("file", links.file)
     body.put_some("dialect", config.sorted.dialect if config.sorted.dialect != CLASSIC else "")
     body.put_some("after", links.after)
     originals = _originals(config, plans, exact) if config.sorted.dialect != TOML else ()
-    body.put_some("exact", Map([Entry(key, raw) for key, raw in originals], block=True))
+    body.put_some("exact", Map([DocumentEntry(key, raw) for key, raw in originals], block=True))
     return body
 
 
-def _originals(config: Config, plans: Sequence[Plan], exact: bool) -> Iterator[tuple[str, str]]:
+def _originals(config: Config, plans: Sequence[ParameterPlan], exact: bool) -> Iterator[tuple[str, str]]:
     """Properties whose spelling the document would not give again; what differs in blanks only if asked for."""
     for plan in plans:
         given = plan.given.get(config.name)
@@ -125,7 +125,7 @@ def _originals(config: Config, plans: Sequence[Plan], exact: bool) -> Iterator[t
                 yield named.setting.key, raw
 
 
-def _requoted(raw: str, plan: Plan) -> str:
+def _requoted(raw: str, plan: ParameterPlan) -> str:
     """What flat TOML makes of a plain value: text stands in quotes."""
     shape = plan.shape
     kind = getattr(shape, "kind", "")

@@ -4,12 +4,24 @@ from __future__ import annotations
 
 import pytest
 
-from robocomp_yaml.legacy.document import TRUE, Doc, Entry, List, Map, Name, Notes, Raw, Value, text, tree
+from robocomp_yaml.legacy.document import (
+    TRUE,
+    Doc,
+    DocumentEntry,
+    List,
+    Map,
+    Notes,
+    Raw,
+    ReferredName,
+    Value,
+    text,
+    tree,
+)
 from robocomp_yaml.source.tree import Node, Scalar, parse
 
 
 def _map(**entries: Value) -> Map:
-    return Map([Entry(key, value) for key, value in entries.items()])
+    return Map([DocumentEntry(key, value) for key, value in entries.items()])
 
 
 @pytest.mark.parametrize(
@@ -17,13 +29,19 @@ def _map(**entries: Value) -> Map:
     [
         "speed", "", "007", "true", "~", "1e3", "a: b", "# no comment", "it's", 'a "quote"', "tab\tin it", "- item", "é\u2028ü",
         Raw("7"), Raw("-0x1F"), Raw(".5"), Raw("-.inf"), Raw("2000."), TRUE, None,
-        Name("RoboCompSpeech.Pose"), Doc("how fast it goes"),
+        ReferredName("RoboCompSpeech.Pose"), Doc("how fast it goes"),
         Map(), List(), List.of(["a", Raw("1"), None, List.of(["b"])]),
-        _map(type="float", default=Raw("1.50"), doc=Doc("half of it")), _map(struct=Map(block=True, entries=[Entry("x", "int")])),
+        _map(type="float", default=Raw("1.50"), doc=Doc("half of it")), _map(struct=Map(block=True, entries=[DocumentEntry("x", "int")])),
     ],
 )  # fmt: skip
 def test_its_tree_is_what_reading_its_text_gives(value: Value) -> None:
-    document = Map([Entry("first", "1"), Entry("on", value, Notes(head=["a comment"])), Entry("2d", _map(inner=value))])
+    document = Map(
+        [
+            DocumentEntry("first", "1"),
+            DocumentEntry("on", value, Notes(head=["a comment"])),
+            DocumentEntry("2d", _map(inner=value)),
+        ]
+    )
     read, said = parse("", text(document, Notes()))
     made = tree(document)
     assert read is not None

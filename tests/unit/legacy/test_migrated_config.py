@@ -11,7 +11,7 @@ from click.testing import Result
 
 from conftest import write_tree
 from robocomp_yaml.legacy.formats import recognize
-from robocomp_yaml.legacy.reading import Source
+from robocomp_yaml.legacy.reading import SourceText
 
 Run = Callable[..., Result]
 
@@ -376,5 +376,5 @@ def test_other_files_of_a_folder_are_left_alone(rcyaml: Run, tmp_path: Path) -> 
 
 
 def test_a_name_that_is_no_text_is_refused() -> None:
-    rules, (told,) = recognize(Source("config_\udce9", "A = 1\n"))
+    rules, (told,) = recognize(SourceText("config_\udce9", "A = 1\n"))
     assert rules is None and told.code == "RC5004" and "rename the file" in told.message

@@ -72,7 +72,7 @@ def test_control_characters_in_comments_are_escaped(tmp_path: Path) -> None:
 
 
 def test_places_in_a_text() -> None:
-    source = reading.Source("x", "ab\ncd\n\nñe")
+    source = reading.SourceText("x", "ab\ncd\n\nñe")
     assert source.lines == 4
     assert [source.line(at) for at in range(9)] == [1, 1, 1, 2, 2, 2, 3, 4, 4]
     span = source.span(4, 7)

@@ -9,7 +9,7 @@ import pytest
 from click.testing import Result
 
 from conftest import read_tree, write_tree
-from robocomp_yaml.legacy.upgrade import Change, changes, upgraded
+from robocomp_yaml.legacy.upgrade import KeyRename, changes, upgraded
 
 Run = Callable[..., Result]
 
@@ -59,7 +59,7 @@ def test_what_is_no_document_is_left_alone(rcyaml: Run, tmp_path: Path, text: st
 
 
 def test_keys_at_any_depth() -> None:
-    change = Change("pdsl", ("parameters", "*"), "least", "from", "it says more")
+    change = KeyRename("pdsl", ("parameters", "*"), "least", "from", "it says more")
     text = "parameters:\n  a: {least: 1}  # least\n  b:\n    least: 2\nleast: 3\n"
     made = upgraded("x.pdsl.yaml", "pdsl", text, [change])
     assert made.text == "parameters:\n  a: {from: 1}  # least\n  b:\n    from: 2\nleast: 3\n"

@@ -14,12 +14,12 @@ from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.legacy.document import Map, Notes
 from robocomp_yaml.legacy.document import text as document_text
-from robocomp_yaml.legacy.settings.grouping import first_half
+from robocomp_yaml.legacy.settings.grouping import generic_config
 from robocomp_yaml.legacy.settings.pdsl_document import pdsl_document
-from robocomp_yaml.legacy.settings.plan import Config, Plan
-from robocomp_yaml.legacy.settings.planning import give_back
-from robocomp_yaml.legacy.settings.sorting import Sorted
-from robocomp_yaml.legacy.settings.values_document import Links, values_document
+from robocomp_yaml.legacy.settings.plan import Config, ParameterPlan
+from robocomp_yaml.legacy.settings.planning import keep_as_properties
+from robocomp_yaml.legacy.settings.sorting import SortedSettings
+from robocomp_yaml.legacy.settings.values_document import DocumentLinks, values_document
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.parameters.resolution.resolve import resolve
 from robocomp_yaml.parameters.specification import build as build_parameters
@@ -32,11 +32,13 @@ from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.source.tree import Sequence as Sequence_
 
 
-def proven(planned: Sequence[Plan], configs: Sequence[Config], links: Mapping[str, Links]) -> list[Plan]:
+def accepted(
+    planned: Sequence[ParameterPlan], configs: Sequence[Config], links: Mapping[str, DocumentLinks]
+) -> list[ParameterPlan]:
     """The plans that hold. Each round moves what does not hold one step: to `properties`, or out of these."""
     kept = list(planned)
     while True:
-        draft = _Draft(kept, configs, links)
+        draft = _TrialDocuments(kept, configs, links)
         moved = [_move(fault, draft, kept, configs) for fault in draft.faults()]
         kept = [plan for plan in kept if plan.shape is not None]
         if not any(moved):
@@ -53,10 +55,12 @@ class _Fault(msgspec.Struct, frozen=True):
     path: str
 
 
-class _Draft:
+class _TrialDocuments:
     """The documents as they would be written."""
 
-    def __init__(self, plans: Sequence[Plan], configs: Sequence[Config], links: Mapping[str, Links]) -> None:
+    def __init__(
+        self, plans: Sequence[ParameterPlan], configs: Sequence[Config], links: Mapping[str, DocumentLinks]
+    ) -> None:
         self.trees: dict[str, Node | None] = {}
         self.said: list[Diagnostic] = []
         root = self._tree("", "pdsl", pdsl_document("component", plans))
@@ -71,7 +75,9 @@ class _Draft:
             node = self._tree(config.name, "config", values_document(config, plans, links[config.name], exact=False))
             if node is not None:
                 documents[config.name] = build_parameters.build_values(node, config.name)
-        bases = {name: first_half(name) for name in documents if links[name].after and first_half(name) in documents}
+        bases = {
+            name: generic_config(name) for name in documents if links[name].after and generic_config(name) in documents
+        }
         first = {
             name: LinkedValues(document, parameters=linked, is_extended=name in bases.values())
             for name, document in documents.items()
@@ -103,7 +109,7 @@ class _Draft:
             for said in self.said if said.severity == ERROR
         ]  # fmt: skip
 
-    def types_of(self, plan: Plan) -> set[str]:
+    def types_of(self, plan: ParameterPlan) -> set[str]:
         """The names of types that stand at a plan's place."""
         node: Node | None = self.trees.get("")
         steps = ["parameters", *(step for part in plan.path for step in (part, "group"))][:-1]
@@ -112,7 +118,7 @@ class _Draft:
         return {inner.lexeme for inner in tree.below(node) if isinstance(inner, Scalar)} if node is not None else set()
 
 
-def _move(fault: _Fault, draft: _Draft, plans: Sequence[Plan], configs: Sequence[Config]) -> bool:
+def _move(fault: _Fault, draft: _TrialDocuments, plans: Sequence[ParameterPlan], configs: Sequence[Config]) -> bool:
     """Whether something went another way that could be at fault."""
     if fault.config:
         found = next(config.sorted for config in configs if config.name == fault.config)
@@ -122,11 +128,11 @@ def _move(fault: _Fault, draft: _Draft, plans: Sequence[Plan], configs: Sequence
             return _keep(fault, found)
     moved = [plan for plan in _blamed(fault, draft, plans) if plan.shape is not None]
     for plan in moved:
-        give_back(plan, configs)
+        keep_as_properties(plan, configs)
     return bool(moved)
 
 
-def _blamed(fault: _Fault, draft: _Draft, plans: Sequence[Plan]) -> list[Plan]:
+def _blamed(fault: _Fault, draft: _TrialDocuments, plans: Sequence[ParameterPlan]) -> list[ParameterPlan]:
     section, *steps = (*fault.keys, "")
     path = tuple(steps[:-1])
     if section == "types" and path:
@@ -146,7 +152,7 @@ def _blamed(fault: _Fault, draft: _Draft, plans: Sequence[Plan]) -> list[Plan]:
 _SECTIONS = ("endpoints", "proxies", "topics", "ice")
 
 
-def _keep(fault: _Fault, found: Sorted) -> bool:
+def _keep(fault: _Fault, found: SortedSettings) -> bool:
     """What stands in a section becomes a property."""
     for section in (found.endpoints, found.proxies, found.manager, found.prefixes, found.names, found.ice):
         for named in section:
@@ -157,7 +163,7 @@ def _keep(fault: _Fault, found: Sorted) -> bool:
     return False
 
 
-def _lose(fault: _Fault, found: Sorted) -> bool:
+def _lose(fault: _Fault, found: SortedSettings) -> bool:
     for named in found.properties:
         if named.name == fault.keys[1]:
             found.properties.remove(named)
