@@ -1,4 +1,4 @@
-"""Where each comment of a legacy file belongs: above, at the end of, or below a construct, or into its `doc:`."""
+"""Assign each comment of a legacy file to a construct: above it, at its end, below it, or in its `doc:`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _BEHIND = re.compile(r"///<|/\*\*<")
 
 
 class _Construct(msgspec.Struct, eq=False):
-    """A construct that comments can belong to; `parent` is the one around it."""
+    """A construct that can have comments. `parent` is the construct that contains it."""
 
     start: int
     end: int
@@ -31,15 +31,15 @@ class _Construct(msgspec.Struct, eq=False):
 
 
 class PlacedComments(msgspec.Struct, frozen=True):
-    """The notes of each construct, by its rule and its place, and those around the whole file."""
+    """The comments of each construct, by its rule and location, and those around the whole file."""
 
-    by_place: dict[tuple[str, int, int], Notes] = {}
+    by_construct: dict[tuple[str, int, int], Notes] = {}
     around: Notes = msgspec.field(default_factory=Notes)
     diagnostics: list[Diagnostic] = []
 
     def of(self, tree: Tree[Token]) -> Notes:
-        found = None if tree.meta.empty else self.by_place.get(_key(tree))
-        return Notes() if found is None else found
+        notes = None if tree.meta.empty else self.by_construct.get(_key(tree))
+        return Notes() if notes is None else notes
 
 
 def _key(tree: Tree[Token]) -> tuple[str, int, int]:
@@ -48,69 +48,75 @@ def _key(tree: Tree[Token]) -> tuple[str, int, int]:
 
 
 def place(tree: Tree[Token], comments: Sequence[Token], source: SourceText, rules: Rules) -> PlacedComments:
-    """Every comment ends in the notes of exactly one construct, or around the file."""
+    """Assign every comment to exactly one construct, or to the file."""
     placed = PlacedComments()
-    places: list[_Construct] = []
-    _collect(tree, None, rules, places, placed)
-    starts = [at.start for at in places]
+    constructs: list[_Construct] = []
+    _collect(tree, None, rules, constructs, placed)
+    starts = [construct.start for construct in constructs]
     for comment in _grouped([_Comment(token, source) for token in comments]):
-        if comment.bad:
+        if comment.has_controls:
             placed.diagnostics.append(
                 codes.REPAIRED.at(source.span(comment.start, comment.end), what=rules.repairs["lenient_control"])
             )
         if comment.lines:
-            _put(comment, places, starts, placed, source, rules)
+            _put(comment, constructs, starts, placed, source, rules)
     return placed
 
 
 def _collect(
-    tree: Tree[Token], parent: _Construct | None, rules: Rules, places: list[_Construct], placed: PlacedComments
+    tree: Tree[Token], parent: _Construct | None, rules: Rules, constructs: list[_Construct], placed: PlacedComments
 ) -> None:
     for child in tree.children:
         if isinstance(child, Tree):
             inner = parent
             if child.data in rules.places and not child.meta.empty:
                 inner = _Construct(child.meta.start_pos, child.meta.end_pos, str(child.data), parent, Notes())
-                places.append(inner)
-                placed.by_place[_key(child)] = inner.notes
-            _collect(child, inner, rules, places, placed)
+                constructs.append(inner)
+                placed.by_construct[_key(child)] = inner.notes
+            _collect(child, inner, rules, constructs, placed)
 
 
 class _Comment:
-    """A comment's lines without their marks, and how it stands among the lines of the file."""
+    """A comment's lines without comment marks, and its position relative to code and empty lines."""
 
     def __init__(self, token: Token, source: SourceText) -> None:
         text = str(token)
         self.start, self.end = token.start_pos or 0, token.end_pos or 0
         self.block = text.startswith(("/*", "<!--"))
         self.doc = bool(_DOC.match(text))
-        self.behind = bool(_BEHIND.match(text))
-        raw = _block_lines(text) if self.block else [_one_line(text)]
-        told = [escaped(line) for line in raw]
-        self.lines, self.bad = [line for line, _ in told], any(bad for _, bad in told)
+        self.is_trailing = bool(_BEHIND.match(text))
+        texts = _block_lines(text) if self.block else [_one_line(text)]
+        pairs = [escaped(line) for line in texts]
+        self.lines, self.has_controls = [line for line, _ in pairs], any(bad for _, bad in pairs)
         self.first, self.last = source.line(self.start), source.line(self.end)
-        self.alone = not source.before(self.start).strip()
-        self.more = self.block and bool(source.line_text(self.last)[len(source.before(self.end)) :].strip(" \t;,"))
+        self.is_alone = not source.before(self.start).strip()
+        self.precedes_code = self.block and bool(
+            source.line_text(self.last)[len(source.before(self.end)) :].strip(" \t;,")
+        )
         self.gap_before = self.first > 1 and not source.line_text(self.first - 1).strip()
         self.gap_after = self.last < source.lines and not source.line_text(self.last + 1).strip()
 
     def as_head(self) -> list[str]:
         return [line or " " for line in self.lines]
 
-    def goes_on_in(self, other: _Comment) -> bool:
-        """Whether another one is the next line of the same."""
-        same = (self.block, self.doc, self.behind) == (False, other.doc, other.behind) and not other.block
-        return same and self.alone and other.alone and other.first == self.last + 1
+    def continues_in(self, other: _Comment) -> bool:
+        """Whether another comment is the next line of this one."""
+        same = (self.block, self.doc, self.is_trailing) == (False, other.doc, other.is_trailing) and not other.block
+        return same and self.is_alone and other.is_alone and other.first == self.last + 1
 
 
 def _grouped(comments: Sequence[_Comment]) -> list[_Comment]:
-    """Comments of one line each that stand directly below each other as one, without the indentation they share."""
+    """Join comments of one line each on adjacent lines, and remove their common indentation."""
     groups: list[_Comment] = []
     for comment in comments:
-        if groups and groups[-1].goes_on_in(comment):
+        if groups and groups[-1].continues_in(comment):
             last = groups[-1]
             last.lines = last.lines + comment.lines
-            last.end, last.last, last.bad = comment.end, comment.last, last.bad or comment.bad
+            last.end, last.last, last.has_controls = (
+                comment.end,
+                comment.last,
+                last.has_controls or comment.has_controls,
+            )
             last.gap_after = comment.gap_after
         else:
             groups.append(comment)
@@ -126,7 +132,7 @@ def _dedented(lines: list[str]) -> list[str]:
 
 
 def _one_line(text: str) -> str:
-    if text[0] == "#":  # of which each may be meant: `#~`, `##`
+    if text[0] == "#":  # further marks may be content: `#~`, `##`
         body = text[1:].removeprefix(" ")
     else:
         body = re.sub(r"^///?<?", "", text) if _DOC.match(text) else text.lstrip("/")
@@ -135,7 +141,7 @@ def _one_line(text: str) -> str:
 
 
 def _block_lines(text: str) -> list[str]:
-    """The lines of a `/* */` or `<!-- -->`; none of a banner, which has nothing but stars."""
+    """Return the lines of a `/* */` or `<!-- -->`; none of a banner, which consists of stars."""
     is_xml = text.startswith("<!--")
     body = text[4:-3] if is_xml else re.sub(r"^\*+<?", "", re.sub(r"\*+$", "", text[1:-1]))
     lines = [line.expandtabs(4).rstrip() for line in body.split("\n")]
@@ -155,22 +161,22 @@ def _block_lines(text: str) -> list[str]:
 
 def _put(
     comment: _Comment,
-    places: list[_Construct],
+    constructs: list[_Construct],
     starts: list[int],
     placed: PlacedComments,
     source: SourceText,
     rules: Rules,
 ) -> None:
-    before, around, after = _neighbours(comment, places, starts)
-    behind = before is not None and source.line(before.end) == comment.first and not comment.alone
-    touching = before is not None and behind and source.text[before.end : comment.start].strip() in ("", ";")
-    inline = after is not None and comment.more and source.line(after.start) == comment.last and not touching
-    if before is not None and behind and not inline:
+    before, around, after = _neighbours(comment, constructs, starts)
+    follows = before is not None and source.line(before.end) == comment.first and not comment.is_alone
+    touching = before is not None and follows and source.text[before.end : comment.start].strip() in ("", ";")
+    inline = after is not None and comment.precedes_code and source.line(after.start) == comment.last and not touching
+    if before is not None and follows and not inline:
         if source.line(before.start) != comment.first and source.text[before.end - 1] == "}":
             before.notes.foot += comment.as_head()
         else:
             _at_end(comment, before, rules)
-    elif around is not None and before is None and not comment.alone and not inline:
+    elif around is not None and before is None and not comment.is_alone and not inline:
         _at_end(comment, around, rules)
     elif after is not None:
         first = before is None and around is None
@@ -180,23 +186,24 @@ def _put(
 
 
 def _neighbours(
-    comment: _Comment, places: list[_Construct], starts: list[int]
+    comment: _Comment, constructs: list[_Construct], starts: list[int]
 ) -> tuple[_Construct | None, _Construct | None, _Construct | None]:
-    """The construct that ended last before a comment, the one around it, and the next one that is inside of that."""
+    """Return the last construct before a comment, the construct that contains the comment, and the next one in that."""
     index = bisect.bisect_left(starts, comment.start)
     before: _Construct | None = None
-    around = places[index - 1] if index else None
+    around = constructs[index - 1] if index else None
     while around is not None and around.end <= comment.start:
         before, around = around, around.parent
-    after = places[index] if index < len(places) else None
+    after = constructs[index] if index < len(constructs) else None
     if after is not None and around is not None and after.start >= around.end:
         after = None
     return before, around, after
 
 
 def _above(comment: _Comment, target: _Construct, notes: Notes, not_first: bool, rules: Rules) -> None:
-    """`notes` take plain comments: those of the construct below, or at the top of the file, the file's."""
-    if comment.doc and not comment.behind and rules.places[target.rule] == "doc":
+    """Add a comment above a construct. Plain comments go to `notes`: the construct's, or at the top of the file, the
+    file's."""
+    if comment.doc and not comment.is_trailing and rules.places[target.rule] == "doc":
         doc = target.notes.doc
         doc += [*([""] if doc else []), *comment.lines]
         return

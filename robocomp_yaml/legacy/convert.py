@@ -1,4 +1,4 @@
-"""One legacy file to a draft: read, recognized, parsed, reviewed, converted. Pure but for reading the file."""
+"""Convert one legacy file to a draft: read it, detect its format, parse, review and convert it. Nothing is written."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from robocomp_yaml.legacy.rules import Formats, Rules, formats
 
 
 class Converted(msgspec.Struct, frozen=True):
-    """A legacy file with what became of it. No draft: it is refused."""
+    """A legacy file and what it was converted to. Without a draft, the file is rejected."""
 
     path: str
     rules: Rules | None = None
@@ -35,23 +35,23 @@ class Converted(msgspec.Struct, frozen=True):
 
 
 def convert(path: str, known: Formats | None = None) -> Converted:
-    """The draft of a file that is in one of the known formats, by default the built-in ones."""
+    """Return the draft of a file in one of the known formats, by default the built-in ones."""
     known = formats() if known is None else known
-    source, said = read(path)
+    source, diagnostics = read(path)
     if source is None:
-        return Converted(path, by_name(path, known), diagnostics=tuple(said))
-    rules, told = recognize(source, known)
-    said += told
+        return Converted(path, by_name(path, known), diagnostics=tuple(diagnostics))
+    rules, reasons = recognize(source, known)
+    diagnostics += reasons
     if rules is None:
-        return Converted(path, by_name(path, known), source, diagnostics=tuple(said))
+        return Converted(path, by_name(path, known), source, diagnostics=tuple(diagnostics))
     with rules.plugin.answering(f"legacy format '{rules.name}'") if rules.plugin else nullcontext():
         parsed = parse(source, rules)
-        said += parsed.diagnostics
-        draft = _draft(parsed, source, rules, said)
-    return Converted(path, rules, source, parsed, draft, tuple(said))
+        diagnostics += parsed.diagnostics
+        draft = _draft(parsed, source, rules, diagnostics)
+    return Converted(path, rules, source, parsed, draft, tuple(diagnostics))
 
 
-def _draft(parsed: Parsed, source: SourceText, rules: Rules, said: list[Diagnostic]) -> FileDraft | None:
+def _draft(parsed: Parsed, source: SourceText, rules: Rules, diagnostics: list[Diagnostic]) -> FileDraft | None:
     if parsed.tree is None:
         return None
     placed = comments.place(parsed.tree, parsed.comments, source, rules)
@@ -59,17 +59,17 @@ def _draft(parsed: Parsed, source: SourceText, rules: Rules, said: list[Diagnost
     _review(reader)
     reader.diagnostics += placed.diagnostics
     draft: FileDraft | None = importlib.import_module(rules.converter).convert(reader)
-    said += reader.diagnostics
+    diagnostics += reader.diagnostics
     reader.diagnostics = []
     directives.review(parsed.trivia, reader)
-    refused = has_errors([*said, *reader.diagnostics])
-    # A refused file loses nothing.
-    said += [mark for mark in reader.diagnostics if not refused or mark.severity == ERROR]
+    refused = has_errors([*diagnostics, *reader.diagnostics])
+    # A rejected file loses nothing.
+    diagnostics += [loss for loss in reader.diagnostics if not refused or loss.severity == ERROR]
     return None if refused else draft
 
 
 def _review(reader: Reader) -> None:
-    """What the grammar took although it is not right, and names that cannot be names."""
+    """Report the faults that the grammar accepts, and names that are not legal."""
     for node, start, end in marked(reader.tree, "lenient_"):
         what = reader.rules.repairs[str(node.data)].format(text=words(node))
         reader.diagnostics.append(codes.REPAIRED.at(reader.source.span(start, end), what=what))
@@ -83,7 +83,7 @@ def _review(reader: Reader) -> None:
 
 
 def _name_hint(name: str) -> str:
-    """How a name could be written, where accents are all that is wrong with it."""
+    """Suggest a legal spelling, where accents are the only problem."""
     bare = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
-    hint = "a name has the letters A to Z without accents, digits and underscores"
-    return f"{hint}: for instance '{bare}'" if bare.isidentifier() else hint
+    hint = "a name consists of the letters A to Z without accents, digits and underscores"
+    return f"{hint}: for example '{bare}'" if bare.isidentifier() else hint

@@ -1,4 +1,4 @@
-"""What stands between the constructs of a Slice file: guards, conditions and metadata."""
+"""Preprocessor directives and metadata between the constructs of a Slice file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ _WORD = re.compile(r"#\s*(\w*)\s*(.*)", re.DOTALL)
 
 
 def review(trivia: Sequence[Token], reader: Reader) -> None:
-    """What of it is lost. A guard (`#ifndef X`, `#define X`, …, `#endif`, or `#pragma once`) is not: we write it."""
+    """Report what is lost. An include guard (`#ifndef X`, `#define X`, …, `#endif`, or `#pragma once`) is not lost: the
+    generated Slice file has one."""
     _metadata(trivia, reader)
     open_: list[tuple[Token, bool]] = []
     directives = [token for token in trivia if token.type == "DIRECTIVE"]
@@ -26,9 +27,9 @@ def review(trivia: Sequence[Token], reader: Reader) -> None:
         elif word == "endif" and not open_:
             reader.repaired("lenient_stray_directive", token, _flat(token))
         elif word == "endif":
-            begun, guard = open_.pop()
-            for lost in [] if guard else [begun, token]:
-                reader.lost("DIRECTIVE", lost, _flat(lost))
+            opening, guard = open_.pop()
+            for each in [] if guard else [opening, token]:
+                reader.lost("DIRECTIVE", each, _flat(each))
         elif word == "include":
             reader.refused("refused_include", token)
         elif not (word == "define" and open_ and open_[-1][1]) and (word, rest) != ("pragma", "once"):
@@ -39,7 +40,7 @@ def review(trivia: Sequence[Token], reader: Reader) -> None:
 
 
 def _metadata(trivia: Sequence[Token], reader: Reader) -> None:
-    """One loss for metadata that stands together."""
+    """Report adjacent metadata as one loss."""
     groups: list[list[Token]] = []
     for token in trivia:
         if token.type == "METADATA":
@@ -53,8 +54,8 @@ def _metadata(trivia: Sequence[Token], reader: Reader) -> None:
 
 
 def _parts(token: Token) -> tuple[str, str]:
-    found = _WORD.match(str(token))
-    return (found[1], found[2].strip()) if found else ("", "")
+    match = _WORD.match(str(token))
+    return (match[1], match[2].strip()) if match else ("", "")
 
 
 def _flat(token: Token) -> str:

@@ -1,4 +1,4 @@
-"""A legacy text parsed by its grammar: the tree with what the parser passes over, or every syntax error."""
+"""Parse a legacy text by the grammar of its format: the tree and the tokens that it skips, or all syntax errors."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from robocomp_yaml.legacy.rules import Rules
 from robocomp_yaml.source import properties
 
 MAX_ERRORS = 20
-"""As many syntax errors of one file are reported: then it is something else altogether."""
+"""At most this many syntax errors are reported for a file: a file with more is of another format."""
 
 MAX_DEPTH = 150
-"""As deep may constructs stand inside each other; nobody writes a quarter of it."""
+"""At most this deep may constructs be nested. Real files have less than a quarter of it."""
 
 COMMENTS = ("LINE_COMMENT", "BLOCK_COMMENT")
 _IGNORED = re.compile(r"^%ignore (?!BLANK)(\w+)", re.MULTILINE)
 
 
 class Parsed(msgspec.Struct, frozen=True):
-    """`trivia` are comments and other tokens that no rule of the grammar takes, in order. No tree: there are errors."""
+    """`trivia` are the tokens that the grammar ignores, such as comments, in order. Without a tree there are errors."""
 
     tree: Tree[Token] | None
     trivia: tuple[Token, ...] = ()
@@ -59,7 +59,7 @@ def _parser(text: str) -> _FormatParser:
     literals: dict[str, str] = {}
 
     def edit(terminal: TerminalDef) -> None:
-        """Keywords are whole words, also where the grammar takes no name that could end what they begin."""
+        """Match keywords only as whole words, also where no name could follow them."""
         if isinstance(terminal.pattern, PatternStr):
             literals[terminal.name] = terminal.pattern.value
             if terminal.pattern.value.isalpha():
@@ -79,31 +79,38 @@ def _parser(text: str) -> _FormatParser:
 
 
 def parse(source: SourceText, rules: Rules) -> Parsed:
-    """After an error, the statement it stands in is blanked out and all is parsed again, for the next one."""
+    """Return the tree of a text, or its syntax errors. After an error, the statement around it is blanked and the
+    text is parsed again, to find the next error."""
     if not rules.grammar:
         return parse_flat(source.text)
     parser = _parser(rules.grammar)
     text: str | None = source.text
-    said: list[Diagnostic] = []
-    while text is not None and len(said) < MAX_ERRORS:
+    diagnostics: list[Diagnostic] = []
+    while text is not None and len(diagnostics) < MAX_ERRORS:
         parser.trivia.clear()
         try:
             tree = parser.lark.parse(text)
         except UnexpectedInput as error:
             fault = syntax_error.SyntaxExplainer(source, rules, parser.literals, text).explain(error)
-            if not (fault.at_end and any(diagnostic.fact("missing") == "}" for diagnostic in said)):
-                said.append(fault.diagnostic)
+            if not (fault.at_end and any(diagnostic.fact("missing") == "}" for diagnostic in diagnostics)):
+                diagnostics.append(fault.diagnostic)
             text = fault.rest
         else:
-            if not said and _depth(tree) > MAX_DEPTH:
-                said.append(codes.SYNTAX.at(Span(source.path), problem="this file nests things too deeply", hint=""))
-            return Parsed(None if said else tree, tuple(parser.trivia), tuple(said))
-    return Parsed(None, (), tuple(said))
+            if not diagnostics and _depth(tree) > MAX_DEPTH:
+                diagnostics.append(
+                    codes.SYNTAX.at(
+                        Span(source.path),
+                        problem=f"this file nests constructs more than {MAX_DEPTH} levels deep",
+                        hint="",
+                    )
+                )
+            return Parsed(None if diagnostics else tree, tuple(parser.trivia), tuple(diagnostics))
+    return Parsed(None, (), tuple(diagnostics))
 
 
 class LineTree(Tree[Token]):
-    """A line that says something: an `entry`, or one that Ice passes over (None). `rest` is all that stands behind its
-    `=`, comment and all."""
+    """A line that is not blank: an `entry`, or one that Ice ignores (None). `rest` is the text after its `=`, with the
+    comment."""
 
     def __init__(self, line: properties.Line, start: int, rest: str) -> None:
         meta = Meta()  # type: ignore[no-untyped-call]
@@ -114,33 +121,34 @@ class LineTree(Tree[Token]):
 
 
 def parse_flat(text: str) -> Parsed:
-    """A flat config: the lines that `source.properties` reads are the constructs that comments belong to."""
-    found: list[LineTree] = []
+    """Return a flat config as a tree: each line that `source.properties` reads is a construct, which can have
+    comments."""
+    lines: list[LineTree] = []
     comments: list[Token] = []
     for line in properties.read(text).lines:
         if line.entry is not None:
-            found.append(LineTree(line, line.start, text[line.entry.at : line.end]))
+            lines.append(LineTree(line, line.start, text[line.entry.at : line.end]))
         elif bare := text[line.start : line.stop].lstrip(" \t\r"):
-            found.append(LineTree(line, line.stop - len(bare), ""))
+            lines.append(LineTree(line, line.stop - len(bare), ""))
         if line.stop < line.end:
             comment = text[line.stop : line.end]
             comments.append(Token("LINE_COMMENT", comment, start_pos=line.stop, end_pos=line.end))
-    return Parsed(Tree("start", list(found)), tuple(comments))
+    return Parsed(Tree("start", list(lines)), tuple(comments))
 
 
 def _depth(tree: Tree[Token]) -> int:
-    """How deep the constructs of a file stand inside each other."""
-    found, level = 0, [tree]
+    """Return how deep the constructs of a file are nested."""
+    count, level = 0, [tree]
     while level:
-        found += 1
+        count += 1
         level = [child for node in level for child in node.children if isinstance(child, Tree)]
-    return found
+    return count
 
 
 def marked(tree: Tree[Token], prefix: str, end: int = 0) -> Iterator[tuple[Tree[Token], int, int]]:
-    """The outermost subtrees whose rule's name starts with `prefix`, each with its place.
+    """Yield the outermost subtrees whose rule's name starts with `prefix`, each with its start and end.
 
-    An empty one (something is missing there) stands at the end of what is before it, at first at `end`.
+    An empty subtree (something is missing) is located at the end of the token before it, or at `end` without one.
     """
     for child in tree.children:
         if not isinstance(child, Tree):
@@ -154,16 +162,16 @@ def marked(tree: Tree[Token], prefix: str, end: int = 0) -> Iterator[tuple[Tree[
 
 
 def words(tree: Tree[Token]) -> str:
-    """The tokens of a subtree, as a message quotes them."""
+    """Return the tokens of a subtree, as a message quotes them."""
     return " ".join(str(token) for token in tree.scan_values(lambda value: isinstance(value, Token)))
 
 
 def token(tree: Tree[Token], kind: str) -> Token | None:
-    """The first token of a kind directly below a tree."""
+    """Return the first token of a kind directly below a tree; None where it has none."""
     return next((child for child in tree.children if isinstance(child, Token) and child.type == kind), None)
 
 
 def trees(tree: Tree[Token], *kinds: str) -> list[Tree[Token]]:
-    """The subtrees of these kinds directly below a tree; all of them, if none is named."""
+    """Return the subtrees of these kinds directly below a tree; without kinds, all of them."""
     below = [child for child in tree.children if isinstance(child, Tree)]
     return [child for child in below if not kinds or child.data in kinds]

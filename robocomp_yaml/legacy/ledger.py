@@ -1,4 +1,4 @@
-"""The ledger: what became of every line of every file, and the totals."""
+"""The ledger: the outcome of every line of every file, and the totals."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _REPAIRS = {codes.REPAIRED.id: "repaired", codes.OVERLOAD.id: "repaired", codes.
 
 
 class LedgerEntry(msgspec.Struct):
-    """What became of one file. `skipped`: its document was left as it is, on purpose. `blocked`: it could not be
+    """The outcome of one file. `skipped`: its document is kept as it is, on purpose. `blocked`: it could not be
     written."""
 
     legacy: LegacyFile
@@ -45,7 +45,7 @@ class LedgerEntry(msgspec.Struct):
         return self.file.rules.title if self.file.rules is not None else "unknown"
 
     def lines(self) -> Counter[str]:
-        """How many lines are in each class; the classes add up to the file's lines."""
+        """Return the number of lines of each class. Their sum is the number of the file's lines."""
         source, parsed = self.file.source, self.file.parsed
         texts = source.text.split("\n")[: source.lines] if source is not None else []
         if source is None or self.status == REFUSED or parsed is None or parsed.tree is None:
@@ -70,21 +70,21 @@ class LedgerEntry(msgspec.Struct):
 
 
 def as_json(entries: Sequence[LedgerEntry]) -> str:
-    """The report of `--report`."""
+    """Return the text of `--report`."""
     totals: dict[str, object] = {"files": len(entries)}
     totals |= {status: sum(entry.status == status for entry in entries) for status in STATUSES}
     lines: Counter[str] = Counter()
     files = []
     for entry in entries:
-        own = entry.lines()
-        lines += own
+        classes = entry.lines()
+        lines += classes
         files.append(
             {
                 "source": entry.file.path,
                 "format": entry.file.rules.name if entry.file.rules is not None else None,
                 "status": entry.status,
                 "outputs": entry.outputs,
-                "lines": _counts(own),
+                "lines": _counts(classes),
                 "diagnostics": [as_data(diagnostic) for diagnostic in entry.diagnostics],
             }
         )
