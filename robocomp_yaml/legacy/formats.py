@@ -72,7 +72,7 @@ def _unless_foreign(rules: Rules, source: SourceText) -> tuple[Rules | None, lis
     return rules, []
 
 
-def candidate(path: str, known: Formats) -> bool:
+def is_legacy_file(path: str, known: Formats) -> bool:
     """Whether a file in a folder is a legacy file: by its name, or by its content where the name is ambiguous."""
     by_suffix = by_name(path, known)
     if by_suffix is not None and not by_suffix.keep_suffix:

@@ -20,14 +20,14 @@ Texts = Mapping[str, str]
 
 
 class FilePatterns(msgspec.Struct, frozen=True, eq=False):
-    """Which files of a folder may be of a format, by their names: surely, or only if their content says so too."""
+    """Which files of a folder have a format by their names: certainly, or only if their content has its signature."""
 
     certain: re.Pattern[str]
     folder: str
     other: re.Pattern[str]
 
     def fit(self, path: str) -> str:
-        """`certain`, `perhaps`, or ''."""
+        """Return `certain`, `perhaps`, or ''."""
         name = os.path.basename(path)
         if self.other.search(name):
             return ""
@@ -37,22 +37,22 @@ class FilePatterns(msgspec.Struct, frozen=True, eq=False):
 
 
 class ForeignMark(msgspec.Struct, frozen=True, eq=False):
-    """What shows that a file is another program's, and which one."""
+    """A mark of another program's files, and the reason to reject them."""
 
     pattern: re.Pattern[str]
     reason: str
 
 
 class DocMarkup(msgspec.Struct, frozen=True):
-    """What of doc comments is no text: markup, and whole lines."""
+    """Parts of doc comments that are not documentation: `strip` is markup, `drop` are whole lines."""
 
     strip: str
     drop: str
 
 
 class Rules(msgspec.Struct, frozen=True, eq=False, forbid_unknown_fields=True):
-    """How one legacy format is read. `migrate/README.md` says what each key of the file means. `grammar` is its text,
-    `converter` the name of a module, `plugin` whose it is."""
+    """How one legacy format is read. `migrate/README.md` documents the keys. `grammar` is the text of the grammar,
+    `converter` the name of a module, `plugin` the plug-in that defines the format."""
 
     name: str
     title: str
@@ -99,21 +99,21 @@ def built_in() -> list[str]:
 
 @cache
 def formats() -> Formats:
-    """Every format that `migrate/` describes, by rank."""
+    """Return every format that `migrate/` describes, by rank."""
     return _by_rank(_rules(name, _data(name), f"{_CONVERTERS}.{{}}") for name in built_in())
 
 
 def with_plugins(plugins: Plugins) -> Formats:
-    """Those, and what plug-ins add: each a module with `RULES` (as `rules.yaml`), `GRAMMAR` (where it has one) and
-    `convert`. Raises Faulty where one of them is not as it should be."""
-    found: list[Rules] = []
+    """Return the built-in formats and those of plug-ins. A plug-in's format is a module with `RULES` (as `rules.yaml`),
+    optionally `GRAMMAR`, and `convert`. Raises Faulty where one of them is not valid."""
+    added: list[Rules] = []
     for name, (plugin, module) in plugins.of(FORMATS).items():
         with plugin.answering(f"legacy format '{name}'"):
             data = _read("RULES", module.RULES)
             if hasattr(module, "GRAMMAR"):
                 data["grammar"] = module.GRAMMAR
-            found.append(_rules(name, _over_base(data), module.__name__, plugin))
-    return _by_rank((*formats(), *found)) if found else formats()
+            added.append(_rules(name, _over_base(data), module.__name__, plugin))
+    return _by_rank((*formats(), *added)) if added else formats()
 
 
 def _by_rank(rules: Iterable[Rules]) -> Formats:
@@ -121,7 +121,7 @@ def _by_rank(rules: Iterable[Rules]) -> Formats:
 
 
 def _rules(name: str, data: dict[str, Any], converters: str, plugin: Plugin | None = None) -> Rules:
-    """`converters` says which module a converter is."""
+    """`converters` is the pattern of the converters' module names."""
     data["converter"] = converters.format(data.get("converter", ""))
     data.setdefault("document", f".{data['kind']}.yaml")
     return msgspec.convert({**data, "name": name, "plugin": plugin}, Rules, dec_hook=lambda _, text: re.compile(text))
@@ -143,6 +143,6 @@ def _read(path: str, text: str) -> dict[str, Any]:
 
 
 def _over_base(data: dict[str, Any]) -> dict[str, Any]:
-    """The rules over those of the format which they extend."""
+    """Return the rules merged over those of the format that they extend."""
     base = data.pop("extends", None)
     return {**(_data(base) if base else {}), **data}

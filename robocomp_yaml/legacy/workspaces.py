@@ -1,4 +1,4 @@
-"""The workspace that a document belongs to: its schemas' place, and the `rcyaml.yaml` of a folder that is migrated."""
+"""The workspaces of migrated documents, and the `rcyaml.yaml` of a migrated folder."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from robocomp_yaml.source.inside import stays_inside
 
 
 class Workspaces(msgspec.Struct, frozen=True):
-    """`new` are folders that will be workspaces after this run."""
+    """The workspaces of a run. `new` are the folders that become workspaces by it."""
 
     new: list[str] = []
     _known: dict[str, Workspace] = {}
 
     def of(self, document: str) -> Workspace:
-        """The workspace of a document that is, or will be, there."""
+        """Return the workspace of a document, which may not exist yet."""
         folder = os.path.dirname(document) or "."
         if folder not in self._known:
             inside = [new for new in self.new if stays_inside(new, os.path.realpath(folder))]
@@ -40,7 +40,7 @@ class Workspaces(msgspec.Struct, frozen=True):
 
 
 def needs_file(root: OutputRoot) -> bool:
-    """Whether a migrated folder gets an `rcyaml.yaml`: it is in no workspace, or ours is there already."""
+    """Whether a migrated folder gets an `rcyaml.yaml`: it is in no workspace, or has the file of an earlier run."""
     above = root_above(root.root.path)
     if above is None:
         return True
@@ -48,8 +48,8 @@ def needs_file(root: OutputRoot) -> bool:
 
 
 def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
-    """The `rcyaml.yaml` of a migrated folder, for documents with their kinds and contents: where its interfaces are,
-    and what a legacy repository does that only becomes wrong when it is compiled."""
+    """Return the `rcyaml.yaml` of a migrated folder, for documents as (kind, path, content): the folders of interfaces,
+    and as warnings the errors that are usual in legacy repositories and matter only to compile."""
     document, lint = Map(block=True), Map(block=True)
     folders: dict[str, set[str]] = {"idsl": set(), "cdsl": set()}
     components: Counter[str] = Counter()
@@ -58,26 +58,28 @@ def file_text(root: str, documents: Iterable[tuple[str, str, Map]]) -> str:
         folder = os.path.relpath(os.path.dirname(path) or ".", root)
         folders.setdefault(kind, set()).add(folder)
     if folders["idsl"]:
-        listed = [folder for folder in sorted(folders["idsl"]) if folder.isprintable()]  # what is not UTF-8 is no text
+        listed = [
+            folder for folder in sorted(folders["idsl"]) if folder.isprintable()
+        ]  # a name that is not UTF-8 is not valid text
         document.put("interfaces", List.of(listed))
     for row in (idsl.UNRESOLVED_IMPORT, cdsl.UNRESOLVED_IMPORT, machines.UNREADABLE):
         lint.put(row.id, "warning")
     if components and max(components.values()) > 1:
-        notes = Notes(head=["Components that have the same name are kept as they were."])
+        notes = Notes(head=["Several components have the same name, as in the legacy files."])
         lint.put(cdsl.SAME_NAME.id, "warning", notes)
-    document.put("lint", lint, Notes(head=["Files that were not there to be migrated are named still."]))
+    document.put("lint", lint, Notes(head=["Documents refer to files that were missing when they were migrated."]))
     modeline = workspace_files.modeline("workspace", os.path.join(root, WORKSPACE_FILE), root)
     return f"{modeline}\n{text(document, Notes())}"
 
 
 def values_modeline(document: str, folder: str) -> str:
-    """The modeline of values of the component in a folder."""
+    """Return the modeline of a values document of the component in a folder."""
     schema = os.path.join(folder, "generated", "config.schema.json")
     return f"# yaml-language-server: $schema={os.path.relpath(schema, os.path.dirname(document) or '.')}"
 
 
 def _component(content: Map) -> list[str]:
-    """What tells a component from others: its name and language."""
+    """Return what identifies a component: its name and language."""
     language = content.get("language")
     language = language.get("name") if isinstance(language, Map) else language
     return [f"{content.get('component')} in {language}"]

@@ -40,7 +40,7 @@ def test_a_folder_becomes_a_workspace(rcyaml: Run, tmp_path: Path) -> None:
         "interfaces/Speech.idsl.yaml": "# yaml-language-server: $schema=../.rcyaml/schemas/idsl.schema.json\n"
         + SPEECH_YAML,
         "rcyaml.yaml": "# yaml-language-server: $schema=.rcyaml/schemas/workspace.schema.json\n"
-        "interfaces: [interfaces]\n# Files that were not there to be migrated are named still.\n"
+        "interfaces: [interfaces]\n# Documents refer to files that were missing when they were migrated.\n"
         "lint:\n  RC1101: warning\n  RC2101: warning\n  RC2201: warning\n",
     }
     assert (tmp_path / "new/.rcyaml/schemas/idsl.schema.json").is_file()

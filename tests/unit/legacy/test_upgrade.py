@@ -9,7 +9,7 @@ import pytest
 from click.testing import Result
 
 from conftest import read_tree, write_tree
-from robocomp_yaml.legacy.upgrade import KeyRename, changes, upgraded
+from robocomp_yaml.legacy.upgrade import KeyRename, key_renames, upgraded
 
 Run = Callable[..., Result]
 
@@ -68,4 +68,4 @@ def test_keys_at_any_depth() -> None:
 
 
 def test_the_changes_are_those_of_the_file() -> None:
-    assert ("cdsl", "subscribesTo", "subscribes") in {(change.kind, change.old, change.new) for change in changes()}
+    assert ("cdsl", "subscribesTo", "subscribes") in {(change.kind, change.old, change.new) for change in key_renames()}
