@@ -1,4 +1,4 @@
-"""The configs of each component together: their values documents, and the PDSL that they imply."""
+"""Convert the configs of each component together: to values documents, and the PDSL that they imply."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from robocomp_yaml.legacy.settings.pdsl_document import pdsl_document
 from robocomp_yaml.legacy.settings.plan import Config, Corrections, ParameterPlan
 from robocomp_yaml.legacy.settings.planning import plans
 from robocomp_yaml.legacy.settings.sorting import sort
-from robocomp_yaml.legacy.settings.trial import accepted
+from robocomp_yaml.legacy.settings.trial import accepted_plans
 from robocomp_yaml.legacy.settings.values_document import DocumentLinks, values_document
 
 
 class InferredParameters(msgspec.Struct, frozen=True):
-    """A PDSL to be written, with the ledger's entry of the config that names it."""
+    """A PDSL to write. `entry` is the ledger's entry of the component's first config, which reports it."""
 
     path: str
     document: Map
@@ -30,26 +30,26 @@ class InferredParameters(msgspec.Struct, frozen=True):
 
 
 def build_config_documents(
-    good: Sequence[LedgerEntry],
-    chosen: Mapping[str, str],
+    accepted: Sequence[LedgerEntry],
+    targets: Mapping[str, str],
     is_ours: Callable[[LedgerEntry, str], bool],
-    guesses: Corrections,
+    corrections: Corrections,
     *,
     exact: bool,
 ) -> tuple[dict[str, Map], list[InferredParameters]]:
-    """The documents of configs, by the configs' paths, and the PDSLs that they imply. `is_ours`: whether an earlier run
-    wrote the document at a path."""
-    found = ConfiguredComponents(good, chosen, is_ours)
-    found.declare()
+    """Return the values documents by the paths of the configs, and the PDSLs that these imply. `is_ours`: whether an
+    earlier run wrote the document at a path."""
+    components = ConfiguredComponents(accepted, targets, is_ours)
+    components.declare()
     documents: dict[str, Map] = {}
-    inferred = [_build(component, chosen, guesses, exact, documents) for component in found.all()]
-    return documents, [made for made in inferred if made is not None]
+    inferred = [_build(component, targets, corrections, exact, documents) for component in components.all()]
+    return documents, [each for each in inferred if each is not None]
 
 
 def _build(
     component: ConfiguredComponent,
-    chosen: Mapping[str, str],
-    guesses: Corrections,
+    targets: Mapping[str, str],
+    corrections: Corrections,
     exact: bool,
     documents: dict[str, Map],
 ) -> InferredParameters | None:
@@ -60,17 +60,17 @@ def _build(
         assert isinstance(draft, ConfigDraft) and rules is not None and source is not None
         first = generic_config(path)
         configs.append(Config(path, source, rules, sort(draft.settings, component.ports, rules)))
-        folder = os.path.dirname(chosen[path]) or "."
+        folder = os.path.dirname(targets[path]) or "."
         links[path] = DocumentLinks(
             os.path.relpath(component.document or component.parameters, folder),
             os.path.basename(path),
-            os.path.relpath(chosen[first], folder) if first in entries else "",
+            os.path.relpath(targets[first], folder) if first in entries else "",
         )
-    planned = plans(configs, guesses)
+    planned = plans(configs, corrections)
     if component.declared is not None:
         planned = declared.fitted(planned, component.declared, configs)
     else:
-        planned = accepted(planned, configs, links)
+        planned = accepted_plans(planned, configs, links)
     for plan in planned:
         _report_guess(plan, entries)
     for config in configs:
@@ -83,9 +83,9 @@ def _build(
 
 
 def _report_guess(plan: ParameterPlan, entries: Mapping[str, LedgerEntry]) -> None:
-    """What was guessed, at the first line that it is about."""
+    """Report what was guessed, at the first line that it concerns."""
     if plan.guessed:
-        name, given = next(iter(plan.given.items()))
-        first = min(given.settings, key=lambda setting: setting.span.line)
+        name, value = next(iter(plan.values.items()))
+        first = min(value.settings, key=lambda setting: setting.span.line)
         code = codes.UNNAMED if plan.is_unnamed else codes.GUESSED
         entries[name].diagnostics.append(code.at(first.span, what=plan.guessed, name=".".join(plan.path)))

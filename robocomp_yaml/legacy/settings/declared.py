@@ -1,4 +1,4 @@
-"""Parameters that somebody declared already: a PDSL of 2011, or a document that the user wrote."""
+"""Parameters that are declared already: by a PDSL of 2011, or by a document that the user wrote."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from robocomp_yaml.source.disk import names_in
 from robocomp_yaml.source.heading import component_in, root_of
 
 Types = dict[str, str]
-"""The types of plain parameters by their paths."""
+"""The types of plain parameters by path."""
 
 
 def types(document: object) -> Types:
-    """The plain parameters of the data of a PDSL document, groups opened."""
+    """Return the types of the plain parameters of a PDSL document, those in groups included. `document` is its data."""
     return dict(_plain(document.get("parameters"), "")) if isinstance(document, dict) else {}
 
 
 def beside(component: str) -> Iterator[str]:
-    """The PDSL documents in the folder of a component's document that name it as theirs."""
+    """Yield the PDSL documents in a component's folder that refer to the component."""
     folder = os.path.dirname(component)
     for path in (os.path.join(folder, name) for name in names_in(folder) if kind_of(name) == "pdsl"):
-        said = component_in(path)
-        if said and os.path.realpath(os.path.join(folder, said)) == os.path.realpath(component):
+        component_path = component_in(path)
+        if component_path and os.path.realpath(os.path.join(folder, component_path)) == os.path.realpath(component):
             yield path
 
 
 def of_document(path: str) -> Types:
-    """The same of a file."""
+    """Return the types of the plain parameters of the PDSL document at a path."""
     root = root_of(path)
     return types(root.data) if root is not None else {}
 
@@ -48,7 +48,8 @@ def _plain(members: object, prefix: str) -> Iterator[tuple[str, str]]:
 
 
 def fitted(plans: Sequence[ParameterPlan], known: Mapping[str, str], configs: Sequence[Config]) -> list[ParameterPlan]:
-    """The plans that are declared, by their declared types; what the others hold goes back to the configs."""
+    """Return the plans of declared parameters, with the declared types. The settings of the others become properties of
+    the configs."""
     kept = []
     for plan in plans:
         kind = known.get(".".join(plan.path))

@@ -1,4 +1,4 @@
-"""The PDSL that a component's configs imply."""
+"""Write the PDSL that a component's configs imply."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 
 
 def pdsl_document(component: str, plans: Sequence[ParameterPlan]) -> Map:
+    """Return the PDSL of a component with the parameters of these plans."""
     return _PdslWriter().document(component, plans)
 
 
@@ -65,7 +66,7 @@ class _PdslWriter:
         return top
 
     def _code_name(self, body: Map, path: Path, siblings: dict[Path, set[str]]) -> None:
-        """`as:` where the name is no identifier, or another one's."""
+        """Add `as:` where a name is not an identifier, or is used already."""
         used = siblings.setdefault(path[:-1], set())
         name = re.sub(r"[^A-Za-z0-9_]", "_", path[-1])
         name = f"p{name}" if name[0].isdigit() else name
@@ -111,9 +112,10 @@ class _PdslWriter:
 
 
 def _is_sometimes_empty(plan: ParameterPlan) -> bool:
-    """An optional text that is empty somewhere: without a default it would read as left out."""
-    texts = [leaf for given in plan.given.values() for leaf in leaves(given.item.value)]
-    return plan.optional and plan.shape == ScalarShape(STRING) and any(not leaf.text for leaf in texts if leaf)
+    """Whether an optional text is empty in a config. It needs a default, because an empty property means a missing
+    one."""
+    texts = [leaf for value in plan.values.values() for leaf in leaves(value.item.value)]
+    return plan.optional and plan.shape == ScalarShape(STRING) and any(not leaf.text for leaf in texts)
 
 
 def _spelling(spelled: Spelling) -> Value:

@@ -1,4 +1,4 @@
-"""What a component's parameters will be: one plan for each, with its values in each of the component's configs."""
+"""Plans of a component's parameters, with the values in each of the component's configs."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ Path = tuple[str, ...]
 
 
 class Corrections(msgspec.Struct, frozen=True):
-    """What the user knows better (`--names`, `--rules`): columns by the key of their rows, types by parameter, and
-    keys whose values are plain text, no lists."""
+    """The user's corrections (`--names`, `--rules`): columns by the key of their rows, types by parameter, and keys
+    whose values are plain text instead of lists."""
 
     names: Mapping[str, Sequence[str]] = {}
     types: Mapping[str, str] = {}
@@ -27,7 +27,7 @@ class Corrections(msgspec.Struct, frozen=True):
 
 
 class Config(msgspec.Struct, frozen=True):
-    """One config of a component. `sorted` loses what becomes part of a plan."""
+    """One config of a component. A setting that becomes part of a plan is removed from `sorted`."""
 
     name: str
     source: SourceText
@@ -40,7 +40,7 @@ class Config(msgspec.Struct, frozen=True):
 
 
 class PlannedValue(msgspec.Struct, frozen=True):
-    """A parameter's value in one config, and the settings that hold it there."""
+    """A parameter's value in one config, and the settings that contain it."""
 
     item: Item
     settings: list[Setting] = []
@@ -51,10 +51,11 @@ class PlannedValue(msgspec.Struct, frozen=True):
 
 
 class ParameterPlan(msgspec.Struct):
-    """A parameter. `built_in`: every component has it, so that no PDSL has to define it. `guessed` says what."""
+    """A parameter, with its values by config. `built_in`: every component has it, so that no PDSL defines it. `guessed`
+    is a message about what was guessed."""
 
     path: Path
-    given: dict[str, PlannedValue] = {}
+    values: dict[str, PlannedValue] = {}
     spelled: Spelling | None = None
     shape: Shape | None = None
     docs: tuple[Column, ...] = ()

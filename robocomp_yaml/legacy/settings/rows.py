@@ -1,4 +1,4 @@
-"""Texts split into rows and lists, and the separators that join them again."""
+"""Detect rows and lists in texts, and their separators."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ _WHOLE = re.compile(r"[-+]?\d+\Z")
 
 
 def are_rows(texts: Sequence[str]) -> bool:
-    """Whether all texts are rows of columns, and no numbers with a decimal comma."""
+    """Whether all texts are rows of columns, and not numbers with a decimal comma."""
     if not texts or any("," not in text or _NO_ROW.search(text) for text in texts):
         return False
     return not all(len(row) == 2 and all(map(_WHOLE.match, row)) for row in (split(text, ",") for text in texts))
 
 
 def could_be_list(text: str) -> bool:
-    """Whether no part is missing, but for the last one, and none looks like something else."""
+    """Whether a text can be a list: only the last part may be missing, and no part looks like something else."""
     if _NO_LIST.search(text) or _PATH_WITH_BLANK.search(text) or text != text.strip(BLANKS):
         return False
     return all(part.strip(BLANKS) for part in re.split("[,;]", re.sub(r"[;,]\Z", "", text)))
 
 
 def is_list(text: str) -> bool:
-    """Whether a text is a list by itself: what holds only one comma may be a number, or an address."""
+    """Whether a text is certainly a list. A text with one comma may be a number or an address."""
     if not could_be_list(text):
         return False
     if ";" in text:
@@ -43,7 +43,7 @@ def is_list(text: str) -> bool:
 
 
 def separators(texts: Iterable[str]) -> tuple[str, ...]:
-    """The separators of a list, as its texts in several files show them."""
+    """Return the separators of a list, the outermost first, from its texts in several files."""
     listed = list(texts)
     outer = any(";" in text for text in listed)
     inner = any("," in text for text in listed)
@@ -51,13 +51,13 @@ def separators(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 def joiner(texts: Iterable[str], separator: str) -> str:
-    """The separator with or without a blank behind it, as most of the texts have it."""
+    """Return a separator with or without a blank behind it, as most of the texts have it."""
     found = Counter(part.startswith(" ") for text in texts for part in text.split(separator)[1:] if part.strip(BLANKS))
     return f"{separator} " if found[True] > found[False] else separator
 
 
 def squeezed(text: str, separators: Iterable[str]) -> str:
-    """A text without the blanks around its separators."""
+    """Return a text without blanks around its separators."""
     for separator in separators:
         bare = separator.strip(BLANKS)
         first, *rest = text.split(bare)

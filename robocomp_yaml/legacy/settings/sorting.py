@@ -1,4 +1,4 @@
-"""Which settings are endpoints, proxies, topics, Ice's own, and which are parameters."""
+"""Sort settings: endpoints, proxies, topics, properties of Ice, and parameters."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from robocomp_yaml.legacy.settings.headers import free
 from robocomp_yaml.parameters.spelling import references
 
 MAX_DEPTH = 20
-"""So many parts may a parameter's key have; nobody writes half as many."""
+"""At most this many parts may a parameter's key have. Real files have less than half as many."""
 
-_OWN = "x-"
+_USER_PREFIX = "x-"
 _WORD = re.compile(r"[A-Za-z_]\w*\Z")
 
 
 class PortNames(msgspec.Struct, frozen=True):
-    """The interfaces that a component names, as far as its document is known."""
+    """The names of a component's ports, as far as its document is known."""
 
     implements: frozenset[str] = frozenset()
     requires: frozenset[str] = frozenset()
     topics: frozenset[str] = frozenset()
 
-    def takes(self, key: str) -> bool:
-        """Whether a property of this name is the connection's, and no parameter's."""
+    def is_connection(self, key: str) -> bool:
+        """Whether a property of this name configures a connection instead of a parameter."""
         return (
             key in self.implements | self.topics
             or key.removesuffix("Topic") in self.topics
@@ -38,7 +38,7 @@ class PortNames(msgspec.Struct, frozen=True):
 
 
 class NamedSetting(msgspec.Struct, frozen=True):
-    """A setting under its name in a section. `key`: the property, where the name does not say it."""
+    """A setting under its name in a section. `key` is the property, where it differs from the one of the name."""
 
     name: str
     setting: Setting
@@ -46,7 +46,7 @@ class NamedSetting(msgspec.Struct, frozen=True):
 
 
 class SortedSettings(msgspec.Struct, frozen=True):
-    """The settings of one file by section."""
+    """The settings of one file, by section."""
 
     dialect: str
     parameters: list[Setting] = []
@@ -60,30 +60,34 @@ class SortedSettings(msgspec.Struct, frozen=True):
     diagnostics: list[Diagnostic] = []
 
     def put(self, section: list[NamedSetting], name: str, setting: Setting) -> None:
-        """Under its name in a section, where one that starts with `x-` would be the user's own."""
-        if name.startswith(_OWN):
+        """Add a setting to a section. Names that start with `x-` are reserved for the user: such a setting becomes a
+        property."""
+        if name.startswith(_USER_PREFIX):
             self.keep(setting)
         else:
             section.append(NamedSetting(name, setting))
 
     def connect(self, name: str, setting: Setting) -> None:
-        """A proxy. Without a name of its own it is called as its property."""
-        taken = {named.name for named in self.proxies}
-        if name and name not in taken and not name.startswith(_OWN):
+        """Add a proxy. Without a name, it is named after its property."""
+        used = {named.name for named in self.proxies}
+        if name and name not in used and not name.startswith(_USER_PREFIX):
             self.proxies.append(NamedSetting(name, setting))
         else:
-            self.proxies.append(NamedSetting(free(setting.key.replace(_OWN, "x_", 1), taken), setting, setting.key))
+            self.proxies.append(
+                NamedSetting(free(setting.key.replace(_USER_PREFIX, "x_", 1), used), setting, setting.key)
+            )
 
     def keep(self, setting: Setting) -> None:
-        """A property that no section has a place for. A list or a table, which TOML may give, can be none."""
+        """Add a property that fits no section. Lists and tables of TOML cannot be properties, and are lost."""
         if isinstance(setting.value, Leaf):
             self.properties.append(NamedSetting(setting.key, setting))
         else:
-            what = f"only texts and numbers can stand here, so '{setting.key}' is left out"
+            what = f"only texts and numbers can be properties, so that '{setting.key}' is omitted"
             self.diagnostics.append(codes.LOST.at(setting.span, what=what))
 
 
 def sort(settings: ConfigSettings, ports: PortNames, rules: Rules) -> SortedSettings:
+    """Return the settings of a config by section."""
     found = SortedSettings(settings.dialect)
     for setting in settings.settings:
         if not isinstance(setting.value, Leaf):
@@ -136,12 +140,16 @@ def _toml(found: SortedSettings, setting: Setting, ports: PortNames, rules: Rule
 
 
 def _rest(found: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
-    """A parameter, unless its name could not be one's."""
+    """Add a parameter; a setting whose name cannot be a parameter's becomes a property."""
     if found.dialect != TOML and rules.sections["suspicious"].search(setting.key):
         what = rules.repairs["suspicious"].format(text=setting.key)
         found.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
         found.keep(setting)
-    elif rules.sections["service"].match(setting.key) or ports.takes(setting.key) or references.in_text(setting.text):
+    elif (
+        rules.sections["service"].match(setting.key)
+        or ports.is_connection(setting.key)
+        or references.in_text(setting.text)
+    ):
         found.keep(setting)
     elif len(setting.path) > MAX_DEPTH:
         found.keep(setting)

@@ -32,7 +32,7 @@ from robocomp_yaml.source.tree import Node, Scalar
 from robocomp_yaml.source.tree import Sequence as Sequence_
 
 
-def accepted(
+def accepted_plans(
     planned: Sequence[ParameterPlan], configs: Sequence[Config], links: Mapping[str, DocumentLinks]
 ) -> list[ParameterPlan]:
     """The plans that hold. Each round moves what does not hold one step: to `properties`, or out of these."""

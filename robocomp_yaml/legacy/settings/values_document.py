@@ -69,16 +69,16 @@ def _verbatim(named: NamedSetting) -> str:
 
 def _parameters(config: Config, plans: Sequence[ParameterPlan]) -> Map:
     """The values of one config, nested by their paths, in the order of the file."""
-    own = [plan for plan in plans if config.name in plan.given]
+    own = [plan for plan in plans if config.name in plan.values]
     top = Map(block=True)
     groups: dict[Path, Map] = {(): top}
-    for plan in sorted(own, key=lambda plan: plan.given[config.name].line):
+    for plan in sorted(own, key=lambda plan: plan.values[config.name].line):
         for depth in range(1, len(plan.path)):
             path = plan.path[:depth]
             if path not in groups:
                 groups[path] = Map(block=True)
                 groups[path[:-1]].put(path[-1], groups[path])
-        item = plan.given[config.name].item
+        item = plan.values[config.name].item
         assert plan.shape is not None
         groups[plan.path[:-1]].put(plan.path[-1], written(plan.shape, item.value), item.notes)
     return top
@@ -97,7 +97,7 @@ def _legacy(config: Config, plans: Sequence[ParameterPlan], links: DocumentLinks
 def _originals(config: Config, plans: Sequence[ParameterPlan], exact: bool) -> Iterator[tuple[str, str]]:
     """Properties whose spelling the document would not give again; what differs in blanks only if asked for."""
     for plan in plans:
-        given = plan.given.get(config.name)
+        given = plan.values.get(config.name)
         spelled = plan.spelled
         if given is None:
             continue
