@@ -29,7 +29,7 @@ def recognize(source: SourceText, known: Formats | None = None) -> tuple[Rules |
     by_suffix = by_name(source.path, known)
     content = without_silent(source.text)
     if not content.strip():
-        what = "nothing but comments" if source.text.strip() else "nothing"
+        what = "only comments" if source.text.strip() else "no text"
         return None, [codes.EMPTY.at(Span(source.path), what=what)]
     fitting = [
         rules for rules in known

@@ -1,4 +1,4 @@
-"""CDSL to a CDSL document."""
+"""Convert CDSL to a CDSL document."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LISTS = ("implements", "requires", "publishes", "subscribesto")
 
 
 def convert(reader: Reader) -> ComponentDraft | None:
-    """The document of a file's component."""
+    """Return the document of a file's component."""
     tree = reader.tree
     return _CdslConverter(reader).document(tree, trees(tree, "component")[0])
 
@@ -54,13 +54,13 @@ class _CdslConverter(ComponentBuilder):
         return self.draft(token(component, "NAME") or component, imports, around)
 
     def _has_code_of_robocomp(self) -> bool:
-        """Whether the user's code beside the file was written against what RoboComp's own tool generates."""
+        """Whether the user's code was written for RoboComp's own generator."""
         folder = os.path.dirname(self.reader.source.path)
         code = self.reader.rules.code.items()
         return any(re.search(pattern, regular.text(os.path.join(folder, name)) or "") for name, pattern in code)
 
     def _once(self, clause: Tree[Token]) -> None:
-        """A clause stands at most once; of two, nobody knows which one holds."""
+        """Report a clause that occurs twice, because it is unknown which one is meant."""
         name = str(clause.data)
         if name in self.seen:
             first = Related("the first one is here", self.reader.span(self.seen[name]))
@@ -70,14 +70,14 @@ class _CdslConverter(ComponentBuilder):
         self.seen.setdefault(name, clause)
 
     def _keyword(self, clause: Tree[Token]) -> str:
-        """A clause's first word, as the file spells it."""
+        """Return a clause's first word, as the file spells it."""
         return self.reader.source.text[clause.meta.start_pos : clause.meta.end_pos].split("{")[0].split()[0]
 
     def _key(self, clause: Tree[Token]) -> str:
         return self.reader.rules.keys[str(clause.data)]
 
     def _communications(self, clause: Tree[Token]) -> None:
-        """The lists of the block; the comments around it stand above the first and below the last of them."""
+        """Convert the lists of the block. Its own comments are written above the first and below the last list."""
         notes, listed = self.reader.notes(clause), trees(clause, *LISTS)
         for communication in listed:
             self._interfaces(communication)
@@ -91,7 +91,7 @@ class _CdslConverter(ComponentBuilder):
             self.reader.placed.around.foot += [*notes.head, *notes.tail, *notes.foot]
 
     def _interfaces(self, clause: Tree[Token]) -> None:
-        """A list with its order and its repetitions: a second entry of one interface gets a name of its own."""
+        """Convert a list with its order and repetitions: a second port of the same interface gets a new name."""
         key, notes = self._key(clause), self.reader.notes(clause)
         known = self.entries.get(key)
         if known is None:
@@ -131,18 +131,18 @@ class _CdslConverter(ComponentBuilder):
         assert literal is not None
         self.put_machine(literal[1:-1].strip(), literal, self.reader.notes(clause))
         if token(clause, "VISUAL") is not None:
-            self._no_place(clause, "visual", "true")
+            self._keep_unknown(clause, "visual", "true")
 
     def obsolete(self, clause: Tree[Token]) -> None:
-        self._no_place(clause, str(clause.data), self.reader.name(clause))
+        self._keep_unknown(clause, str(clause.data), self.reader.name(clause))
 
-    def _no_place(self, clause: Tree[Token], name: str, value: str) -> None:
+    def _keep_unknown(self, clause: Tree[Token], name: str, value: str) -> None:
         key = self.reader.rules.keys[name]
         self.put(key, value, self.reader.notes(clause) if name != "visual" else None)
         self.reader.diagnostics.append(codes.NO_PLACE.at(self.reader.span(clause), what=words(clause), key=key))
 
     def sources(self, clause: Tree[Token]) -> None:
-        """Paths are files of the user's repository; bare words are folders of shared classes."""
+        """Convert sources: paths are files of the user's repository, words are folders of shared classes."""
         self._uses(clause, lambda item, text: ("sources", text.lstrip("/")) if token(item, "STRING") else (
             "classes", text
         ))  # fmt: skip
@@ -151,7 +151,7 @@ class _CdslConverter(ComponentBuilder):
         self._uses(clause, lambda item, text: ("libraries", Map([DocumentEntry("link", text)])))
 
     def _uses(self, clause: Tree[Token], place: Callable[[Tree[Token], str], tuple[str, Value]]) -> None:
-        """The entries of a block under `uses:`, with the comments of the block."""
+        """Add the entries of a block to `uses:`, with the comments of the block."""
         uses = self.entries.get("uses") or self.put("uses", Map(block=True))
         assert isinstance(uses.value, Map)
         by_key = {entry.key: entry for entry in uses.value.entries}
@@ -166,7 +166,7 @@ class _CdslConverter(ComponentBuilder):
             uses.notes.head += notes.head
             entry.notes.tail += notes.tail
             entry.notes.foot += notes.foot
-        else:  # nothing but comments
+        else:  # the block has only comments
             self.reader.placed.around.foot += [*notes.head, *notes.tail, *notes.foot]
         if not uses.value.entries:
             del self.entries["uses"]

@@ -1,4 +1,4 @@
-"""Flat configs to settings; they become documents together with the other configs of their component."""
+"""Convert flat configs to settings. The configs of a component become documents together."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ _PROTECTED = re.compile(r'\s*"(?P<value>[^"]*#[^"]*)"\s*(?:#(?P<comment>.*))?$')
 
 
 def convert(reader: Reader) -> ConfigDraft | None:
-    """The settings of a file. Lines that set nothing stay as comments above the next setting."""
+    """Return the settings of a file. Lines that set nothing become comments above the next setting."""
     tree = reader.tree
     lines = [line for line in tree.children if isinstance(line, grammar.LineTree)]
     last = properties.last(line.entry for line in lines if line.entry is not None)
     dialect = _dialect(reader, lines)
-    found = ConfigSettings(dialect)
-    around, waiting = reader.placed.around, list[str]()
+    settings = ConfigSettings(dialect)
+    around, pending = reader.placed.around, list[str]()
     for node in lines:
         entry, notes = node.entry, reader.notes(node)
         protected = _protected(node.rest) if dialect == FLAT_TOML and entry is not None else None
@@ -47,18 +47,18 @@ def convert(reader: Reader) -> ConfigDraft | None:
         elif entry.key in last and last[entry.key].line > entry.line:
             reader.repaired("overridden", node, entry.key)
         elif entry.key in last or protected is not None:
-            if waiting:
-                notes.head[:0] = [line or "" for line in waiting]
-                waiting.clear()
+            if pending:
+                notes.head[:0] = [line or "" for line in pending]
+                pending.clear()
             setting = _setting(reader, node, entry, notes, dialect, protected)
-            found.settings.append(setting)
+            settings.settings.append(setting)
             continue
         else:
             reader.repaired("overridden", node, entry.key)
-        waiting += [*notes.head, *_as_comment(reader, node, notes)]
-    around.foot[:0] = waiting
-    assign_head_comments(found, around)
-    return ConfigDraft(found, around)
+        pending += [*notes.head, *_as_comment(reader, node, notes)]
+    around.foot[:0] = pending
+    assign_head_comments(settings, around)
+    return ConfigDraft(settings, around)
 
 
 def _too_long(key: str) -> str:
@@ -67,7 +67,7 @@ def _too_long(key: str) -> str:
 
 
 def _dialect(reader: Reader, lines: list[grammar.LineTree]) -> str:
-    """Flat TOML writes the words the other way round: `Endpoints.Laser`."""
+    """Return the dialect of a config. Flat TOML reverses the parts of keys: `Endpoints.Laser`."""
     begins = reader.rules.sections["dialect"]
     keys = [line.entry.key for line in lines if line.entry is not None]
     if not any(begins.match(key) for key in keys):
@@ -77,10 +77,10 @@ def _dialect(reader: Reader, lines: list[grammar.LineTree]) -> str:
 
 
 def _protected(rest: str) -> tuple[str, str] | None:
-    """Value and comment of a line whose quotes hold a '#', which flat TOML's reader takes for part of the value. `rest`
-    is what stands behind its '='."""
-    found = _PROTECTED.match(rest)
-    return (found["value"], (found["comment"] or "").strip()) if found else None
+    """Return value and comment of a line with a '#' in quotes, which is part of the value in flat TOML; None for other
+    lines. `rest` is the text after its '='."""
+    match = _PROTECTED.match(rest)
+    return (match["value"], (match["comment"] or "").strip()) if match else None
 
 
 def _setting(
@@ -102,6 +102,6 @@ def _setting(
 
 
 def _as_comment(reader: Reader, node: Tree[Token], notes: Notes) -> list[str]:
-    """A line that counts for nothing, as the file has it."""
+    """Return a line that sets nothing as comments, in the spelling of the file."""
     text = reader.source.text[node.meta.start_pos : node.meta.end_pos].rstrip()
     return ["  # ".join([" ".join(text.split("\t")), *notes.tail]), *notes.foot]

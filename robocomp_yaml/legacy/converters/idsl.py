@@ -1,4 +1,4 @@
-"""IDSL and Slice to an IDSL document."""
+"""Convert IDSL and Slice to an IDSL document."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from robocomp_yaml.legacy.grammar import token, trees
 from robocomp_yaml.legacy.settings.headers import free
 
 FEW = 4
-"""A struct with more members than this stands in a block."""
+"""A struct with more members is written in block style."""
 SHORT = 100
 
 SECTIONS = {
@@ -26,7 +26,7 @@ SECTIONS = {
 
 
 def convert(reader: Reader) -> ModuleDraft | None:
-    """The document of a file's one module; None where it cannot be written, with the reason."""
+    """Return the document of a file's module; None, with a diagnostic, where it has none."""
     tree = reader.tree
     modules = trees(tree, "module")
     if not modules:
@@ -69,7 +69,7 @@ class _IdslConverter:
             section.put(name, body, _foot_inside(self.reader.notes(tree), body))
 
     def _is_new(self, seen: dict[str, Span], name: str, tree: Tree[Token]) -> bool:
-        """Whether a name is free yet; if not, that is said."""
+        """Whether a name is not used yet; report it otherwise."""
         at = self.reader.span(token(tree, "NAME") or tree)
         if name in seen:
             self.reader.diagnostics.append(
@@ -84,7 +84,7 @@ class _IdslConverter:
         into.put_some("doc", Doc(doc) if doc else None)
 
     def _type(self, tree: Tree[Token]) -> ReferredName:
-        """A type as a document names it, noted as a reference."""
+        """Return a type as a document names it, and add it to the module's references."""
         qname = next((child for child in trees(tree) if child.data == "qname"), None)
         return self._name(qname) if qname is not None else ReferredName(str(tree.children[0]))
 
@@ -130,7 +130,7 @@ class _IdslConverter:
         return members
 
     def _member(self, tree: Tree[Token], name: str) -> Value:
-        """The short form, a type, unless there is more to say."""
+        """Return a member: only its type, unless it has a default or documentation."""
         parts = {str(part.data): part for part in trees(tree)}
         body = Map()
         body.put("type", self._type(parts["type"]))
@@ -204,8 +204,8 @@ class _IdslConverter:
         if outs != sorted(outs):
             self.reader.repaired("lenient_order", token(tree, "NAME") or tree, legacy)
         seen: dict[str, Span] = {}
-        for direction, wanted in (("in", False), ("out", True)):
-            chosen = [parameter for parameter, out in zip(parameters, outs, strict=True) if out is wanted]
+        for direction, is_out in (("in", False), ("out", True)):
+            chosen = [parameter for parameter, out in zip(parameters, outs, strict=True) if out is is_out]
             if chosen:
                 members = self._members(chosen, seen)
                 members.block = False
@@ -220,7 +220,7 @@ class _IdslConverter:
 
 
 def _foot_inside(notes: Notes, body: Value) -> Notes:
-    """Comments at the end of a definition's block stand below the last thing in it."""
+    """Return the comments of a definition, with those at the end of its block moved below the block's last entry."""
     inner = body.entries[-1] if notes.foot and isinstance(body, Map) and body.entries else None
     if inner is None or not isinstance(inner.value, Map | List):
         return notes

@@ -1,4 +1,4 @@
-"""JSON of a CDSL to a CDSL document."""
+"""Convert JSON of a CDSL to a CDSL document."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ def convert(reader: Reader) -> ComponentDraft | None:
     tree = reader.tree
     top = trees(tree)
     if not top or top[0].data != "object":
-        reader.diagnostics.append(codes.SYNTAX.at(reader.source.span(0, 1), problem="this is no JSON object", hint=""))
+        reader.diagnostics.append(
+            codes.SYNTAX.at(reader.source.span(0, 1), problem="this is not a JSON object", hint="")
+        )
         return None
     return _JcdslConverter(reader).document(top[0])
 
@@ -43,7 +45,7 @@ class _JcdslConverter(ComponentBuilder):
             elif known == "innermodelviewer" and _word(value) in ("true", "false", "null"):
                 self.options += ["innermodelviewer"] if _word(value) == "true" else []
             else:
-                self.no_place(key, name, value)
+                self.keep_unknown(key, name, value)
         if self.options:
             self.put("options", List.of(dict.fromkeys(self.options)))
         named = self.entries.get("component")
@@ -58,18 +60,19 @@ class _JcdslConverter(ComponentBuilder):
             self.put(key, listed)
 
     def text(self, node: Node) -> str:
-        """A text; something else is an error."""
+        """Return a text; report another type."""
         if node.data == "text":
             return _text(node)
-        self.reader.diagnostics.append(codes.SYNTAX.at(self.reader.span(node), problem="here stands a text", hint=""))
+        self.reader.diagnostics.append(codes.SYNTAX.at(self.reader.span(node), problem="expected a text", hint=""))
         return ""
 
     def texts(self, node: Node) -> list[str]:
-        """One text, or several."""
+        """Return the texts of a node: one, or the items of an array."""
         return [self.text(item) for item in trees(node)] if node.data == "array" else [self.text(node)]
 
     def ports(self, node: Node) -> List:
-        """Interfaces: names, or pairs of a name and its middleware. A second one gets a number, as in CDSL."""
+        """Return a list of ports: names, or pairs of a name and its middleware. A second port of the same interface
+        gets a number, as in CDSL."""
         listed, used = List(), set[str]()
         for item in trees(node) if node.data == "array" else [node]:
             parts = self.texts(item)
@@ -93,13 +96,13 @@ class _JcdslConverter(ComponentBuilder):
     def language(self, node: Node) -> None:
         name = node
         if node.data == "object":
-            found = {name.lower(): value for _, name, value in _pairs(node)}
+            values = {name.lower(): value for _, name, value in _pairs(node)}
             for key, spelled, value in _pairs(node):
                 if spelled.lower() != "name":
-                    self.no_place(key, f"language-{spelled}", value)
-            if "name" not in found:
+                    self.keep_unknown(key, f"language-{spelled}", value)
+            if "name" not in values:
                 return
-            name = found["name"]
+            name = values["name"]
         self.put("language", self.reader.word("language", self.text(name), name))
 
     def gui(self, node: Node) -> None:
@@ -119,8 +122,8 @@ class _JcdslConverter(ComponentBuilder):
             if "visual" in parts[1:]:
                 self.put(self.reader.rules.keys["visual"], "true")
 
-    def no_place(self, key: Node, name: str, value: Node) -> None:
-        """What CDSL documents have no place for is kept as it is."""
+    def keep_unknown(self, key: Node, name: str, value: Node) -> None:
+        """Keep an entry that CDSL documents do not have, as text, and report it."""
         kept = f"x-legacy-{name}"
         start, end = value.meta.start_pos, value.meta.end_pos
         self.put(kept, " ".join(self.reader.source.text[start:end].split()))
@@ -148,10 +151,10 @@ def _text(node: Node) -> str:
         return ""
     try:
         return str(json.loads(literal))
-    except ValueError:  # an escape that JSON has not
+    except ValueError:  # an escape that is not JSON
         return literal[1:-1]
 
 
 def _word(node: Node) -> str:
-    found = token(node, "WORD") if node.data == "word" else None
-    return str(found) if found is not None else ""
+    word = token(node, "WORD") if node.data == "word" else None
+    return str(word) if word is not None else ""

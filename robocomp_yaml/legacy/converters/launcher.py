@@ -1,4 +1,5 @@
-"""A launcher's list of components to a network; it becomes a deployment once the run's components are known."""
+"""Convert a launcher's list of components to a network, which becomes a deployment when the run's components are
+known."""
 
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ from robocomp_yaml.legacy.networks import command, endpoint
 from robocomp_yaml.legacy.networks.node import NetworkDraft
 
 _KEYS = {"name": "", "cwd": "cwd", "cmd": "program", "ice_name": "endpoints"}
-"""The keys of a component, and those of the document that take their comments."""
+"""The keys of a component, and the keys of the document that get their comments."""
 
 _Pairs = dict[str, tuple[str, Tree[Token]]]
 
@@ -39,7 +40,7 @@ class _LauncherConverter:
                 if is_foreign:
                     self.reader.refused("foreign", node, f"[{_key(node)}]")
             elif is_foreign:
-                continue  # its table has been told
+                continue  # its table is reported
             elif head is None or _key(node) not in _KEYS:
                 self.reader.refused("foreign", node, _key(node))
             else:
@@ -74,5 +75,5 @@ class _LauncherConverter:
 
 
 def _key(node: Tree[Token]) -> str:
-    """The key of a pair or a table, as it is spelled."""
+    """Return the key of a pair or a table, as it is spelled."""
     return ".".join(str(part) for part in trees(node, "key")[0].children)

@@ -1,4 +1,4 @@
-"""The values of 2011 to a values document, of the PDSL that they import."""
+"""Convert the values of 2011 to a values document. Its component is the PDSL that they import."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The PDSL of 2011 to a PDSL document."""
+"""Convert the PDSL of 2011 to a PDSL document."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def convert(reader: Reader) -> ParametersDraft | None:
             continue
         seen.add(name)
         body = _parameter(reader, node)
-        flag = next((token(found, "FLAG") for found in trees(node, "flag")), None)
+        flag = next((token(each, "FLAG") for each in trees(node, "flag")), None)
         if flag == "T":
             body.put("editable", TRUE)
             if not has_flag:
@@ -45,7 +45,7 @@ def _parameter(reader: Reader, node: Tree[Token]) -> Map:
     kind = str(token(node, "TYPE"))
     body = Map()
     body.put("type", kind)
-    ends = [end for found in trees(node, "range") for end in found.children if isinstance(end, Token)]
+    ends = [end for limit in trees(node, "range") for end in limit.children if isinstance(end, Token)]
     limits = [literals.value(end) for end in ends if kind in ("int", "float", "double")]
     body.put_some("range", List.of(limits))
     default = literal(node)

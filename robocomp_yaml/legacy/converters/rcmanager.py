@@ -1,4 +1,4 @@
-"""RCManager's XML to a network of nodes; it becomes a deployment once the run's components are known."""
+"""Convert RCManager's XML to a network, which becomes a deployment when the run's components are known."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ATTRIBUTES = {
     "workingDir": "path", "upCommand": "command", "downCommand": "command", "configFile": "path",
     "xpos": "value", "ypos": "value", "radius": "value", "color": "value",
 }  # fmt: skip
-"""The elements of a node that say one thing, by the attribute that says it."""
+"""The elements of a node with one value, and the attribute of the value."""
 
 _ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "quot": '"', "apos": "'"}
 _ENTITY = re.compile(r"&(?:#x(?P<hex>[0-9a-fA-F]+);|#(?P<decimal>[0-9]+);|(?P<name>\w+);)?")
@@ -65,37 +65,37 @@ class _RcmanagerConverter:
         return DeploymentDraft(network, self.reader.placed.around)
 
     def element(self, tree: Tree[Token]) -> _Element:
-        """An element with all that is in it; what the grammar does not judge is judged here."""
+        """Return an element with its content; report what the grammar does not check."""
         begin, end = token(tree, "OPEN"), token(tree, "CLOSE")
         assert begin is not None
-        made = _Element(begin[1:], tree, self.reader.notes(tree))
-        if end is not None and end[2:-1].strip() != made.name:
-            self.reader.refused("mismatch", end, str(end), open=made.name)
+        result = _Element(begin[1:], tree, self.reader.notes(tree))
+        if end is not None and end[2:-1].strip() != result.name:
+            self.reader.refused("mismatch", end, str(end), open=result.name)
         for attribute in trees(tree, "attribute"):
             name, value = token(attribute, "WORD"), token(attribute, "VALUE")
             assert name is not None and value is not None
-            if name in made.attributes:
+            if name in result.attributes:
                 self.reader.refused("attribute_twice", name, name)
-            made.attributes[str(name)] = self.text(value)
-            made.places[str(name)] = value
-        made.children = [self.element(child) for child in trees(tree, "element")]
-        return made
+            result.attributes[str(name)] = self.text(value)
+            result.places[str(name)] = value
+        result.children = [self.element(child) for child in trees(tree, "element")]
+        return result
 
     def text(self, value: Token) -> str:
-        """An attribute's value with its entities, and each white space a blank, as XML has it."""
+        """Return an attribute's value with its entities resolved, and white space replaced by blanks, as in XML."""
 
-        def character(found: re.Match[str]) -> str:
-            if found["name"] in _ENTITIES:
-                return _ENTITIES[found["name"]]
-            if found["hex"] or found["decimal"]:
-                number = int(found["hex"], 16) if found["hex"] else int(found["decimal"])
+        def character(match: re.Match[str]) -> str:
+            if match["name"] in _ENTITIES:
+                return _ENTITIES[match["name"]]
+            if match["hex"] or match["decimal"]:
+                number = int(match["hex"], 16) if match["hex"] else int(match["decimal"])
                 if 0x20 <= number < 0xD800 or 0xE000 <= number < 0x110000 or number in (9, 10, 13):
                     return chr(number)
-            if found["name"] or found["hex"] or found["decimal"]:
-                self.reader.refused("entity", value, found[0])
+            if match["name"] or match["hex"] or match["decimal"]:
+                self.reader.refused("entity", value, match[0])
                 return "x"
             self.reader.repaired("ampersand", value)
-            return found[0]
+            return match[0]
 
         return _ENTITY.sub(character, re.sub(r"[\t\n\r]", " ", value[1:-1]))
 
@@ -116,7 +116,7 @@ class _RcmanagerConverter:
         self.children(element, node, network)
 
     def children(self, element: _Element, node: NetworkNode, network: NetworkDraft) -> None:
-        said: dict[str, _Element] = {}
+        by_name: dict[str, _Element] = {}
         for child in element.children:
             if child.name == "dependence":
                 alias = child.get("alias")
@@ -125,43 +125,43 @@ class _RcmanagerConverter:
                     continue
                 node.after.append((alias, self.reader.span(child.place("alias")), child.notes))
                 continue
-            if child.name in said:
-                self.reader.lost("overridden", said[child.name].tree, child.name)
+            if child.name in by_name:
+                self.reader.lost("overridden", by_name[child.name].tree, child.name)
                 node.extra.entries = [entry for entry in node.extra.entries if entry.key != child.name]
-            said[child.name] = child
+            by_name[child.name] = child
             node.extra.entries.append(self.extra(child))
-        folder = said["workingDir"].get("path") if "workingDir" in said else ""
-        if "upCommand" in said:
-            node.command = command.parse(said["upCommand"].get("command"), folder)
-        if "downCommand" in said and (user := _SSH.search(said["downCommand"].get("command"))):
+        folder = by_name["workingDir"].get("path") if "workingDir" in by_name else ""
+        if "upCommand" in by_name:
+            node.command = command.parse(by_name["upCommand"].get("command"), folder)
+        if "downCommand" in by_name and (user := _SSH.search(by_name["downCommand"].get("command"))):
             network.users.setdefault(user["host"], user["user"])
 
     def extra(self, child: _Element) -> DocumentEntry:
-        """An element as RCManager's exporter finds it again: one value where it says one thing."""
+        """Return an element as RCManager's exporter reads it: a single value, if it has only that."""
         simple = ATTRIBUTES.get(child.name)
         if simple is not None and list(child.attributes) == [simple] and not child.children:
             return DocumentEntry(child.name, exact(child.get(simple)), child.notes)
         return DocumentEntry(child.name, self.generic(child), child.notes)
 
     def generic(self, element: _Element) -> Map:
-        """Any element: its attributes, and the elements in it by their names, lists where there are several."""
-        made = Map()
+        """Return any element: its attributes, and its elements by name; several of one name are a list."""
+        result = Map()
         for name, value in element.attributes.items():
-            made.put(name, exact(value))
+            result.put(name, exact(value))
         for name in dict.fromkeys(child.name for child in element.children):
             same = [child for child in element.children if child.name == name]
             if name in element.attributes:
                 self.reader.refused("collision", same[0].tree, name)
             elif len(same) == 1:
-                made.entries.append(DocumentEntry(name, self.generic(same[0]), same[0].notes))
+                result.entries.append(DocumentEntry(name, self.generic(same[0]), same[0].notes))
             else:
-                made.put(name, List([DocumentEntry("", self.generic(child), child.notes) for child in same]))
-        return made
+                result.put(name, List([DocumentEntry("", self.generic(child), child.notes) for child in same]))
+        return result
 
 
 _NUMBER = re.compile(r"-?(?:0|[1-9][0-9]{0,15})(?:\.[0-9]{1,17})?")
 
 
 def exact(text: str) -> str | Raw:
-    """A plain number where it is one; everything else is text, in quotes where it has to be."""
+    """Return a plain number as a number, everything else as text."""
     return Raw(text) if _NUMBER.fullmatch(text) else text

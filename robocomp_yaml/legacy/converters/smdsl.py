@@ -1,6 +1,6 @@
-"""SMDSL to SCXML.
+"""Convert SMDSL to SCXML.
 
-Blocks are put together by the names of states: a block's parent may be any state of the file, in whatever order.
+Blocks are nested by the names of states: a block's parent may be any state of the file, in any order.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ NAMESPACE = "http://www.w3.org/2005/07/scxml"
 
 
 class ScxmlState(msgspec.Struct, eq=False):
-    """`transitions` are names of states, with comments."""
+    """A state to write. `transitions` are the names of target states, with comments."""
 
     name: str
     final: bool = False
@@ -30,7 +30,7 @@ class ScxmlState(msgspec.Struct, eq=False):
 
 
 class _Block(msgspec.Struct, eq=False):
-    """A machine, or what stands inside of the state `name`."""
+    """A machine, or the states inside of the state `name`."""
 
     tree: Tree[Token]
     name: str
@@ -41,7 +41,7 @@ class _Block(msgspec.Struct, eq=False):
 
 
 def convert(reader: Reader) -> MachineDraft | None:
-    """The document of a file's machine."""
+    """Return the SCXML of a file's machine."""
     return _SmdslConverter(reader).draft(reader.tree)
 
 
@@ -57,8 +57,8 @@ class _SmdslConverter:
         inner = [self._block(block) for block in trees(tree, "submachine")]
         filled: set[str] = set()
         for block in inner:
-            self._place(block, filled)
-        self._circles(top, inner)
+            self._nest(block, filled)
+        self._cycles(top, inner)
         for block in (top, *inner):
             self._transitions(block)
         around = reader.placed.around
@@ -115,7 +115,7 @@ class _SmdslConverter:
         self.known[name] = state
         block.states.append(state)
 
-    def _place(self, block: _Block, filled: set[str]) -> None:
+    def _nest(self, block: _Block, filled: set[str]) -> None:
         parent = self.known.get(block.name)
         if parent is None:
             self._refused("refused_parent", block.tree, block.name)
@@ -128,8 +128,8 @@ class _SmdslConverter:
             parent.states, parent.initial, parent.parallel = block.states, block.initial, block.parallel
             self._comments_to(self.reader.notes(block.tree), parent.notes)
 
-    def _circles(self, top: _Block, inner: list[_Block]) -> None:
-        """Every state is somewhere in the machine, not only in itself."""
+    def _cycles(self, top: _Block, inner: list[_Block]) -> None:
+        """Report states that are nested only in themselves."""
         placed = reached(top.states, lambda state: state.states)
         for block in inner:
             parent = self.known.get(block.name)
@@ -148,8 +148,8 @@ class _SmdslConverter:
         notes = self.reader.notes(tree)
         for target in targets:
             name = self.reader.name(target)
-            found = self._known(target)
-            if state is None or found is None:
+            target_state = self._known(target)
+            if state is None or target_state is None:
                 continue
             if state.final:
                 self.reader.lost("lost_transition", tree, state.name)
@@ -169,7 +169,7 @@ class _SmdslConverter:
         return self.known.get(name)
 
     def _comments_to(self, notes: Notes, other: Notes) -> None:
-        """Comments of what has no place of its own go to what is around it."""
+        """Move comments to another construct."""
         other.head += [*notes.head, *notes.tail]
         other.foot += notes.foot
 

@@ -1,4 +1,4 @@
-"""The components that a legacy network may start: those of the same run, and documents that are there already."""
+"""The components that a legacy network may start: those of the same run, and existing documents."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from robocomp_yaml.source.heading import root_of
 
 
 class KnownComponent(msgspec.Struct, frozen=True):
-    """A component's document at `path`; `implements` and `requires` are interfaces, the latter by proxy name."""
+    """A component whose document is at `path`. `implements` are interfaces; `requires` are interfaces by proxy name."""
 
     name: str
     path: str
@@ -26,7 +26,7 @@ class KnownComponent(msgspec.Struct, frozen=True):
 
 
 def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[KnownComponent]:
-    """Those that this run writes."""
+    """Return the components that a run writes. `chosen` are the paths of documents by the paths of files."""
     return [
         _known(chosen[file.path], data(file.draft.document))
         for file in files if isinstance(file.draft, ComponentDraft)
@@ -34,7 +34,7 @@ def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[KnownC
 
 
 def of_folder(folder: str, but: Iterable[str]) -> list[KnownComponent]:
-    """Those that stand below a folder, but for these paths."""
+    """Return the components below a folder, except those at the paths `but`."""
     skipped = {os.path.normpath(path) for path in but}
     found = []
     for path in of_kind(folder, "cdsl"):
@@ -46,23 +46,26 @@ def of_folder(folder: str, but: Iterable[str]) -> list[KnownComponent]:
 
 
 def match(command: NodeCommand, known: Iterable[KnownComponent]) -> KnownComponent | None:
-    """The component that a command runs, by its name; of several, the one in the folder where it runs, else none."""
-    same = [component for component in known if component.name.lower() == command.stem.lower()]
-    if len(same) > 1:
-        place = posixpath.normpath(command.folder).split("/")
-        same = [item for item in same if os.path.basename(os.path.dirname(os.path.abspath(item.path))) in place]
-    return same[0] if len(same) == 1 else None
+    """Return the component that a command starts, by its name. Of several, it is the one in the folder of the command,
+    else None."""
+    same_name = [component for component in known if component.name.lower() == command.stem.lower()]
+    if len(same_name) > 1:
+        folders = posixpath.normpath(command.folder).split("/")
+        same_name = [
+            item for item in same_name if os.path.basename(os.path.dirname(os.path.abspath(item.path))) in folders
+        ]
+    return same_name[0] if len(same_name) == 1 else None
 
 
 def _known(path: str, content: Mapping[str, object]) -> KnownComponent:
     implements, requires = content.get("implements"), content.get("requires")
-    needed: dict[str, str] = {}
+    required: dict[str, str] = {}
     for item in requires if isinstance(requires, list) else []:
         for name, interface in item.items() if isinstance(item, dict) else [(item, item)]:
-            told = interface.get("interface", name) if isinstance(interface, dict) else interface
-            needed[str(name)] = str(told).rpartition(".")[2]
+            interface_name = interface.get("interface", name) if isinstance(interface, dict) else interface
+            required[str(name)] = str(interface_name).rpartition(".")[2]
     served = implements if isinstance(implements, list) else []
     names = [str(next(iter(item), "")) if isinstance(item, dict) else str(item) for item in served]
     return KnownComponent(
-        str(content.get("component", "")), path, tuple(name.rpartition(".")[2] for name in names), needed
+        str(content.get("component", "")), path, tuple(name.rpartition(".")[2] for name in names), required
     )

@@ -1,4 +1,4 @@
-"""Where a node answers: an Ice proxy such as `laser:tcp -h localhost -p 10003`."""
+"""The endpoint of a node: an Ice proxy such as `laser:tcp -h localhost -p 10003`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _PROTOCOLS = frozenset(("tcp", "udp", "ssl", "default", "ws", "wss"))
 
 
 class NodeEndpoint(msgspec.Struct, frozen=True):
-    """`options` are those but host and port, as they are spelled."""
+    """An identity and its address. `options` are all but host and port, as they are spelled."""
 
     identity: str
     protocol: str
@@ -26,7 +26,7 @@ class NodeEndpoint(msgspec.Struct, frozen=True):
 
     @property
     def text(self) -> str:
-        """What the adapter listens at: at every address of its host."""
+        """The endpoint of the adapter, which listens on all addresses of its host."""
         return f"{self.protocol} -p {self.port} {self.options}".rstrip()
 
     @property
@@ -34,19 +34,20 @@ class NodeEndpoint(msgspec.Struct, frozen=True):
         return self.identity == TOPIC_MANAGER
 
     def proxy(self, host: str) -> str:
-        """How others on any host find it: the spelling that needs not be kept."""
+        """Return the proxy of the endpoint on a host, in the spelling that exporters write."""
         return f"{self.identity}:{self.protocol} -h {spelled_host(host)} -p {self.port} {self.options}".rstrip()
 
 
 def parse(text: str) -> NodeEndpoint | None:
-    """None for what is no proxy with one address, names no port, or has an identity that no interface can have."""
-    found = proxy_at(text)
-    if found is None or found.options or found.unknown or len(found.endpoints) != 1:
+    """Return the endpoint of a proxy; None where it has not exactly one address, has no port, or its identity cannot
+    be an interface."""
+    proxy = proxy_at(text)
+    if proxy is None or proxy.options or proxy.unknown or len(proxy.endpoints) != 1:
         return None
-    where = found.endpoints[0]
-    is_name = found.identity == TOPIC_MANAGER or _INTERFACE.fullmatch(found.identity)
-    if not is_name or where.protocol not in _PROTOCOLS or not where.port:
+    address = proxy.endpoints[0]
+    is_name = proxy.identity == TOPIC_MANAGER or _INTERFACE.fullmatch(proxy.identity)
+    if not is_name or address.protocol not in _PROTOCOLS or not address.port:
         return None
-    if "--sourceAddress" in where.options or OF_NO_LINE.search(where.options):  # nothing that an adapter can have
+    if "--sourceAddress" in address.options or OF_NO_LINE.search(address.options):  # an adapter cannot have these
         return None
-    return NodeEndpoint(found.identity, where.protocol, where.port, where.host, where.options)
+    return NodeEndpoint(proxy.identity, address.protocol, address.port, address.host, address.options)

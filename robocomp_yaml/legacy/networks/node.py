@@ -1,4 +1,4 @@
-"""What a legacy file says of a network, before it becomes a document: nodes, and what goes with them."""
+"""A network of a legacy file before its conversion to a document: nodes, users and comments."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ _LONGEST = 100
 
 
 class NetworkNode(msgspec.Struct, eq=False):
-    """`alias` is its name in the file, `name` that in the document. `command` is None where nothing starts it.
-    `interface` is what its endpoint is called. `after` are the aliases that it depends on. `extra` is what only an
-    exporter needs. `by_key` are comments by the key that they belong to."""
+    """A node of a network. `alias` is its name in the file, `name` that in the document. `command` is None where
+    nothing starts it. `interface` is the identity of its endpoint. `after` are the aliases that it depends on.
+    `extra` is what only an exporter needs. `by_key` are comments by the document's key."""
 
     alias: str
     name: str
@@ -34,11 +34,11 @@ class NetworkNode(msgspec.Struct, eq=False):
     by_key: dict[str, Notes] = {}
     extra: Map = msgspec.field(default_factory=Map)
     is_shared: bool = False
-    """Whether its process has several names."""
+    """Whether several nodes are the same process."""
 
 
 class NetworkDraft(msgspec.Struct, eq=False):
-    """`users` are the names for ssh by host; `extra` is what only an exporter needs of the network as such."""
+    """A network. `users` are the user names for ssh by host; `extra` is what only an exporter needs."""
 
     nodes: list[NetworkNode] = []
     users: dict[str, str] = {}
@@ -47,8 +47,9 @@ class NetworkDraft(msgspec.Struct, eq=False):
 
 
 def safe_name(text: str, taken: Collection[str] = ()) -> str:
-    """A name that documents, files and other programs take: letters, digits, '_' and '-', and none of `taken`."""
+    """Return a name that is valid in documents, files and other programs: of letters, digits, '_' and '-', and not in
+    `taken`."""
     bare = _NO_NAME.sub("_", text).strip("_-") or "node"
     bare = bare if bare[0].isalpha() else f"n{bare}"
-    bare = bare[:_LONGEST]  # files are called after it
+    bare = bare[:_LONGEST]  # files are named after it
     return free(bare, taken)

@@ -25,16 +25,16 @@ _PERIODS = {
 _MEMBER = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]*\Z")
 
 
-def plans(configs: Sequence[Config], guesses: Corrections) -> list[ParameterPlan]:
+def plans(configs: Sequence[Config], corrections: Corrections) -> list[ParameterPlan]:
     """Return the plans of the component's parameters. Settings that cannot be parameters remain properties of the
     configs."""
-    candidates = list(families(configs, guesses))
+    candidates = list(families(configs, corrections))
     by_key: dict[Path, dict[str, Setting]] = {}
     for config in configs:
         for setting in config.parameters:
             by_key.setdefault(setting.path, {})[config.name] = setting
     for path, settings in by_key.items():
-        candidates.append(_plan(path, settings, guesses))
+        candidates.append(_plan(path, settings, corrections))
     placed = list(_placed(candidates, configs))
     for plan in placed:
         plan.optional = len(plan.values) < len(configs)
@@ -42,11 +42,11 @@ def plans(configs: Sequence[Config], guesses: Corrections) -> list[ParameterPlan
         in_toml = [c.name for c in configs if c.sorted.dialect == TOML and c.name in plan.values]
         if not plan.guessed and any(becomes_text(plan.shape, plan.values[name].item.value) for name in in_toml):
             plan.guessed = "it is text in one config and a number in another, so that it becomes text"
-        plan.shape = retyped(plan.shape, ".".join(plan.path), guesses.types)
+        plan.shape = retyped(plan.shape, ".".join(plan.path), corrections.types)
     return placed
 
 
-def _plan(path: Path, settings: dict[str, Setting], guesses: Corrections) -> ParameterPlan:
+def _plan(path: Path, settings: dict[str, Setting], corrections: Corrections) -> ParameterPlan:
     """Return the plan of a key that is in no family: a plain value, or a list in one property."""
     plan = ParameterPlan(path)
     texts = {name: setting.text for name, setting in settings.items()}
@@ -54,7 +54,7 @@ def _plan(path: Path, settings: dict[str, Setting], guesses: Corrections) -> Par
     is_flat = all(isinstance(s.value, Leaf) and s.raw and not s.is_quoted for s in settings.values())
     are_lists = is_flat and any(map(is_list, texts.values())) and all(map(could_be_list, texts.values()))
     between = separators(texts.values())
-    if are_lists and key not in guesses.text and not re.search(r"[{}]", key):
+    if are_lists and key not in corrections.text and not re.search(r"[{}]", key):
         plan.spelled = Spelling(
             key,
             separators=tuple(joiner(texts.values(), separator) for separator in between),

@@ -1,5 +1,5 @@
-"""The documents of a component's configs, read as `check` reads them before they are written. What they cannot say as a
-parameter, or in a section of its own, is kept as a property; what can be no property either is told of as lost."""
+"""Check the documents of a component's configs before they are written. A setting that is not valid as a parameter,
+or in its section, becomes a property; one that is not valid as a property either is reported as lost."""
 
 from __future__ import annotations
 
@@ -33,21 +33,22 @@ from robocomp_yaml.source.tree import Sequence as Sequence_
 
 
 def accepted_plans(
-    planned: Sequence[ParameterPlan], configs: Sequence[Config], links: Mapping[str, DocumentLinks]
+    plans: Sequence[ParameterPlan], configs: Sequence[Config], links: Mapping[str, DocumentLinks]
 ) -> list[ParameterPlan]:
-    """The plans that hold. Each round moves what does not hold one step: to `properties`, or out of these."""
-    kept = list(planned)
+    """Return the plans whose documents are valid. Each round moves what is not valid to `properties`, or out of
+    them."""
+    remaining = list(plans)
     while True:
-        draft = _TrialDocuments(kept, configs, links)
-        moved = [_move(fault, draft, kept, configs) for fault in draft.faults()]
-        kept = [plan for plan in kept if plan.shape is not None]
+        trial = _TrialDocuments(remaining, configs, links)
+        moved = [_move(fault, trial, remaining, configs) for fault in trial.faults()]
+        remaining = [plan for plan in remaining if plan.shape is not None]
         if not any(moved):
-            return kept
+            return remaining
 
 
-class _Fault(msgspec.Struct, frozen=True):
-    """What is wrong, and the keys that lead there; `config` is '' in the parameters' own document. `path` is the
-    parameter that it is about, where it says so."""
+class _DocumentFault(msgspec.Struct, frozen=True):
+    """An error, and the keys that lead to its location. `config` is '' in the PDSL. `path` is the parameter that the
+    error is about, '' where it names none."""
 
     config: str
     keys: tuple[str, ...]
@@ -56,20 +57,20 @@ class _Fault(msgspec.Struct, frozen=True):
 
 
 class _TrialDocuments:
-    """The documents as they would be written."""
+    """The documents as they would be written, and their diagnostics."""
 
     def __init__(
         self, plans: Sequence[ParameterPlan], configs: Sequence[Config], links: Mapping[str, DocumentLinks]
     ) -> None:
         self.trees: dict[str, Node | None] = {}
-        self.said: list[Diagnostic] = []
+        self.diagnostics: list[Diagnostic] = []
         root = self._tree("", "pdsl", pdsl_document("component", plans))
         if root is None:
             return
-        made = build_parameters.build(root, "")
-        parameters, found = resolve(made)
-        self.said += found
-        linked = LinkedParameters(parameters, made, broken=has_errors(found))
+        document = build_parameters.build(root, "")
+        parameters, found = resolve(document)
+        self.diagnostics += found
+        linked = LinkedParameters(parameters, document, broken=has_errors(found))
         documents: dict[str, ValuesDocument] = {}
         for config in configs:
             node = self._tree(config.name, "config", values_document(config, plans, links[config.name], exact=False))
@@ -78,39 +79,39 @@ class _TrialDocuments:
         bases = {
             name: generic_config(name) for name in documents if links[name].after and generic_config(name) in documents
         }
-        first = {
+        linked_values = {
             name: LinkedValues(document, parameters=linked, is_extended=name in bases.values())
             for name, document in documents.items()
         }
-        values = {name: replace(one, extends=(first[bases[name]],)) if name in bases else one
-                  for name, one in first.items()}  # fmt: skip
+        values = {name: replace(one, extends=(linked_values[bases[name]],)) if name in bases else one
+                  for name, one in linked_values.items()}  # fmt: skip
         program = Program(parameters={"": linked}, values=values)
         for check in checks_of("pdsl"):
-            self.said += check(program)
+            self.diagnostics += check(program)
 
     def _tree(self, name: str, kind: str, document: Map) -> Mapping_ | None:
-        """Only a document of the right shape."""
-        content, said = decode(name, document_text(document, Notes()).encode())
+        """Return the tree of a document; None where its schema rejects it."""
+        content, diagnostics = decode(name, document_text(document, Notes()).encode())
         root = None
         if content is not None:
-            root, said = tree.parse(name, content)
+            root, diagnostics = tree.parse(name, content)
         self.trees[name] = root
         if root is not None:
-            said = [*said, *schema.validate(kind, root)]
-        self.said += said
-        return root if isinstance(root, Mapping_) and not has_errors(said) else None
+            diagnostics = [*diagnostics, *schema.validate(kind, root)]
+        self.diagnostics += diagnostics
+        return root if isinstance(root, Mapping_) and not has_errors(diagnostics) else None
 
-    def faults(self) -> list[_Fault]:
+    def faults(self) -> list[_DocumentFault]:
+        errors = [(error, error.span) for error in self.diagnostics if error.severity == ERROR]
         return [
-            _Fault(
-                said.span.file, tuple(_keys(self.trees.get(said.span.file), said.span)), said.message,
-                str(said.fact("path") or ""),
+            _DocumentFault(
+                span.file, tuple(_keys(self.trees.get(span.file), span)), error.message, str(error.fact("path") or "")
             )
-            for said in self.said if said.severity == ERROR
-        ]  # fmt: skip
+            for error, span in errors
+        ]
 
     def types_of(self, plan: ParameterPlan) -> set[str]:
-        """The names of types that stand at a plan's place."""
+        """Return the names in the PDSL's entry of a plan, types among them."""
         node: Node | None = self.trees.get("")
         steps = ["parameters", *(step for part in plan.path for step in (part, "group"))][:-1]
         for step in steps:
@@ -118,25 +119,27 @@ class _TrialDocuments:
         return {inner.lexeme for inner in tree.below(node) if isinstance(inner, Scalar)} if node is not None else set()
 
 
-def _move(fault: _Fault, draft: _TrialDocuments, plans: Sequence[ParameterPlan], configs: Sequence[Config]) -> bool:
-    """Whether something went another way that could be at fault."""
+def _move(
+    fault: _DocumentFault, trial: _TrialDocuments, plans: Sequence[ParameterPlan], configs: Sequence[Config]
+) -> bool:
+    """Move the setting that causes an error, and return whether there was one to move."""
     if fault.config:
         found = next(config.sorted for config in configs if config.name == fault.config)
         if fault.keys[:1] == ("properties",) and len(fault.keys) > 1:
             return _lose(fault, found)
         if len(fault.keys) > 1 and fault.keys[0] in _SECTIONS:
             return _keep(fault, found)
-    moved = [plan for plan in _blamed(fault, draft, plans) if plan.shape is not None]
+    moved = [plan for plan in _blamed(fault, trial, plans) if plan.shape is not None]
     for plan in moved:
         keep_as_properties(plan, configs)
     return bool(moved)
 
 
-def _blamed(fault: _Fault, draft: _TrialDocuments, plans: Sequence[ParameterPlan]) -> list[ParameterPlan]:
+def _blamed(fault: _DocumentFault, trial: _TrialDocuments, plans: Sequence[ParameterPlan]) -> list[ParameterPlan]:
     section, *steps = (*fault.keys, "")
     path = tuple(steps[:-1])
     if section == "types" and path:
-        return [plan for plan in plans if path[0] in draft.types_of(plan)]
+        return [plan for plan in plans if path[0] in trial.types_of(plan)]
     if section == "legacy" and path:
         return [plan for plan in plans if ".".join(plan.path) == path[0]]
     if not fault.config:
@@ -144,7 +147,7 @@ def _blamed(fault: _Fault, draft: _TrialDocuments, plans: Sequence[ParameterPlan
     if section == "parameters" and path:
         inside = [plan for plan in plans if plan.path[: len(path)] == path]
         return inside or [plan for plan in plans if path[: len(plan.path)] == plan.path]
-    # It has no place of its own.
+    # The error is about the document as a whole.
     named = [plan for plan in plans if fault.path.startswith(in_words(plan.path))]
     return sorted(named, key=lambda plan: len(in_words(plan.path)))[-1:]
 
@@ -152,8 +155,8 @@ def _blamed(fault: _Fault, draft: _TrialDocuments, plans: Sequence[ParameterPlan
 _SECTIONS = ("endpoints", "proxies", "topics", "ice")
 
 
-def _keep(fault: _Fault, found: SortedSettings) -> bool:
-    """What stands in a section becomes a property."""
+def _keep(fault: _DocumentFault, found: SortedSettings) -> bool:
+    """Move a setting from its section to the properties."""
     for section in (found.endpoints, found.proxies, found.manager, found.prefixes, found.names, found.ice):
         for named in section:
             if named.name == fault.keys[-1] or (section is found.proxies and named.name in fault.keys[1:2]):
@@ -163,17 +166,17 @@ def _keep(fault: _Fault, found: SortedSettings) -> bool:
     return False
 
 
-def _lose(fault: _Fault, found: SortedSettings) -> bool:
+def _lose(fault: _DocumentFault, found: SortedSettings) -> bool:
     for named in found.properties:
         if named.name == fault.keys[1]:
             found.properties.remove(named)
-            found.diagnostics.append(codes.LOST.at(named.setting.span, what=f"{fault.message}; it is left out"))
+            found.diagnostics.append(codes.LOST.at(named.setting.span, what=f"{fault.message}; it is omitted"))
             return True
     return False
 
 
 def _keys(node: Node | None, span: Span) -> Iterator[str]:
-    """The keys that lead to a place."""
+    """Yield the keys that lead to a location."""
     start = (span.line, span.column)
     items: Iterable[tuple[str, Node, Node]] = ()
     if isinstance(node, Mapping_):

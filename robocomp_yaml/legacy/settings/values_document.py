@@ -1,4 +1,4 @@
-"""The values document of one config: its settings by section, with their comments where they stood."""
+"""Write the values document of one config: its settings by section, with their comments."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from robocomp_yaml.semantics.texts import unquoted
 
 
 class DocumentLinks(msgspec.Struct, frozen=True):
-    """What a values document says of itself: its component, the file it was, and the document it comes after."""
+    """The paths in a values document: its component, its legacy file, and the document whose values it follows."""
 
     component: str
     file: str
@@ -25,18 +25,19 @@ class DocumentLinks(msgspec.Struct, frozen=True):
 
 
 def values_document(config: Config, plans: Sequence[ParameterPlan], links: DocumentLinks, *, exact: bool) -> Map:
-    found, dialect = config.sorted, config.sorted.dialect
+    """Return the values document of a config. `exact` keeps the blanks around separators."""
+    sorted_, dialect = config.sorted, config.sorted.dialect
     document = Map(block=True)
     document.put("component", links.component)
     document.put_some("parameters", _parameters(config, plans))
-    document.put_some("endpoints", _section(found.endpoints, _text))
-    document.put_some("proxies", _section(found.proxies, _proxy))
-    topics = _section(found.manager, _text)
-    topics.put_some("prefix", _section(found.prefixes, _text))
-    topics.put_some("name", _section(found.names, _text))
+    document.put_some("endpoints", _section(sorted_.endpoints, _text))
+    document.put_some("proxies", _section(sorted_.proxies, _proxy))
+    topics = _section(sorted_.manager, _text)
+    topics.put_some("prefix", _section(sorted_.prefixes, _text))
+    topics.put_some("name", _section(sorted_.names, _text))
     document.put_some("topics", topics)
-    document.put_some("ice", _section(found.ice, _text if dialect == CLASSIC else _typed))
-    document.put_some("properties", _section(found.properties, lambda named: named.setting.raw or _verbatim(named)))
+    document.put_some("ice", _section(sorted_.ice, _text if dialect == CLASSIC else _typed))
+    document.put_some("properties", _section(sorted_.properties, lambda named: named.setting.raw or _verbatim(named)))
     document.put("legacy", _legacy(config, plans, links, exact))
     return document
 
@@ -55,7 +56,7 @@ def _text(named: NamedSetting) -> Value:
 
 
 def _typed(named: NamedSetting) -> Value:
-    """A value as text where it stands in quotes, else as it is."""
+    """Return a value as text if it has quotes, else with its type."""
     leaf = named.setting.value
     assert isinstance(leaf, Leaf)
     return plain(leaf, leaf.kind)
@@ -68,7 +69,7 @@ def _verbatim(named: NamedSetting) -> str:
 
 
 def _parameters(config: Config, plans: Sequence[ParameterPlan]) -> Map:
-    """The values of one config, nested by their paths, in the order of the file."""
+    """Return the values of one config, nested by their paths, in the order of the file."""
     own = [plan for plan in plans if config.name in plan.values]
     top = Map(block=True)
     groups: dict[Path, Map] = {(): top}
@@ -95,38 +96,38 @@ def _legacy(config: Config, plans: Sequence[ParameterPlan], links: DocumentLinks
 
 
 def _originals(config: Config, plans: Sequence[ParameterPlan], exact: bool) -> Iterator[tuple[str, str]]:
-    """Properties whose spelling the document would not give again; what differs in blanks only if asked for."""
+    """Yield the properties that an export would spell differently. Differences in blanks count only with `exact`."""
     for plan in plans:
-        given = plan.values.get(config.name)
+        value = plan.values.get(config.name)
         spelled = plan.spelled
-        if given is None:
+        if value is None:
             continue
         separators = spelled.separators or (spelled.separator,) if spelled else ()
-        for setting in given.settings:
-            made = setting.raw
+        for setting in value.settings:
+            respelled = setting.raw
             if spelled and spelled.columns:
-                made = spelled.separator.join(split(setting.raw, ","))
+                respelled = spelled.separator.join(split(setting.raw, ","))
             elif spelled and spelled.key.endswith("{i}"):
-                made = setting.raw
+                respelled = setting.raw
             elif spelled and spelled.separators:
                 parts = nested(setting.raw, spelled.separators, len(spelled.separators), True)
-                made = joined(parts, spelled.separators, spelled.trailing)
+                respelled = joined(parts, spelled.separators, spelled.trailing)
             elif config.sorted.dialect == FLAT_TOML:
-                made = _requoted(setting.raw, plan)
-            same = squeezed(made, separators) == squeezed(setting.raw, separators)
-            if made != setting.raw and (exact or not (same and separators)):
+                respelled = _requoted(setting.raw, plan)
+            is_same = squeezed(respelled, separators) == squeezed(setting.raw, separators)
+            if respelled != setting.raw and (exact or not (is_same and separators)):
                 yield setting.key, setting.raw
     if config.sorted.dialect == FLAT_TOML:
-        found = config.sorted
-        texts = [*found.endpoints, *found.proxies, *found.manager, *found.prefixes, *found.names]
-        for named in [*texts, *(named for named in found.ice if isinstance(_typed(named), str))]:
+        sorted_ = config.sorted
+        texts = [*sorted_.endpoints, *sorted_.proxies, *sorted_.manager, *sorted_.prefixes, *sorted_.names]
+        for named in [*texts, *(named for named in sorted_.ice if isinstance(_typed(named), str))]:
             raw = named.setting.raw
             if '"' not in unquoted(raw) and raw != f'"{named.setting.text}"':
                 yield named.setting.key, raw
 
 
 def _requoted(raw: str, plan: ParameterPlan) -> str:
-    """What flat TOML makes of a plain value: text stands in quotes."""
+    """Return a plain value as flat TOML spells it: text in quotes."""
     shape = plan.shape
     kind = getattr(shape, "kind", "")
     return f'"{unquoted(raw)}"' if kind == STRING and '"' not in unquoted(raw) else raw
