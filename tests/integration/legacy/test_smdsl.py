@@ -43,7 +43,7 @@ def test_nested_parallel_and_in_any_order(tmp_path: Path) -> None:
         :round PARALLEL { STATES player, board; };
         :board { states clean; initial_state clean; end_state broken; };
     """)  # fmt: skip
-    assert said == ["11:25 'clean' is named as the first or last state already, and need not be listed"]
+    assert said == ["11:25 'clean' is the first or last state, and need not be listed"]
     assert (
         text
         == HEAD
@@ -78,16 +78,16 @@ def test_nested_parallel_and_in_any_order(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("text", "said"), [
-    ("m { initial_state a; transition { a => a; }; };", ["1:22 'transition' is called 'transitions'"]),
+    ("m { initial_state a; transition { a => a; }; };", ["1:22 'transition' is spelled 'transitions'"]),
     ("m { states b, b; initial_state a; };", ["1:15 'b' is listed already"]),
-    ("m { initial_state a; transitions { a => a; a => a; }; };", ["1:49 this transition to 'a' is there already"]),
+    ("m { initial_state a; transitions { a => a; a => a; }; };", ["1:49 this transition to 'a' is repeated"]),
     ("m { initial_state a };", ["1:19 a ';' is missing here"]),
-    ("m { initial_state a; states b,; };", ["1:30 the last ',' of this list is followed by nothing"]),
-    ("m { initial_state a; };;", ["1:24 a ';' too many is left out"]),
+    ("m { initial_state a; states b,; };", ["1:30 nothing follows the last ',' of this list"]),
+    ("m { initial_state a; };;", ["1:24 a superfluous ';' is omitted"]),
     ("m { initial_state a; end_state b; transitions { b => a; }; };",
-     ["1:49 nothing leads out of the end state 'b': the transition is left out"]),
+     ["1:49 an end state cannot have transitions, so that this one of 'b' is omitted"]),
     ("m { initial_state a; };\n:a parallel { states b; initial_state c; };",
-     ["2:39 all states of a parallel block are active at once: 'c' is one of them, and neither first nor last"]),
+     ["2:39 all states of a parallel block are active at once, so that 'c' is neither first nor last"]),
 ])  # fmt: skip
 def test_repairs_and_losses(tmp_path: Path, text: str, said: list[str]) -> None:
     document, told = converted(tmp_path, text)
@@ -98,17 +98,17 @@ def test_repairs_and_losses(tmp_path: Path, text: str, said: list[str]) -> None:
 @pytest.mark.parametrize(("text", "said"), [
     ("m { states a; };", ["1:1 'm' has no 'initial_state'"]),
     ("m { };", ["1:1 'm' has no state"]),
-    ("m { initial_state a; transitions { a => b; }; };", ["1:41 there is no state 'b': list it under 'states'"]),
-    ("m { initial_state a; initial_state b; };", ["1:22 'initial_state' is said twice"]),
-    ("m { initial_state a; };\n:b { initial_state c; };", ["2:2 there is no state 'b' to stand in"]),
-    ("m { initial_state a; };\n:a { initial_state a; };", ["2:20 there are two states 'a'"]),
+    ("m { initial_state a; transitions { a => b; }; };", ["1:41 unknown state 'b': list it under 'states'"]),
+    ("m { initial_state a; initial_state b; };", ["1:22 'initial_state' is set twice"]),
+    ("m { initial_state a; };\n:b { initial_state c; };", ["2:2 unknown parent state 'b'"]),
+    ("m { initial_state a; };\n:a { initial_state a; };", ["2:20 the state 'a' is defined twice"]),
     ("m { initial_state a; };\n:a { initial_state b; };\n:a { initial_state c; };",
-     ["3:2 the states inside of 'a' are said already"]),
+     ["3:2 the states inside of 'a' are defined twice"]),
     ("m { initial_state a; };\n:b { initial_state c; };\n:c { initial_state b; };",
-     ["2:2 'b' stands inside of itself", "3:2 'c' stands inside of itself"]),
-    ("m { initial_state a; end_state b; };\n:b { initial_state c; };", ["2:2 'b' is an end state: it has no states"]),
-    ("m { initial_state ä; };", ["1:19 'ä' cannot be a name"]),
-    ("m { [states a;] };", ["1:5 '[' cannot stand here"]),
+     ["2:2 'b' contains itself", "3:2 'c' contains itself"]),
+    ("m { initial_state a; end_state b; };\n:b { initial_state c; };", ["2:2 'b' is an end state, which cannot contain states"]),
+    ("m { initial_state ä; };", ["1:19 'ä' is not a legal name"]),
+    ("m { [states a;] };", ["1:5 '[' is not allowed here"]),
 ])  # fmt: skip
 def test_refusals(tmp_path: Path, text: str, said: list[str]) -> None:
     document, told = converted(tmp_path, text)

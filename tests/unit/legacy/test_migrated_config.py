@@ -211,12 +211,12 @@ def test_the_user_names_columns_and_types(rcyaml: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("arguments", "problem"), [
-    (["--names", "Joint"], "--names takes KEY=a,b,c, not 'Joint'"),
-    (["--names", "Joint=a,b c"], "needs a list of names"),
-    (["--names", "Joint=a,a"], "has a name twice"),
-    (["--rules", "bad.yaml"], "bad.yaml has the key 'name'; there are names, types and text"),
-    (["--rules", "worse.yaml"], "worse.yaml: Volume cannot be 'number'"),
-    (["--rules", "worst.yaml"], "worst.yaml is no YAML mapping"),
+    (["--names", "Joint"], "--names requires KEY=a,b,c, not 'Joint'"),
+    (["--names", "Joint=a,b c"], "must be a list of names"),
+    (["--names", "Joint=a,a"], "has the same name twice"),
+    (["--rules", "bad.yaml"], "bad.yaml has the unknown key 'name'; the keys are names, types and text"),
+    (["--rules", "worse.yaml"], "worse.yaml: Volume cannot have the type 'number'"),
+    (["--rules", "worst.yaml"], "worst.yaml is not a YAML mapping"),
 ])  # fmt: skip
 def test_wrong_corrections_are_wrong_usage(rcyaml: Run, tmp_path: Path, arguments: list[str], problem: str) -> None:
     write_tree(tmp_path, {

@@ -60,7 +60,7 @@ def test_nothing_to_run(text: str) -> None:
 
 def test_endpoints() -> None:
     found = endpoint.parse("acpi: tcp -p 10025")
-    assert found == endpoint.Endpoint("acpi", "tcp", 10025) and found.text == "tcp -p 10025"
+    assert found == endpoint.NodeEndpoint("acpi", "tcp", 10025) and found.text == "tcp -p 10025"
     found = endpoint.parse("laser:tcp -t 500 -h robot.local -p 10003 -z")
     assert found is not None and (found.host, found.text) == ("robot.local", "tcp -p 10003 -t 500 -z")
     storm = endpoint.parse("IceStorm/TopicManager:default -p 9999")

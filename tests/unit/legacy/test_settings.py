@@ -151,19 +151,19 @@ def test_what_the_user_knows_better(rcyaml: Run, tmp_path: Path, golden: Golden)
 @pytest.mark.parametrize(
     ("names", "rules", "problem"),
     [
-        ("M", None, "--names takes KEY=a,b,c, not 'M'"),
-        ("=a,b", None, "--names takes KEY=a,b,c, not '=a,b'"),
-        ("M=a,2d", None, "--names M needs a list of names, of letters, digits and underscores"),
-        ("M=a,,b", None, "--names M needs a list of names, of letters, digits and underscores"),
-        ("M=a,b,a", None, "--names M has a name twice"),
-        ("", "- a\n", "rules.yaml is no YAML mapping of names, types and text"),
-        ("", "a: [\n", "rules.yaml is no YAML mapping of names, types and text: "),
-        ("", "nmes: {}\n", "rules.yaml has the key 'nmes'; there are names, types and text"),
-        ("", "names: [a]\n", "rules.yaml: names is a mapping of keys"),
-        ("", "names: {M: a}\n", "rules.yaml: M needs a list of names, of letters, digits and underscores"),
-        ("", "names: {M: [a, a]}\n", "rules.yaml: M has a name twice"),
-        ("", "types: {A: integer}\n", "rules.yaml: A cannot be 'integer'; the types are bool, int, long, float, double, string"),
-        ("", "text: Zip\n", "rules.yaml: text is a list of keys"),
+        ("M", None, "--names requires KEY=a,b,c, not 'M'"),
+        ("=a,b", None, "--names requires KEY=a,b,c, not '=a,b'"),
+        ("M=a,2d", None, "--names M must be a list of names, which consist of letters, digits and underscores"),
+        ("M=a,,b", None, "--names M must be a list of names, which consist of letters, digits and underscores"),
+        ("M=a,b,a", None, "--names M has the same name twice"),
+        ("", "- a\n", "rules.yaml is not a YAML mapping with the keys names, types and text"),
+        ("", "a: [\n", "rules.yaml is not a YAML mapping with the keys names, types and text: "),
+        ("", "nmes: {}\n", "rules.yaml has the unknown key 'nmes'; the keys are names, types and text"),
+        ("", "names: [a]\n", "rules.yaml: names must be a mapping of keys"),
+        ("", "names: {M: a}\n", "rules.yaml: M must be a list of names, which consist of letters, digits and underscores"),
+        ("", "names: {M: [a, a]}\n", "rules.yaml: M has the same name twice"),
+        ("", "types: {A: integer}\n", "rules.yaml: A cannot have the type 'integer'; the types are bool, int, long, float, double, string"),
+        ("", "text: Zip\n", "rules.yaml: text must be a list of keys"),
     ],
 )  # fmt: skip
 def test_corrections_that_cannot_be_meant(
@@ -197,4 +197,4 @@ def test_configs_without_a_component_have_parameters_of_their_own(rcyaml: Run, t
 def test_names_that_are_too_few_are_not_taken(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"speech/etc/config": "M0 = a,1\nM1 = b,2\n"})
     said = " ".join(rcyaml("migrate", ".", "--names", "M=name").output.split())
-    assert "M… has 2 columns, and --names gives 1; they are called f1, f2" in said
+    assert "M… has 2 columns, but --names has 1; the columns are named f1, f2" in said

@@ -48,5 +48,5 @@ def test_a_list_of_nothing_is_lost_and_told(rcyaml: Callable[..., Result], tmp_p
     (tmp_path / "etc/config.toml").write_text("a = 1\n[[rows]]\n", encoding="utf-8")
     result = rcyaml("migrate", ".", "--strict")
     assert result.exit_code == 1
-    assert "only texts and numbers can stand here, so 'rows' is left out" in result.output
+    assert "only texts and numbers can be properties, so that 'rows' is omitted" in result.output
     assert "1 line is lost" in result.output
