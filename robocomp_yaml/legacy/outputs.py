@@ -136,8 +136,8 @@ class OutputRoot(msgspec.Struct):
         """Return the new content of `migrated.json`; None where the file is not needed."""
         digests = dict(self.memory)
         for output in self.outputs:
-            is_ours = output.state == UPGRADED and digests.get(output.path) == digest(output.before.encode())
-            if output.state in (CREATED, CHANGED, UNCHANGED) or is_ours:
+            was_written = output.state == UPGRADED and digests.get(output.path) == digest(output.before.encode())
+            if output.state in (CREATED, CHANGED, UNCHANGED) or was_written:
                 digests[output.path] = digest(output.text.encode())
         if not digests and self.remembered is None:
             return None

@@ -150,14 +150,14 @@ class _CdslConverter(ComponentBuilder):
     def libraries(self, clause: Tree[Token]) -> None:
         self._uses(clause, lambda item, text: ("libraries", Map([DocumentEntry("link", text)])))
 
-    def _uses(self, clause: Tree[Token], place: Callable[[Tree[Token], str], tuple[str, Value]]) -> None:
+    def _uses(self, clause: Tree[Token], convert_item: Callable[[Tree[Token], str], tuple[str, Value]]) -> None:
         """Add the entries of a block to `uses:`, with the comments of the block."""
         uses = self.entries.get("uses") or self.put("uses", Map(block=True))
         assert isinstance(uses.value, Map)
         by_key = {entry.key: entry for entry in uses.value.entries}
         entry = None
         for item in trees(clause, "item"):
-            key, value = place(item, str(item.children[0]).strip('"'))
+            key, value = convert_item(item, str(item.children[0]).strip('"'))
             entry = by_key.get(key) or by_key.setdefault(key, uses.value.put(key, List()))
             assert isinstance(entry.value, List)
             entry.value.put(value, self.reader.notes(item))

@@ -181,13 +181,13 @@ class _IdslConverter:
         body, methods = Map(block=True), Map(block=True)
         self._doc(body, tree, name, self.names.name)
         declared = trees(tree, "method")
-        taken = {self.reader.name(method).lower() for method in declared}
+        used_names = {self.reader.name(method).lower() for method in declared}
         used: set[str] = set()
         for method in declared:
             legacy = key = self.reader.name(method)
             if legacy in used:
-                key = legacy + free(legacy.lower(), taken)[len(legacy) :]
-                taken.add(key.lower())
+                key = legacy + free(legacy.lower(), used_names)[len(legacy) :]
+                used_names.add(key.lower())
                 at = self.reader.span(token(method, "NAME") or method)
                 self.reader.diagnostics.append(codes.OVERLOAD.at(at, name=legacy, new=key))
             used.add(key)
@@ -205,9 +205,9 @@ class _IdslConverter:
             self.reader.repaired("lenient_order", token(tree, "NAME") or tree, legacy)
         seen: dict[str, Span] = {}
         for direction, is_out in (("in", False), ("out", True)):
-            chosen = [parameter for parameter, out in zip(parameters, outs, strict=True) if out is is_out]
-            if chosen:
-                members = self._members(chosen, seen)
+            selected = [parameter for parameter, out in zip(parameters, outs, strict=True) if out is is_out]
+            if selected:
+                members = self._members(selected, seen)
                 members.block = False
                 body.put(direction, members)
         for returned in trees(tree, "type"):

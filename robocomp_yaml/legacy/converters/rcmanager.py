@@ -29,14 +29,14 @@ class _Element(msgspec.Struct, eq=False):
     tree: Tree[Token]
     notes: Notes
     attributes: dict[str, str] = {}
-    places: dict[str, Token] = {}
+    locations: dict[str, Token] = {}
     children: list[_Element] = []
 
     def get(self, name: str) -> str:
         return self.attributes.get(name, "")
 
-    def place(self, name: str) -> Token | Tree[Token]:
-        return self.places.get(name, self.tree)
+    def location_of(self, name: str) -> Token | Tree[Token]:
+        return self.locations.get(name, self.tree)
 
 
 def convert(reader: Reader) -> DeploymentDraft | None:
@@ -77,7 +77,7 @@ class _RcmanagerConverter:
             if name in result.attributes:
                 self.reader.refused("attribute_twice", name, name)
             result.attributes[str(name)] = self.text(value)
-            result.places[str(name)] = value
+            result.locations[str(name)] = value
         result.children = [self.element(child) for child in trees(tree, "element")]
         return result
 
@@ -101,10 +101,10 @@ class _RcmanagerConverter:
 
     def node(self, element: _Element, network: NetworkDraft) -> None:
         alias = element.get("alias")
-        node = named_node(self.reader, network, alias, element.place("alias"), element.notes, element.tree)
+        node = named_node(self.reader, network, alias, element.location_of("alias"), element.notes, element.tree)
         if node.name != alias:
             node.extra.put("alias", exact(alias))
-        node.endpoint_span = self.reader.span(element.place("endpoint"))
+        node.endpoint_span = self.reader.span(element.location_of("endpoint"))
         node.endpoint = endpoint.parse(element.get("endpoint"))
         if "endpoint" in element.attributes:
             node.extra.put("endpoint", exact(element.get("endpoint")))
@@ -123,7 +123,7 @@ class _RcmanagerConverter:
                 if any(alias == known for known, _, _ in node.after):
                     self.reader.repaired("twice", child.tree, f"dependence {alias}")
                     continue
-                node.after.append((alias, self.reader.span(child.place("alias")), child.notes))
+                node.after.append((alias, self.reader.span(child.location_of("alias")), child.notes))
                 continue
             if child.name in by_name:
                 self.reader.lost("overridden", by_name[child.name].tree, child.name)

@@ -25,10 +25,10 @@ class KnownComponent(msgspec.Struct, frozen=True):
     requires: Mapping[str, str] = {}
 
 
-def of_run(files: Iterable[Converted], chosen: Mapping[str, str]) -> list[KnownComponent]:
+def of_run(files: Iterable[Converted], documents: Mapping[str, str]) -> list[KnownComponent]:
     """Return the components that a run writes. `chosen` are the paths of documents by the paths of files."""
     return [
-        _known(chosen[file.path], data(file.draft.document))
+        _known(documents[file.path], data(file.draft.document))
         for file in files if isinstance(file.draft, ComponentDraft)
     ]  # fmt: skip
 

@@ -20,7 +20,7 @@ class Destination(msgspec.Struct, frozen=True):
     """The path of a deployment's document, and the document of each legacy file of the run, by the file's real path."""
 
     document: str
-    chosen: Mapping[str, str]
+    documents: Mapping[str, str]
 
     @property
     def folder(self) -> str:
@@ -99,7 +99,7 @@ def _config(command: NodeCommand, home: str, site: Destination) -> str:
     below = _relative_to(command.config, command.folder, home)
     if not below:
         return command.config
-    document = site.chosen.get(os.path.realpath(os.path.join(home, below)))
+    document = site.documents.get(os.path.realpath(os.path.join(home, below)))
     return os.path.relpath(document, home) if document is not None else below
 
 

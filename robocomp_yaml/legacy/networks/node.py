@@ -46,10 +46,10 @@ class NetworkDraft(msgspec.Struct, eq=False):
     extra: Map = msgspec.field(default_factory=Map)
 
 
-def safe_name(text: str, taken: Collection[str] = ()) -> str:
+def safe_name(text: str, used: Collection[str] = ()) -> str:
     """Return a name that is valid in documents, files and other programs: of letters, digits, '_' and '-', and not in
     `taken`."""
     bare = _NO_NAME.sub("_", text).strip("_-") or "node"
     bare = bare if bare[0].isalpha() else f"n{bare}"
     bare = bare[:_LONGEST]  # files are named after it
-    return free(bare, taken)
+    return free(bare, used)

@@ -32,14 +32,14 @@ class InferredParameters(msgspec.Struct, frozen=True):
 def build_config_documents(
     accepted: Sequence[LedgerEntry],
     targets: Mapping[str, str],
-    is_ours: Callable[[LedgerEntry, str], bool],
+    was_written: Callable[[LedgerEntry, str], bool],
     corrections: Corrections,
     *,
     exact: bool,
 ) -> tuple[dict[str, Map], list[InferredParameters]]:
     """Return the values documents by the paths of the configs, and the PDSLs that these imply. `is_ours`: whether an
     earlier run wrote the document at a path."""
-    components = ConfiguredComponents(accepted, targets, is_ours)
+    components = ConfiguredComponents(accepted, targets, was_written)
     components.declare()
     documents: dict[str, Map] = {}
     inferred = [_build(component, targets, corrections, exact, documents) for component in components.all()]

@@ -37,12 +37,15 @@ def generic_config(path: str) -> str:
 
 
 class ConfiguredComponents:
+    """The components of a run, by the folders of their files."""
+
     def __init__(
-        self, accepted: Sequence[LedgerEntry], documents: Mapping[str, str], is_ours: Callable[[LedgerEntry, str], bool]
+        self, accepted: Sequence[LedgerEntry], documents: Mapping[str, str],
+        was_written: Callable[[LedgerEntry, str], bool],
     ) -> None:  # fmt: skip
-        self.accepted, self.documents, self.is_ours = accepted, documents, is_ours
+        self.accepted, self.documents, self.was_written = accepted, documents, was_written
         self.by_folder: dict[str, list[tuple[str, ConfiguredComponent]]] = {}
-        self.taken = set(documents.values())
+        self.used = set(documents.values())
         self.listed: dict[str, list[str]] = {}
         self.known: dict[str, ConfiguredComponent] = {}
         for file in (entry.file for entry in accepted):
@@ -92,7 +95,7 @@ class ConfiguredComponents:
                 entry.diagnostics.append(codes.OWN_COMPONENT.at(Span(config), name=component.name))
             if not component.configs and component.declared is None and component.document:
                 for path in declared.beside(component.document):
-                    if not self.is_ours(entry, path):
+                    if not self.was_written(entry, path):
                         component.declared = declared.of_document(path)
             component.configs.append(entry)
             components[component] = None
@@ -138,9 +141,9 @@ class ConfiguredComponents:
         stem = base.removesuffix(".conf")
         folder = os.path.dirname(self.documents[file])
         path, number = os.path.join(folder, f"{stem}.pdsl.yaml"), 2
-        while path in self.taken:
+        while path in self.used:
             path, number = os.path.join(folder, f"{base if number == 2 else number}.pdsl.yaml"), number + 1
-        self.taken.add(path)
+        self.used.add(path)
         return ConfiguredComponent(os.path.basename(path).removesuffix(".pdsl.yaml"), "", path)
 
 

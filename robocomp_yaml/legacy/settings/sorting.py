@@ -88,70 +88,70 @@ class SortedSettings(msgspec.Struct, frozen=True):
 
 def sort(settings: ConfigSettings, ports: PortNames, rules: Rules) -> SortedSettings:
     """Return the settings of a config by section."""
-    found = SortedSettings(settings.dialect)
+    result = SortedSettings(settings.dialect)
     for setting in settings.settings:
         if not isinstance(setting.value, Leaf):
             if rules.sections["service"].match(f"{setting.key}.") or len(setting.path) > MAX_DEPTH:
-                found.keep(setting)
+                result.keep(setting)
             else:
-                found.parameters.append(setting)
+                result.parameters.append(setting)
         elif settings.dialect == CLASSIC:
-            _classic(found, setting, ports, rules)
+            _classic(result, setting, ports, rules)
         else:
-            _toml(found, setting, ports, rules)
-    return found
+            _toml(result, setting, ports, rules)
+    return result
 
 
-def _classic(found: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
+def _classic(result: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
     key, text = setting.key, setting.text
     if key.startswith("Ice.") and len(key) > 4:
-        found.ice.append(NamedSetting(key[4:], setting))
+        result.ice.append(NamedSetting(key[4:], setting))
     elif key.endswith(".Endpoints") and len(key) > 10:
-        found.put(found.endpoints, key[:-10], setting)
+        result.put(result.endpoints, key[:-10], setting)
     elif key == "TopicManager.Proxy":
-        found.manager.append(NamedSetting("manager", setting))
+        result.manager.append(NamedSetting("manager", setting))
     elif rules.sections["proxy"].match(text) or (key.removesuffix("Proxy") in ports.requires and key[-5:] == "Proxy"):
         name = key.removesuffix("Proxy")
-        found.connect(name if name != key else "", setting)
+        result.connect(name if name != key else "", setting)
     elif key.startswith("Proxies.") and key.endswith("Prefix") and len(key) > 14:
-        found.put(found.prefixes, key[8:-6], setting)
+        result.put(result.prefixes, key[8:-6], setting)
     elif (key == text or key.removesuffix("Topic") in ports.topics) and _WORD.match(key) and _WORD.match(text):
-        found.names.append(NamedSetting(key, setting))
+        result.names.append(NamedSetting(key, setting))
     else:
-        _rest(found, setting, ports, rules)
+        _rest(result, setting, ports, rules)
 
 
-def _toml(found: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
+def _toml(result: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
     key, path, text = setting.key, setting.path, setting.text
     if path[0] == "Ice" and len(path) > 1:
-        found.ice.append(NamedSetting(key[4:], setting))
+        result.ice.append(NamedSetting(key[4:], setting))
     elif path[0] == "Endpoints" and len(path) == 2 and text:
-        found.put(found.endpoints, path[1], setting)
+        result.put(result.endpoints, path[1], setting)
     elif key == "Proxies.TopicManager" and text:
-        found.manager.append(NamedSetting("manager", setting))
+        result.manager.append(NamedSetting("manager", setting))
     elif path[0] == "Proxies" and len(path) == 2 and not rules.sections["proxy"].match(text) and key[-6:] == "Prefix":
-        found.put(found.prefixes, path[1][:-6], setting)
+        result.put(result.prefixes, path[1][:-6], setting)
     elif path[0] == "Proxies" and len(path) == 2 and text:
-        found.connect(path[1], setting)
+        result.connect(path[1], setting)
     elif rules.sections["proxy"].match(text):
-        found.connect("", setting)
+        result.connect("", setting)
     else:
-        _rest(found, setting, ports, rules)
+        _rest(result, setting, ports, rules)
 
 
-def _rest(found: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
+def _rest(result: SortedSettings, setting: Setting, ports: PortNames, rules: Rules) -> None:
     """Add a parameter; a setting whose name cannot be a parameter's becomes a property."""
-    if found.dialect != TOML and rules.sections["suspicious"].search(setting.key):
+    if result.dialect != TOML and rules.sections["suspicious"].search(setting.key):
         what = rules.repairs["suspicious"].format(text=setting.key)
-        found.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
-        found.keep(setting)
+        result.diagnostics.append(codes.REPAIRED.at(setting.span, what=what))
+        result.keep(setting)
     elif (
         rules.sections["service"].match(setting.key)
         or ports.is_connection(setting.key)
         or references.in_text(setting.text)
     ):
-        found.keep(setting)
+        result.keep(setting)
     elif len(setting.path) > MAX_DEPTH:
-        found.keep(setting)
+        result.keep(setting)
     else:
-        found.parameters.append(setting)
+        result.parameters.append(setting)

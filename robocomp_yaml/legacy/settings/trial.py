@@ -102,6 +102,7 @@ class _TrialDocuments:
         return root if isinstance(root, Mapping_) and not has_errors(diagnostics) else None
 
     def faults(self) -> list[_DocumentFault]:
+        """Return the errors of the documents."""
         errors = [(error, error.span) for error in self.diagnostics if error.severity == ERROR]
         return [
             _DocumentFault(
@@ -124,11 +125,11 @@ def _move(
 ) -> bool:
     """Move the setting that causes an error, and return whether there was one to move."""
     if fault.config:
-        found = next(config.sorted for config in configs if config.name == fault.config)
+        settings = next(config.sorted for config in configs if config.name == fault.config)
         if fault.keys[:1] == ("properties",) and len(fault.keys) > 1:
-            return _lose(fault, found)
+            return _lose(fault, settings)
         if len(fault.keys) > 1 and fault.keys[0] in _SECTIONS:
-            return _keep(fault, found)
+            return _keep(fault, settings)
     moved = [plan for plan in _blamed(fault, trial, plans) if plan.shape is not None]
     for plan in moved:
         keep_as_properties(plan, configs)
@@ -136,6 +137,7 @@ def _move(
 
 
 def _blamed(fault: _DocumentFault, trial: _TrialDocuments, plans: Sequence[ParameterPlan]) -> list[ParameterPlan]:
+    """Return the plans that may cause an error."""
     section, *steps = (*fault.keys, "")
     path = tuple(steps[:-1])
     if section == "types" and path:
@@ -155,22 +157,30 @@ def _blamed(fault: _DocumentFault, trial: _TrialDocuments, plans: Sequence[Param
 _SECTIONS = ("endpoints", "proxies", "topics", "ice")
 
 
-def _keep(fault: _DocumentFault, found: SortedSettings) -> bool:
+def _keep(fault: _DocumentFault, settings: SortedSettings) -> bool:
     """Move a setting from its section to the properties."""
-    for section in (found.endpoints, found.proxies, found.manager, found.prefixes, found.names, found.ice):
+    for section in (
+        settings.endpoints,
+        settings.proxies,
+        settings.manager,
+        settings.prefixes,
+        settings.names,
+        settings.ice,
+    ):
         for named in section:
-            if named.name == fault.keys[-1] or (section is found.proxies and named.name in fault.keys[1:2]):
+            if named.name == fault.keys[-1] or (section is settings.proxies and named.name in fault.keys[1:2]):
                 section.remove(named)
-                found.keep(named.setting)
+                settings.keep(named.setting)
                 return True
     return False
 
 
-def _lose(fault: _DocumentFault, found: SortedSettings) -> bool:
-    for named in found.properties:
+def _lose(fault: _DocumentFault, settings: SortedSettings) -> bool:
+    """Remove a property that is not valid, and report it as lost."""
+    for named in settings.properties:
         if named.name == fault.keys[1]:
-            found.properties.remove(named)
-            found.diagnostics.append(codes.LOST.at(named.setting.span, what=f"{fault.message}; it is omitted"))
+            settings.properties.remove(named)
+            settings.diagnostics.append(codes.LOST.at(named.setting.span, what=f"{fault.message}; it is omitted"))
             return True
     return False
 
