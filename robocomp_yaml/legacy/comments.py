@@ -49,31 +49,90 @@ def _key(tree: Tree[Token]) -> tuple[str, int, int]:
 
 def place(tree: Tree[Token], comments: Sequence[Token], source: SourceText, rules: Rules) -> PlacedComments:
     """Assign every comment to exactly one construct, or to the file."""
-    placed = PlacedComments()
-    constructs: list[_Construct] = []
-    _collect(tree, None, rules, constructs, placed)
-    starts = [construct.start for construct in constructs]
+    placer = _Placer(tree, source, rules)
     for comment in _grouped([_Comment(token, source) for token in comments]):
+        placer.put(comment)
+    return placer.placed
+
+
+class _Placer:
+    """Assigns comments to the constructs of a tree."""
+
+    def __init__(self, tree: Tree[Token], source: SourceText, rules: Rules) -> None:
+        self.source, self.rules, self.placed = source, rules, PlacedComments()
+        self.constructs: list[_Construct] = []
+        self._collect(tree, None)
+        self.starts = [construct.start for construct in self.constructs]
+
+    def _collect(self, tree: Tree[Token], parent: _Construct | None) -> None:
+        for child in tree.children:
+            if isinstance(child, Tree):
+                inner = parent
+                if child.data in self.rules.places and not child.meta.empty:
+                    inner = _Construct(child.meta.start_pos, child.meta.end_pos, str(child.data), parent, Notes())
+                    self.constructs.append(inner)
+                    self.placed.by_construct[_key(child)] = inner.notes
+                self._collect(child, inner)
+
+    def put(self, comment: _Comment) -> None:
         if comment.has_controls:
-            placed.diagnostics.append(
-                codes.REPAIRED.at(source.span(comment.start, comment.end), what=rules.repairs["lenient_control"])
-            )
-        if comment.lines:
-            _put(comment, constructs, starts, placed, source, rules)
-    return placed
+            what = self.rules.repairs["lenient_control"]
+            self.placed.diagnostics.append(codes.REPAIRED.at(self.source.span(comment.start, comment.end), what=what))
+        if not comment.lines:
+            return
+        source = self.source
+        before, around, after = self._neighbours(comment)
+        follows = before is not None and source.line(before.end) == comment.first and not comment.is_alone
+        touching = before is not None and follows and source.text[before.end : comment.start].strip() in ("", ";")
+        inline = (
+            after is not None and comment.precedes_code and source.line(after.start) == comment.last and not touching
+        )
+        if before is not None and follows and not inline:
+            if source.line(before.start) != comment.first and source.text[before.end - 1] == "}":
+                before.notes.foot += comment.as_head()
+            else:
+                self._at_end(comment, before)
+        elif around is not None and before is None and not comment.is_alone and not inline:
+            self._at_end(comment, around)
+        elif after is not None:
+            first = before is None and around is None
+            self._above(comment, after, self.placed.around if first else after.notes, before is not None)
+        else:
+            _below(comment, around.notes if around else self.placed.around)
 
+    def _neighbours(self, comment: _Comment) -> tuple[_Construct | None, _Construct | None, _Construct | None]:
+        """Return the last construct before a comment, the construct that contains the comment, and the next one in
+        that."""
+        index = bisect.bisect_left(self.starts, comment.start)
+        before: _Construct | None = None
+        around = self.constructs[index - 1] if index else None
+        while around is not None and around.end <= comment.start:
+            before, around = around, around.parent
+        after = self.constructs[index] if index < len(self.constructs) else None
+        if after is not None and around is not None and after.start >= around.end:
+            after = None
+        return before, around, after
 
-def _collect(
-    tree: Tree[Token], parent: _Construct | None, rules: Rules, constructs: list[_Construct], placed: PlacedComments
-) -> None:
-    for child in tree.children:
-        if isinstance(child, Tree):
-            inner = parent
-            if child.data in rules.places and not child.meta.empty:
-                inner = _Construct(child.meta.start_pos, child.meta.end_pos, str(child.data), parent, Notes())
-                constructs.append(inner)
-                placed.by_construct[_key(child)] = inner.notes
-            _collect(child, inner, rules, constructs, placed)
+    def _above(self, comment: _Comment, target: _Construct, notes: Notes, not_first: bool) -> None:
+        """Add a comment above a construct. Plain comments go to `notes`: the construct's, or at the top of the file,
+        the file's."""
+        if comment.doc and not comment.is_trailing and self.rules.places[target.rule] == "doc":
+            doc = target.notes.doc
+            doc += [*([""] if doc else []), *comment.lines]
+            return
+        if comment.gap_before and ((notes.head and notes.head[-1]) or (not notes.head and not_first)):
+            notes.head.append("")
+        notes.head += comment.as_head()
+        if comment.gap_after:
+            notes.head.append("")
+
+    def _at_end(self, comment: _Comment, target: _Construct) -> None:
+        if comment.doc and self.rules.places[target.rule] == "doc" and not target.notes.doc:
+            target.notes.doc += comment.lines
+            return
+        text = " ".join(line.strip() for line in comment.lines).strip()
+        if text:
+            target.notes.tail.append(text)
 
 
 class _Comment:
@@ -157,70 +216,6 @@ def _block_lines(text: str) -> list[str]:
     while lines and not lines[-1].strip():
         del lines[-1]
     return lines
-
-
-def _put(
-    comment: _Comment,
-    constructs: list[_Construct],
-    starts: list[int],
-    placed: PlacedComments,
-    source: SourceText,
-    rules: Rules,
-) -> None:
-    before, around, after = _neighbours(comment, constructs, starts)
-    follows = before is not None and source.line(before.end) == comment.first and not comment.is_alone
-    touching = before is not None and follows and source.text[before.end : comment.start].strip() in ("", ";")
-    inline = after is not None and comment.precedes_code and source.line(after.start) == comment.last and not touching
-    if before is not None and follows and not inline:
-        if source.line(before.start) != comment.first and source.text[before.end - 1] == "}":
-            before.notes.foot += comment.as_head()
-        else:
-            _at_end(comment, before, rules)
-    elif around is not None and before is None and not comment.is_alone and not inline:
-        _at_end(comment, around, rules)
-    elif after is not None:
-        first = before is None and around is None
-        _above(comment, after, placed.around if first else after.notes, before is not None, rules)
-    else:
-        _below(comment, around.notes if around else placed.around)
-
-
-def _neighbours(
-    comment: _Comment, constructs: list[_Construct], starts: list[int]
-) -> tuple[_Construct | None, _Construct | None, _Construct | None]:
-    """Return the last construct before a comment, the construct that contains the comment, and the next one in that."""
-    index = bisect.bisect_left(starts, comment.start)
-    before: _Construct | None = None
-    around = constructs[index - 1] if index else None
-    while around is not None and around.end <= comment.start:
-        before, around = around, around.parent
-    after = constructs[index] if index < len(constructs) else None
-    if after is not None and around is not None and after.start >= around.end:
-        after = None
-    return before, around, after
-
-
-def _above(comment: _Comment, target: _Construct, notes: Notes, not_first: bool, rules: Rules) -> None:
-    """Add a comment above a construct. Plain comments go to `notes`: the construct's, or at the top of the file, the
-    file's."""
-    if comment.doc and not comment.is_trailing and rules.places[target.rule] == "doc":
-        doc = target.notes.doc
-        doc += [*([""] if doc else []), *comment.lines]
-        return
-    if comment.gap_before and ((notes.head and notes.head[-1]) or (not notes.head and not_first)):
-        notes.head.append("")
-    notes.head += comment.as_head()
-    if comment.gap_after:
-        notes.head.append("")
-
-
-def _at_end(comment: _Comment, target: _Construct, rules: Rules) -> None:
-    if comment.doc and rules.places[target.rule] == "doc" and not target.notes.doc:
-        target.notes.doc += comment.lines
-        return
-    text = " ".join(line.strip() for line in comment.lines).strip()
-    if text:
-        target.notes.tail.append(text)
 
 
 def _below(comment: _Comment, notes: Notes) -> None:

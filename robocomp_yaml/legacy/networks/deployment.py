@@ -44,7 +44,8 @@ def build_deployments(
             existing[home] = of_folder(home, [known.path for known in migrated])
         name = safe_name(os.path.basename(document).removesuffix(rules.document))
         known = [*migrated, *existing[home]]
-        builder = _DeploymentBuilder(name, draft.network, known, Destination(document, by_real_path), f"x-{rules.name}")
+        site = Destination(document, by_real_path, f"x-{rules.name}")
+        builder = _DeploymentBuilder(name, draft.network, known, site)
         by_file[entry.file.path] = builder.document()
         entry.diagnostics += builder.diagnostics
     return by_file
@@ -52,13 +53,12 @@ def build_deployments(
 
 class _DeploymentBuilder(msgspec.Struct, eq=False):
     """Builds the document of a network, which starts some of the known components. What only an exporter needs is
-    written under `key`."""
+    written under the key of its destination."""
 
     name: str
     network: NetworkDraft
     known: Sequence[KnownComponent]
     site: Destination
-    key: str
     diagnostics: list[Diagnostic] = []
     by_alias: dict[str, NetworkNode] = {}
     owners: dict[str, NetworkNode] = {}
@@ -96,7 +96,7 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         document.put_some("services", services)
         document.put("components", components)
         self.network.extra.put_some("nodes", kept)
-        document.put_some(self.key, self.network.extra)
+        document.put_some(self.site.key, self.network.extra)
         document.entries[-1].notes.foot += notes.foot
         return document
 
@@ -181,15 +181,15 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         if owner is not None:
             if node.after:
                 self.keep_dependences(node)
-            return program_entry(node, "", List(), self.key, process=owner.name)
+            return program_entry(node, "", List(), self.site, process=owner.name)
         assert node.command is not None
         after = self.after(node)
         host = hosts.get(_address(node), "")
         component = None if node.command.in_shell else match(node.command, self.known)
         if component is None:
-            return program_entry(node, host, after, self.key)
+            return program_entry(node, host, after, self.site)
         depends = [self.by_alias[alias] for alias, _, _ in node.after if alias in self.by_alias]
-        result, problem = component_entry(node, component, host, after, self.key, self.site, depends)
+        result, problem = component_entry(node, component, host, after, self.site, depends)
         if problem:
             self.diagnostics.append(codes.ODD_ENDPOINT.at(node.endpoint_span, problem=problem))
         return result

@@ -17,17 +17,19 @@ COMMON = "CommonBehavior"
 
 
 class Destination(msgspec.Struct, frozen=True):
-    """The path of a deployment's document, and the document of each legacy file of the run, by the file's real path."""
+    """The path of a deployment's document, and the document of each legacy file of the run, by the file's real path. What
+    only an exporter needs is written under `key`."""
 
     document: str
     documents: Mapping[str, str]
+    key: str
 
     @property
     def folder(self) -> str:
         return os.path.dirname(self.document) or "."
 
 
-def program_entry(node: NetworkNode, host: str, after: List, key: str, *, process: str = "") -> Map:
+def program_entry(node: NetworkNode, host: str, after: List, site: Destination, *, process: str = "") -> Map:
     entry = Map(block=True)
     command = node.command
     if process:
@@ -40,18 +42,13 @@ def program_entry(node: NetworkNode, host: str, after: List, key: str, *, proces
     if node.endpoint is not None:
         endpoints = Map([DocumentEntry(node.interface, node.endpoint.text)])
         entry.put("endpoints", endpoints, node.by_key.get("endpoints"))
-    return _completed(entry, node, after, key)
+    return _completed(entry, node, after, site.key)
 
 
 def component_entry(
-    node: NetworkNode,
-    component: KnownComponent,
-    host: str,
-    after: List,
-    key: str,
-    site: Destination,
+    node: NetworkNode, component: KnownComponent, host: str, after: List, site: Destination,
     depends: Sequence[NetworkNode],
-) -> tuple[Map, str]:
+) -> tuple[Map, str]:  # fmt: skip
     """Return the entry, and the problem of its endpoint, or ''."""
     command = node.command
     assert command is not None
@@ -73,7 +70,7 @@ def component_entry(
         if len(serving) == 1:
             connect.put(proxy, serving[0].name)
     entry.put_some("connect", connect)
-    return _completed(entry, node, after, key), problem
+    return _completed(entry, node, after, site.key), problem
 
 
 def _ports(entry: Map, node: NetworkNode, component: KnownComponent) -> str:

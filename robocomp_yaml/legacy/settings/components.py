@@ -30,13 +30,9 @@ class InferredParameters(msgspec.Struct, frozen=True):
 
 
 def build_config_documents(
-    accepted: Sequence[LedgerEntry],
-    targets: Mapping[str, str],
-    was_written: Callable[[LedgerEntry, str], bool],
-    corrections: Corrections,
-    *,
-    exact: bool,
-) -> tuple[dict[str, Map], list[InferredParameters]]:
+    accepted: Sequence[LedgerEntry], targets: Mapping[str, str], was_written: Callable[[LedgerEntry, str], bool],
+    corrections: Corrections, *, exact: bool,
+) -> tuple[dict[str, Map], list[InferredParameters]]:  # fmt: skip
     """Return the values documents by the paths of the configs, and the PDSLs that these imply. `is_ours`: whether an
     earlier run wrote the document at a path."""
     components = ConfiguredComponents(accepted, targets, was_written)
@@ -47,12 +43,9 @@ def build_config_documents(
 
 
 def _build(
-    component: ConfiguredComponent,
-    targets: Mapping[str, str],
-    corrections: Corrections,
-    exact: bool,
+    component: ConfiguredComponent, targets: Mapping[str, str], corrections: Corrections, exact: bool,
     documents: dict[str, Map],
-) -> InferredParameters | None:
+) -> InferredParameters | None:  # fmt: skip
     configs, links = list[Config](), dict[str, DocumentLinks]()
     entries = {entry.file.path: entry for entry in component.configs}
     for path, entry in entries.items():
