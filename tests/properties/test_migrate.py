@@ -280,7 +280,7 @@ PIECES = st.lists(st.sampled_from([*SAMPLE.split(" "), *OTHERS]))
     st.sampled_from(["x.idsl", "x.ice", "x.cdsl", "x", "x.conf", "x.toml", "x.jcdsl", "x.pdsl", "x.pconf"]),
     PIECES.map(" ".join) | st.text() | st.binary(),
 )
-def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str | bytes) -> None:
+def test_no_input_fails_and_every_line_is_counted(name: str, text: str | bytes) -> None:
     result, written = _converted(name, text)
     assert result.refused == any(d.severity == "error" for d in result.diagnostics)
     entry = ledger.LedgerEntry(LegacyFile(name, "", ""), result, diagnostics=[*result.diagnostics])

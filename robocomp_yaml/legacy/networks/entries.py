@@ -17,8 +17,8 @@ COMMON = "CommonBehavior"
 
 
 class Destination(msgspec.Struct, frozen=True):
-    """The path of a deployment's document, and the document of each legacy file of the run, by the file's real path. What
-    only an exporter needs is written under `key`."""
+    """The path of a deployment's document, and the document of each legacy file of the run, by the file's real path.
+    What only an exporter needs is written under `key`."""
 
     document: str
     documents: Mapping[str, str]

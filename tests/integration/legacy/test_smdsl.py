@@ -1,4 +1,4 @@
-"""SMDSL files as SCXML: whatever order the blocks are in, and what is wrong with some."""
+"""SMDSL files as SCXML: blocks in any order, and faults."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Run = Callable[..., Result]
 
 
 def converted(folder: Path, text: str) -> tuple[str, list[str]]:
-    """The document ('' where there is none), and what was said with line and column."""
+    """Return the document ('' without one), and the diagnostics with line and column."""
     (folder / "x.smdsl").write_text(text, encoding="utf-8")
     result = convert(str(folder / "x.smdsl"))
     said = [f"{d.span.line}:{d.span.column} {d.message}" for d in result.diagnostics]
@@ -30,7 +30,7 @@ OPEN = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="{}" i
 
 
 def test_nested_parallel_and_in_any_order(tmp_path: Path) -> None:
-    """A block's parent may be a state of another block, before or behind it."""
+    """A block's parent may be a state of another block, before or after it."""
     text, said = converted(tmp_path, """
         // The game.
         game {
@@ -110,7 +110,7 @@ def test_repairs_and_losses(tmp_path: Path, text: str, said: list[str]) -> None:
     ("m { initial_state ä; };", ["1:19 'ä' is not a legal name"]),
     ("m { [states a;] };", ["1:5 '[' is not allowed here"]),
 ])  # fmt: skip
-def test_refusals(tmp_path: Path, text: str, said: list[str]) -> None:
+def test_rejections(tmp_path: Path, text: str, said: list[str]) -> None:
     document, told = converted(tmp_path, text)
     assert document == ""
     assert told[: len(said)] == said
@@ -120,7 +120,7 @@ CDSL = 'Component C\n{{\n    Communications\n    {{\n    }};\n    language pytho
 SMDSL = "m { initial_state a; end_state b; transitions { a => b; }; };\n"
 
 
-def test_a_component_refers_to_what_its_machine_became(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_component_refers_to_its_migrated_machine(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"old/c/c.cdsl": CDSL.format("sm/Door.SMDSL"), "old/c/sm/Door.SMDSL": SMDSL})
     result = rcyaml("migrate", "old", "-o", "new", "--report", "ledger.json")
     assert result.exit_code == 0, result.output
@@ -138,7 +138,7 @@ def test_a_component_refers_to_what_its_machine_became(rcyaml: Run, tmp_path: Pa
 @pytest.mark.parametrize(("named", "there", "warned"), [
     ("c.smdsl", "c.scxml", False), ("c.scxml", "c.scxml", False), ("c.smdsl", "", True), ("c.scxml", "", True),
 ])  # fmt: skip
-def test_a_machine_that_is_not_migrated_has_to_be_there(
+def test_a_machine_that_is_not_migrated_must_exist(
     rcyaml: Run, tmp_path: Path, named: str, there: str, warned: bool
 ) -> None:
     write_tree(tmp_path, {"c.cdsl": CDSL.format(named), **({there: "<scxml/>"} if there else {})})
@@ -149,7 +149,7 @@ def test_a_machine_that_is_not_migrated_has_to_be_there(
 
 @pytest.mark.parametrize("goes", [lambda n: "s0 => " + ", ".join(f"s{i}" for i in range(n)),
                                   lambda n: "; ".join(f"s{i} => s{i + 1}" for i in range(n - 1))])  # fmt: skip
-def test_many_states_are_converted_in_a_moment(rcyaml: Run, tmp_path: Path, goes: Callable[[int], str]) -> None:
+def test_many_states_are_converted_quickly(rcyaml: Run, tmp_path: Path, goes: Callable[[int], str]) -> None:
     count = 20_000
     states = ", ".join(f"s{i}" for i in range(count))
     write_tree(

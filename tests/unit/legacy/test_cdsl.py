@@ -59,7 +59,7 @@ def test_every_clause(tmp_path: Path) -> None:
     """)
 
 
-def test_comments_stay_where_they_stood(tmp_path: Path) -> None:
+def test_comments_keep_their_position(tmp_path: Path) -> None:
     assert migrated(
         tmp_path,
         """
@@ -141,7 +141,7 @@ OURS = "from generated.genericworker import GenericWorker\n"
 
 
 @pytest.mark.parametrize(
-    ("file", "code", "is_theirs"),
+    ("file", "code", "is_for_robocomp"),
     [
         ("specificworker.py", "import sys\nfrom genericworker import *\n", True),
         ("specificworker.py", OURS, False),
@@ -153,8 +153,8 @@ OURS = "from generated.genericworker import GenericWorker\n"
         ("specificworker.cpp", '#include "specificworker.h"\n', False),
     ],
 )
-def test_code_of_robocomps_own_tool(tmp_path: Path, file: str, code: str | bytes, is_theirs: bool) -> None:
+def test_code_for_robocomps_own_generator(tmp_path: Path, file: str, code: str | bytes, is_for_robocomp: bool) -> None:
     (tmp_path / "src").mkdir()
     (tmp_path / "src" / file).write_bytes(code if isinstance(code, bytes) else code.encode())
     document = migrated(tmp_path, "Component A { Communications {}; language python; };", "a.cdsl")
-    assert ("compatibility: robocomp" in document) == is_theirs
+    assert ("compatibility: robocomp" in document) == is_for_robocomp

@@ -1,4 +1,4 @@
-"""Documents that are to be written: their trees are those that reading their texts gives."""
+"""Documents to write: their trees equal those of the parsed texts."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def _map(**entries: Value) -> Map:
         _map(type="float", default=Raw("1.50"), doc=Doc("half of it")), _map(struct=Map(block=True, entries=[DocumentEntry("x", "int")])),
     ],
 )  # fmt: skip
-def test_its_tree_is_what_reading_its_text_gives(value: Value) -> None:
+def test_its_tree_equals_the_parsed_text(value: Value) -> None:
     document = Map(
         [
             DocumentEntry("first", "1"),
@@ -51,6 +51,6 @@ def test_its_tree_is_what_reading_its_text_gives(value: Value) -> None:
 
 
 def _lexemes(node: Node) -> list[object]:
-    """As spelled, but for nothing, which is `null` in brackets."""
+    """The lexemes as spelled, except an empty value, which is `null` in flow style."""
     own = node.lexeme if isinstance(node, Scalar) and node.data is not None else None
     return [own, *(_lexemes(child) for child in node.children())]

@@ -1,4 +1,4 @@
-"""IDSL and Slice files as documents: the text that comes out, comments included."""
+"""IDSL and Slice files as documents: the text with all comments."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from robocomp_yaml.legacy.draft import ComponentDraft, ModuleDraft
 
 
 def migrated(folder: Path, text: str, name: str = "X.idsl") -> str:
-    """The document of a legacy text, without its first line."""
+    """Return the document of a legacy text, without its first line."""
     path = folder / name
     path.write_text(textwrap.dedent(text).lstrip("\n"), encoding="utf-8")
     result = convert(str(path))
@@ -82,7 +82,7 @@ def test_every_construct(tmp_path: Path) -> None:
     """)
 
 
-def test_comments_stay_where_they_stood(tmp_path: Path) -> None:
+def test_comments_keep_their_position(tmp_path: Path) -> None:
     assert migrated(
         tmp_path,
         """
@@ -224,7 +224,7 @@ def test_doc_comments_become_doc(tmp_path: Path) -> None:
     """)
 
 
-def test_long_methods_stand_in_blocks(tmp_path: Path) -> None:
+def test_long_methods_are_in_block_style(tmp_path: Path) -> None:
     text = migrated(
         tmp_path,
         """
@@ -243,7 +243,7 @@ def test_long_methods_stand_in_blocks(tmp_path: Path) -> None:
     assert max(map(len, text.splitlines())) <= 120
 
 
-def test_an_overload_gets_a_name_of_its_own(tmp_path: Path) -> None:
+def test_an_overload_is_renamed(tmp_path: Path) -> None:
     source = """
         module M { interface I {
             void f(int a);
@@ -309,7 +309,7 @@ def test_guards_and_includes_of_slice_files(tmp_path: Path) -> None:
     assert warnings(tmp_path, source, "M.ice") == []
 
 
-def test_the_format_is_told_by_the_content(tmp_path: Path) -> None:
+def test_the_content_decides_the_format(tmp_path: Path) -> None:
     assert migrated(tmp_path, "module M { };", "noSuffix") == "module: M\n"
     assert migrated(tmp_path, "Component C { language cpp; };", "c.idsl").startswith("component: C\n")
     said = warnings(tmp_path, "Component C { language cpp; };", "c.idsl")

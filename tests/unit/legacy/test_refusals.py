@@ -1,4 +1,4 @@
-"""Broken legacy files, each with all that is said about it: code, place, words."""
+"""Broken legacy files with all their diagnostics: code, location, message."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def test_components(tmp_path: Path, text: str, said: list[str]) -> None:
     assert _said(tmp_path / "x.cdsl", text) == said
 
 
-def test_the_block_that_is_not_closed_is_shown(tmp_path: Path) -> None:
+def test_the_unclosed_block_is_shown(tmp_path: Path) -> None:
     path = tmp_path / "X.idsl"
     path.write_text("module A {\n struct S {\n int a;\n", encoding="utf-8")
     (diagnostic,) = convert(str(path)).diagnostics
