@@ -79,7 +79,7 @@ def _review(reader: Reader) -> None:
     for token in reader.tree.scan_values(lambda value: isinstance(value, Token) and value.type == "NAME"):
         name = plain(token)
         if not reader.rules.names.fullmatch(name):
-            reader.diagnostics.append(codes.BAD_NAME.at(reader.span(token), name=name, hint=_name_hint(name)))
+            reader.report(codes.BAD_NAME, token, name=name, hint=_name_hint(name))
 
 
 def _name_hint(name: str) -> str:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator
+from collections.abc import Mapping as Mapping_
 from functools import lru_cache
 from typing import Any, cast
 
@@ -66,6 +67,10 @@ class Map(msgspec.Struct):
     entries: list[DocumentEntry] = []
     block: bool = False
     limit: int = WIDTH
+
+    @classmethod
+    def of(cls, values: Mapping_[str, Value], *, block: bool = False) -> Map:
+        return cls([DocumentEntry(key, value) for key, value in values.items()], block)
 
     def put(self, key: str, value: Value, notes: Notes | None = None) -> DocumentEntry:
         entry = DocumentEntry(key, value, notes or Notes())

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable
+from typing import Any
 
 import msgspec
 from lark import Token, Tree
 
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -148,36 +150,38 @@ class Reader(msgspec.Struct, eq=False):
         found = token(tree, "NAME")
         return plain(found) if found is not None else ""
 
+    def report(self, code: Code, at: Tree[Token] | Token, **facts: Any) -> None:
+        """Report a diagnostic at the location of a construct or a token."""
+        self.diagnostics.append(code.at(self.span(at), **facts))
+
     def repaired(self, repair: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
         """Report a fault that has one possible meaning, in the words of the rules' `repairs`."""
         what = self.rules.repairs[repair].format(text=text, **facts)
-        self.diagnostics.append(codes.REPAIRED.at(self.span(node), what=what))
+        self.report(codes.REPAIRED, node, what=what)
 
     def refused(self, refusal: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
         """Report what cannot be converted, in the words of the rules' `refusals`."""
         reason = self.rules.refusals[refusal]
-        self.diagnostics.append(
-            codes.REFUSED.at(self.span(node), reason=reason.format(text=text, **facts) if text else reason)
-        )
+        self.report(codes.REFUSED, node, reason=reason.format(text=text, **facts) if text else reason)
 
     def lost(self, loss: str, node: Tree[Token] | Token, text: str = "", **facts: str) -> None:
         """Report what no document contains, in the words of the rules' `losses`."""
         what = self.rules.losses[loss].format(text=text, **facts)
-        self.diagnostics.append(codes.LOST.at(self.span(node), what=what))
+        self.report(codes.LOST, node, what=what)
 
     def word(self, what: str, text: str, at: Tree[Token] | Token) -> str:
         """Return the canonical spelling of a word; report an unknown word."""
         known = self.rules.values[what]
         if text.lower() not in known:
             hint = did_you_mean(text, known, otherwise="write " + " or ".join(dict.fromkeys(known.values())))
-            self.diagnostics.append(codes.UNKNOWN_VALUE.at(self.span(at), what=what, value=text, hint=hint))
+            self.report(codes.UNKNOWN_VALUE, at, what=what, value=text, hint=hint)
         return known.get(text.lower(), text)
 
     def gui(self, words: list[str], at: list[Tree[Token] | Token]) -> Map:
         """Return the `gui:` of a toolkit and a base class; `at` has the location of each."""
         toolkit = self.word("toolkit", words[0], at[0])
         base = self.word("base", words[1], at[1]) if words[1:] else self.rules.defaults["base"]
-        return Map([DocumentEntry("toolkit", toolkit), DocumentEntry("base", base)])
+        return Map.of({"toolkit": toolkit, "base": base})
 
     def port(self, interface: str, used: Collection[str], declared: Collection[str], ros: Tree[Token] | None) -> Value:
         """Return an entry of a list of ports. A further port of the same interface has a number behind its name.
@@ -187,15 +191,9 @@ class Reader(msgspec.Struct, eq=False):
             number += 1
             name = f"{interface}{number}"
         if ros is not None:
-            self.diagnostics.append(codes.MIDDLEWARE.at(self.span(ros), name=interface))
-            return Map(
-                [
-                    DocumentEntry(
-                        name, Map([DocumentEntry("interface", interface), DocumentEntry("x-middleware", "ros")])
-                    )
-                ]
-            )
-        return interface if name == interface else Map([DocumentEntry(name, interface)])
+            self.report(codes.MIDDLEWARE, ros, name=interface)
+            return Map.of({name: Map.of({"interface": interface, "x-middleware": "ros"})})
+        return interface if name == interface else Map.of({name: interface})
 
     def doc(self, tree: Tree[Token], *names: str) -> str:
         """Return the doc comments of a construct as Markdown, without the markup that only repeats its name."""
@@ -217,9 +215,7 @@ class Reader(msgspec.Struct, eq=False):
             literal = next(child for child in node.children if isinstance(child, Token))
             path = re.sub(r'^[^"<]*["<]|[">]$', "", str(literal)).strip()
             if not base_name(path):
-                self.diagnostics.append(
-                    codes.SYNTAX.at(self.span(literal), problem="this import has no file name", hint="")
-                )
+                self.report(codes.SYNTAX, literal, problem="this import has no file name", hint="")
             elif any(known.stem == base_name(path) for known in drafts):
                 self.repaired("lenient_duplicate_import", literal, base_name(path))
                 drafts[-1].entry.notes.tail += [*self.notes(node).head, *self.notes(node).tail]
@@ -237,7 +233,7 @@ def named_node(
     if not name.strip():
         reader.refused("unnamed", whole)
     if any(name == known.alias for known in network.nodes):
-        reader.diagnostics.append(codes.DUPLICATE.at(node.span, name=name))
+        reader.report(codes.DUPLICATE, at, name=name)
     elif node.name != name and name.strip():
         reader.repaired("name", at, name, name=node.name)
     network.nodes.append(node)
@@ -265,8 +261,7 @@ class ComponentBuilder:
         """Return the document: the keys in the order of the rules, then all others. `at` is the location of the
         component's name."""
         if "language" not in self.entries:
-            name = self.entries["component"].value
-            self.reader.diagnostics.append(codes.NO_LANGUAGE.at(self.reader.span(at), name=name))
+            self.reader.report(codes.NO_LANGUAGE, at, name=self.entries["component"].value)
         entries = {key: self.entries[key] for key in self.reader.rules.order if key in self.entries} | self.entries
         return ComponentDraft(Map([*entries.values()], block=True), around, tuple(imports), self.machine)
 

@@ -10,7 +10,7 @@ from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Related
-from robocomp_yaml.legacy.document import Doc, DocumentEntry, List, Map, Notes, Value
+from robocomp_yaml.legacy.document import Doc, List, Map, Notes, Value
 from robocomp_yaml.legacy.draft import ComponentBuilder, ComponentDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees, words
 from robocomp_yaml.source import regular
@@ -64,9 +64,7 @@ class _CdslConverter(ComponentBuilder):
         name = str(clause.data)
         if name in self.seen:
             first = Related("the first one is here", self.reader.span(self.seen[name]))
-            self.reader.diagnostics.append(
-                codes.DUPLICATE.at(self.reader.span(clause), name=self._keyword(clause), related=[first])
-            )
+            self.reader.report(codes.DUPLICATE, clause, name=self._keyword(clause), related=[first])
         self.seen.setdefault(name, clause)
 
     def _keyword(self, clause: Tree[Token]) -> str:
@@ -139,7 +137,7 @@ class _CdslConverter(ComponentBuilder):
     def _keep_unknown(self, clause: Tree[Token], name: str, value: str) -> None:
         key = self.reader.rules.keys[name]
         self.put(key, value, self.reader.notes(clause) if name != "visual" else None)
-        self.reader.diagnostics.append(codes.NO_PLACE.at(self.reader.span(clause), what=words(clause), key=key))
+        self.reader.report(codes.NO_PLACE, clause, what=words(clause), key=key)
 
     def sources(self, clause: Tree[Token]) -> None:
         """Convert sources: paths are files of the user's repository, words are folders of shared classes."""
@@ -148,7 +146,7 @@ class _CdslConverter(ComponentBuilder):
         ))  # fmt: skip
 
     def libraries(self, clause: Tree[Token]) -> None:
-        self._uses(clause, lambda item, text: ("libraries", Map([DocumentEntry("link", text)])))
+        self._uses(clause, lambda item, text: ("libraries", Map.of({"link": text})))
 
     def _uses(self, clause: Tree[Token], convert_item: Callable[[Tree[Token], str], tuple[str, Value]]) -> None:
         """Add the entries of a block to `uses:`, with the comments of the block."""

@@ -70,13 +70,11 @@ class _IdslConverter:
 
     def _is_new(self, seen: dict[str, Span], name: str, tree: Tree[Token]) -> bool:
         """Whether a name is not used yet; report it otherwise."""
-        at = self.reader.span(token(tree, "NAME") or tree)
+        at = token(tree, "NAME") or tree
         if name in seen:
-            self.reader.diagnostics.append(
-                codes.DUPLICATE.at(at, name=name, related=[Related("the first one is here", seen[name])])
-            )
+            self.reader.report(codes.DUPLICATE, at, name=name, related=[Related("the first one is here", seen[name])])
             return False
-        seen[name] = at
+        seen[name] = self.reader.span(at)
         return True
 
     def _doc(self, into: Map, tree: Tree[Token], *names: str) -> None:
@@ -188,8 +186,7 @@ class _IdslConverter:
             if legacy in used:
                 key = legacy + free(legacy.lower(), used_names)[len(legacy) :]
                 used_names.add(key.lower())
-                at = self.reader.span(token(method, "NAME") or method)
-                self.reader.diagnostics.append(codes.OVERLOAD.at(at, name=legacy, new=key))
+                self.reader.report(codes.OVERLOAD, token(method, "NAME") or method, name=legacy, new=key)
             used.add(key)
             methods.put(key, self._method(method, legacy, key), self.reader.notes(method))
         body.put_some("methods", methods)

@@ -50,8 +50,7 @@ class _JcdslConverter(ComponentBuilder):
             self.put("options", List.of(dict.fromkeys(self.options)))
         named = self.entries.get("component")
         if named is None or not named.value:
-            at = self.reader.span(top)
-            self.reader.diagnostics.append(codes.SYNTAX.at(at, problem='the component has no "name"', hint=""))
+            self.reader.report(codes.SYNTAX, top, problem='the component has no "name"', hint="")
             return None
         return self.draft(top, self.imports, Notes())
 
@@ -63,7 +62,7 @@ class _JcdslConverter(ComponentBuilder):
         """Return a text; report another type."""
         if node.data == "text":
             return _text(node)
-        self.reader.diagnostics.append(codes.SYNTAX.at(self.reader.span(node), problem="expected a text", hint=""))
+        self.reader.report(codes.SYNTAX, node, problem="expected a text", hint="")
         return ""
 
     def texts(self, node: Node) -> list[str]:
@@ -127,7 +126,7 @@ class _JcdslConverter(ComponentBuilder):
         kept = f"x-legacy-{name}"
         start, end = value.meta.start_pos, value.meta.end_pos
         self.put(kept, " ".join(self.reader.source.text[start:end].split()))
-        self.reader.diagnostics.append(codes.NO_PLACE.at(self.reader.span(key), what=name, key=kept))
+        self.reader.report(codes.NO_PLACE, key, what=name, key=kept)
 
 
 _CLAUSES = {

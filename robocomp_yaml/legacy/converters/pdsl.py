@@ -32,8 +32,7 @@ def convert(reader: Reader) -> ParametersDraft | None:
         if flag == "T":
             body.put("editable", TRUE)
             if not has_flag:
-                what = reader.rules.repairs["flag"]
-                reader.diagnostics.append(codes.GUESSED.at(reader.span(flag), name=reader.name(component), what=what))
+                reader.report(codes.GUESSED, flag, name=reader.name(component), what=reader.rules.repairs["flag"])
             has_flag = True
         parameters.put(name, body, reader.notes(node))
     document.put("parameters", parameters)

@@ -11,7 +11,7 @@ import msgspec
 from robocomp_yaml.diag.codes import managers as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.digraph import reached
-from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Notes, Raw
+from robocomp_yaml.legacy.document import List, Map, Notes, Raw
 from robocomp_yaml.legacy.draft import DeploymentDraft
 from robocomp_yaml.legacy.ledger import LedgerEntry
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
@@ -81,8 +81,8 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
         document.put("deployment", self.name, Notes(notes.head, notes.tail))
         users = self.network.users
         for address, name in hosts.items():
-            user = [DocumentEntry("user", users[address])] if address in users else []
-            listed.put(name, Map([DocumentEntry("address", address), *user]))
+            user = {"user": users[address]} if address in users else {}
+            listed.put(name, Map.of({"address": address, **user}))
         document.put_some("hosts", listed)
         for node in nodes:
             self.report_problems(node)

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.legacy.document import DocumentEntry, List, Map, Raw
+from robocomp_yaml.legacy.document import List, Map, Raw
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, NodeCommand
 from robocomp_yaml.legacy.networks.components import KnownComponent
 from robocomp_yaml.legacy.networks.node import NetworkNode
@@ -40,7 +40,7 @@ def program_entry(node: NetworkNode, host: str, after: List, site: Destination, 
         entry.put_some("cwd", command.folder, node.by_key.get("cwd"))
         entry.put_some("args", List.of(command.full[1:]))
     if node.endpoint is not None:
-        endpoints = Map([DocumentEntry(node.interface, node.endpoint.text)])
+        endpoints = Map.of({node.interface: node.endpoint.text})
         entry.put("endpoints", endpoints, node.by_key.get("endpoints"))
     return _completed(entry, node, after, site.key)
 
@@ -83,11 +83,11 @@ def _ports(entry: Map, node: NetworkNode, component: KnownComponent) -> str:
     port = Raw(str(endpoint.port))
     notes = node.by_key.get("endpoints")
     if endpoint.options or endpoint.protocol not in ("tcp", "default"):
-        entry.put("endpoints", Map([DocumentEntry(name, endpoint.text)]), notes)
+        entry.put("endpoints", Map.of({name: endpoint.text}), notes)
     elif name == served[0]:
         entry.put("port", port, notes)
     else:
-        entry.put("ports", Map([DocumentEntry(name, port)]), notes)
+        entry.put("ports", Map.of({name: port}), notes)
     return ""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from robocomp_yaml.legacy.document import TRUE, DocumentEntry, List, Map, Notes, Raw, Value
+from robocomp_yaml.legacy.document import TRUE, List, Map, Notes, Raw, Value
 from robocomp_yaml.legacy.settings.entries import STRING
 from robocomp_yaml.legacy.settings.headers import free
 from robocomp_yaml.legacy.settings.plan import ParameterPlan, Path
@@ -49,7 +49,7 @@ class _PdslWriter:
                 path = plan.path[:depth]
                 if path not in groups:
                     groups[path] = Map(block=True)
-                    body = Map([DocumentEntry("group", groups[path])])
+                    body = Map.of({"group": groups[path]})
                     self._code_name(body, path, siblings)
                     groups[path[:-1]].put(path[-1], body)
             body = Map()
@@ -83,7 +83,7 @@ class _PdslWriter:
         if isinstance(shape, ScalarShape):
             return shape.kind
         if isinstance(shape, ListShape):
-            return Map([DocumentEntry("list", self.element(shape.element, name, plan))])
+            return Map.of({"list": self.element(shape.element, name, plan)})
         return self.struct(shape, name, plan)
 
     def struct(self, shape: RecordShape, name: str, plan: ParameterPlan) -> str:
@@ -98,7 +98,7 @@ class _PdslWriter:
         members, used = Map(block=True), dict[Path, set[str]]()
         for field in shape.fields:
             members.put(field.name, self.member(field, plan, docs.get(field.name, ""), used))
-        self.types.put(title, Map([DocumentEntry("struct", members)]))
+        self.types.put(title, Map.of({"struct": members}))
         return title
 
     def member(self, field: MemberShape, plan: ParameterPlan, doc: str, used: dict[Path, set[str]]) -> Value:
@@ -122,7 +122,7 @@ def _spelling(spelled: Spelling) -> Value:
     if not (spelled.columns or spelled.separators or spelled.fields or spelled.first or "{i}" in spelled.key):
         return spelled.key
     body = Map()
-    body.put_some("fields", Map([DocumentEntry(name, key) for name, key in spelled.fields]))
+    body.put_some("fields", Map.of(dict(spelled.fields)))
     body.put_some("key", "" if spelled.fields else spelled.key)
     body.put_some("first", Raw(str(spelled.first)) if spelled.first else None)
     body.put_some("columns", List.of(spelled.columns))

@@ -48,7 +48,7 @@ def _section(entries: Sequence[NamedSetting], value: Callable[[NamedSetting], Va
 
 def _proxy(named: NamedSetting) -> Value:
     body = _text(named)
-    return Map([DocumentEntry("proxy", body), DocumentEntry("key", named.key)]) if named.key else body
+    return Map.of({"proxy": body, "key": named.key}) if named.key else body
 
 
 def _text(named: NamedSetting) -> Value:
@@ -91,7 +91,7 @@ def _legacy(config: Config, plans: Sequence[ParameterPlan], links: DocumentLinks
     body.put_some("dialect", config.sorted.dialect if config.sorted.dialect != CLASSIC else "")
     body.put_some("after", links.after)
     originals = _originals(config, plans, exact) if config.sorted.dialect != TOML else ()
-    body.put_some("exact", Map([DocumentEntry(key, raw) for key, raw in originals], block=True))
+    body.put_some("exact", Map.of(dict(originals), block=True))
     return body
 
 
