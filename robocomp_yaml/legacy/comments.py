@@ -84,9 +84,8 @@ class _Placer:
         before, around, after = self._neighbours(comment)
         follows = before is not None and source.line(before.end) == comment.first and not comment.is_alone
         touching = before is not None and follows and source.text[before.end : comment.start].strip() in ("", ";")
-        inline = (
-            after is not None and comment.precedes_code and source.line(after.start) == comment.last and not touching
-        )
+        precedes = after is not None and comment.precedes_code and source.line(after.start) == comment.last
+        inline = precedes and not touching
         if before is not None and follows and not inline:
             if source.line(before.start) != comment.first and source.text[before.end - 1] == "}":
                 before.notes.foot += comment.as_head()
@@ -149,9 +148,8 @@ class _Comment:
         self.lines, self.has_controls = [line for line, _ in pairs], any(bad for _, bad in pairs)
         self.first, self.last = source.line(self.start), source.line(self.end)
         self.is_alone = not source.before(self.start).strip()
-        self.precedes_code = self.block and bool(
-            source.line_text(self.last)[len(source.before(self.end)) :].strip(" \t;,")
-        )
+        rest = source.line_text(self.last)[len(source.before(self.end)) :]
+        self.precedes_code = self.block and bool(rest.strip(" \t;,"))
         self.gap_before = self.first > 1 and not source.line_text(self.first - 1).strip()
         self.gap_after = self.last < source.lines and not source.line_text(self.last + 1).strip()
 
@@ -171,11 +169,8 @@ def _grouped(comments: Sequence[_Comment]) -> list[_Comment]:
         if groups and groups[-1].continues_in(comment):
             last = groups[-1]
             last.lines = last.lines + comment.lines
-            last.end, last.last, last.has_controls = (
-                comment.end,
-                comment.last,
-                last.has_controls or comment.has_controls,
-            )
+            last.end, last.last = comment.end, comment.last
+            last.has_controls = last.has_controls or comment.has_controls
             last.gap_after = comment.gap_after
         else:
             groups.append(comment)

@@ -97,13 +97,8 @@ def parse(source: SourceText, rules: Rules) -> Parsed:
             text = fault.rest
         else:
             if not diagnostics and _depth(tree) > MAX_DEPTH:
-                diagnostics.append(
-                    codes.SYNTAX.at(
-                        Span(source.path),
-                        problem=f"this file nests constructs more than {MAX_DEPTH} levels deep",
-                        hint="",
-                    )
-                )
+                problem = f"this file nests constructs more than {MAX_DEPTH} levels deep"
+                diagnostics.append(codes.SYNTAX.at(Span(source.path), problem=problem, hint=""))
             return Parsed(None if diagnostics else tree, tuple(parser.trivia), tuple(diagnostics))
     return Parsed(None, (), tuple(diagnostics))
 

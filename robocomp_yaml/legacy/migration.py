@@ -67,9 +67,8 @@ def migrate(
         root = run.root(folder)
         if workspaces.needs_file(root) and accepted:
             known.new.append(folder)
-    documents, diagnostics = assign_documents(
-        [(entry.legacy, entry.file.rules) for entry in accepted if entry.file.rules is not None]
-    )
+    known_formats = [(entry.legacy, entry.file.rules) for entry in accepted if entry.file.rules is not None]
+    documents, diagnostics = assign_documents(known_formats)
     by_path = {entry.file.path: entry for entry in accepted}
     for diagnostic in diagnostics:
         by_path[diagnostic.span.file].diagnostics.append(diagnostic)
@@ -106,11 +105,9 @@ def check_written(run: MigrationRun, extra: Sequence[str]) -> None:
         errors = [error for error in found if not _is_reported(error, entry.diagnostics)]
         if errors:
             first, more = errors[0], f" (and {len(errors) - 1} more)" if errors[1:] else ""
-            entry.diagnostics.append(
-                codes.NOT_ACCEPTED.at(
-                    Span(entry.file.path), path=path, line=first.span.line, reason=first.message + more, hint=first.hint
-                )
-            )
+            at, reason = Span(entry.file.path), first.message + more
+            diagnostic = codes.NOT_ACCEPTED.at(at, path=path, line=first.span.line, reason=reason, hint=first.hint)
+            entry.diagnostics.append(diagnostic)
 
 
 def _is_reported(error: Diagnostic, diagnostics: Sequence[Diagnostic]) -> bool:

@@ -9,16 +9,8 @@ from lark import Token, Tree
 from robocomp_yaml.legacy import grammar
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import ConfigDraft, Reader
-from robocomp_yaml.legacy.settings.entries import (
-    CLASSIC,
-    FLAT_TOML,
-    STRING,
-    ConfigSettings,
-    Leaf,
-    Setting,
-    assign_head_comments,
-    guess,
-)
+from robocomp_yaml.legacy.settings import entries
+from robocomp_yaml.legacy.settings.entries import CLASSIC, FLAT_TOML, ConfigSettings, Leaf, Setting
 from robocomp_yaml.semantics.texts import unquoted
 from robocomp_yaml.source import properties
 
@@ -57,7 +49,7 @@ def convert(reader: Reader) -> ConfigDraft | None:
             reader.repaired("overridden", node, entry.key)
         pending += [*notes.head, *_as_comment(reader, node, notes)]
     around.foot[:0] = pending
-    assign_head_comments(settings, around)
+    entries.assign_head_comments(settings, around)
     return ConfigDraft(settings, around)
 
 
@@ -97,7 +89,7 @@ def _setting(
         if text == raw and '"' in raw:
             reader.repaired("half_quoted", node, entry.key)
     is_quoted = text != raw
-    value = Leaf(text, STRING) if is_quoted else guess(text)
+    value = Leaf(text, entries.STRING) if is_quoted else entries.guess(text)
     return Setting(entry.key, tuple(entry.key.split(".")), value, reader.span(node), notes, raw, is_quoted)
 
 

@@ -20,9 +20,8 @@ def convert(reader: Reader) -> ComponentDraft | None:
     tree = reader.tree
     top = trees(tree)
     if not top or top[0].data != "object":
-        reader.diagnostics.append(
-            codes.SYNTAX.at(reader.source.span(0, 1), problem="this is not a JSON object", hint="")
-        )
+        at = reader.source.span(0, 1)
+        reader.diagnostics.append(codes.SYNTAX.at(at, problem="this is not a JSON object", hint=""))
         return None
     return _JcdslConverter(reader).document(top[0])
 

@@ -51,9 +51,7 @@ def match(command: NodeCommand, known: Iterable[KnownComponent]) -> KnownCompone
     same_name = [component for component in known if component.name.lower() == command.stem.lower()]
     if len(same_name) > 1:
         folders = posixpath.normpath(command.folder).split("/")
-        same_name = [
-            item for item in same_name if os.path.basename(os.path.dirname(os.path.abspath(item.path))) in folders
-        ]
+        same_name = [each for each in same_name if os.path.abspath(each.path).split("/")[-2] in folders]
     return same_name[0] if len(same_name) == 1 else None
 
 
@@ -66,6 +64,5 @@ def _known(path: str, content: Mapping[str, object]) -> KnownComponent:
             required[str(name)] = str(interface_name).rpartition(".")[2]
     served = implements if isinstance(implements, list) else []
     names = [str(next(iter(item), "")) if isinstance(item, dict) else str(item) for item in served]
-    return KnownComponent(
-        str(content.get("component", "")), path, tuple(name.rpartition(".")[2] for name in names), required
-    )
+    interfaces = tuple(name.rpartition(".")[2] for name in names)
+    return KnownComponent(str(content.get("component", "")), path, interfaces, required)

@@ -54,11 +54,9 @@ def _build(
         first = generic_config(path)
         configs.append(Config(path, source, rules, sort(draft.settings, component.ports, rules)))
         folder = os.path.dirname(targets[path]) or "."
-        links[path] = DocumentLinks(
-            os.path.relpath(component.document or component.parameters, folder),
-            os.path.basename(path),
-            os.path.relpath(targets[first], folder) if first in entries else "",
-        )
+        home = os.path.relpath(component.document or component.parameters, folder)
+        after = os.path.relpath(targets[first], folder) if first in entries else ""
+        links[path] = DocumentLinks(home, os.path.basename(path), after)
     planned = plans(configs, corrections)
     if component.declared is not None:
         planned = declared.fitted(planned, component.declared, configs)

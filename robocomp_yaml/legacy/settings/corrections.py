@@ -36,10 +36,8 @@ def _file(path: str) -> Corrections:
         tree, diagnostics = parse(path, file.read())
     data = tree.data if tree is not None and not diagnostics else None
     if not isinstance(data, dict):
-        raise CorrectionError(
-            f"{path} is not a YAML mapping with the keys names, types and text"
-            + (f": {diagnostics[0].message}" if diagnostics else "")
-        )
+        reason = f": {diagnostics[0].message}" if diagnostics else ""
+        raise CorrectionError(f"{path} is not a YAML mapping with the keys names, types and text{reason}")
     for key in data:
         if key not in ("names", "types", "text"):
             raise CorrectionError(f"{path} has the unknown key '{key}'; the keys are names, types and text")

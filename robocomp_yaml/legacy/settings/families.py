@@ -188,9 +188,8 @@ def _ranges(configs: Sequence[Config]) -> Iterator[ParameterPlan]:
         if not _is_alone(stem, by_config, configs) or any("," in row.setting.text for row in rows):
             continue
         name = unique(["from", "to", _value_name(by_config)])[-1]
-        plan = ParameterPlan(
-            _path(re.sub(r"\W+\Z", "", stem)), guessed=f"the value of the ranges {stem}… is named {name}"
-        )
+        what = f"the value of the ranges {stem}… is named {name}"
+        plan = ParameterPlan(_path(re.sub(r"\W+\Z", "", stem)), guessed=what)
         plan.spelled = Spelling(f"{stem}{{from}}-{{to}}", columns=(name,))
 
         def record(row: _Row, name: str = name) -> dict[str, Item]:
@@ -232,11 +231,8 @@ def _fields(group: str, names: list[str], stems: Stems, count: str, configs: Seq
     fields = unique([sanitized(name) for name in short_names])
     title = count or "_".join(field.strip("_") for field in fields[:3])
     path = (*(group.split(".") if group else ()), title)
-    listed = ", ".join(fields)
-    plan = ParameterPlan(
-        path,
-        guessed=f"{', '.join(names)} have the same numbers, so that they become fields of one list, {title}: {listed}",
-    )
+    what = f"have the same numbers, so that they become fields of one list, {title}: {', '.join(fields)}"
+    plan = ParameterPlan(path, guessed=f"{', '.join(names)} {what}")
     groups = list(stems[names[0]].values())
     plan.spelled = Spelling(
         fields=tuple((field, f"{name}{{i}}") for field, name in zip(fields, names, strict=True)),

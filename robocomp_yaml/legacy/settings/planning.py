@@ -60,9 +60,8 @@ def _plan(path: Path, settings: dict[str, Setting], corrections: Corrections) ->
             separators=tuple(joiner(texts.values(), separator) for separator in between),
             trailing=any(text.endswith(between[0]) for text in texts.values()),
         )
-        plan.guessed = f"{key} is split into a list at every '{between[0]}'" + (
-            f", and again at every '{between[1]}'" if between[1:] else ""
-        )
+        inner = f", and again at every '{between[1]}'" if between[1:] else ""
+        plan.guessed = f"{key} is split into a list at every '{between[0]}'{inner}"
     for name, setting in settings.items():
         value = _listed(nested(setting.text, between, len(between), True)) if plan.spelled else setting.value
         plan.values[name] = PlannedValue(Item(value, setting.notes), [setting])

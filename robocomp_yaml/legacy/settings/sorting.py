@@ -73,9 +73,8 @@ class SortedSettings(msgspec.Struct, frozen=True):
         if name and name not in used and not name.startswith(_USER_PREFIX):
             self.proxies.append(NamedSetting(name, setting))
         else:
-            self.proxies.append(
-                NamedSetting(free(setting.key.replace(_USER_PREFIX, "x_", 1), used), setting, setting.key)
-            )
+            unique = free(setting.key.replace(_USER_PREFIX, "x_", 1), used)
+            self.proxies.append(NamedSetting(unique, setting, setting.key))
 
     def keep(self, setting: Setting) -> None:
         """Add a property that fits no section. Lists and tables of TOML cannot be properties, and are lost."""

@@ -76,9 +76,7 @@ class _TrialDocuments:
             node = self._tree(config.name, "config", values_document(config, plans, links[config.name], exact=False))
             if node is not None:
                 documents[config.name] = build_parameters.build_values(node, config.name)
-        bases = {
-            name: generic_config(name) for name in documents if links[name].after and generic_config(name) in documents
-        }
+        bases = {name: generic_config(name) for name in documents if generic_config(name) in documents}
         linked_values = {
             name: LinkedValues(document, parameters=linked, is_extended=name in bases.values())
             for name, document in documents.items()
