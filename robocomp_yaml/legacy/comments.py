@@ -49,13 +49,13 @@ def _key(tree: Tree[Token]) -> tuple[str, int, int]:
 
 def place(tree: Tree[Token], comments: Sequence[Token], source: SourceText, rules: Rules) -> PlacedComments:
     """Assign every comment to exactly one construct, or to the file."""
-    placer = _Placer(tree, source, rules)
+    placer = _CommentPlacer(tree, source, rules)
     for comment in _grouped([_Comment(token, source) for token in comments]):
         placer.put(comment)
     return placer.placed
 
 
-class _Placer:
+class _CommentPlacer:
     """Assigns comments to the constructs of a tree."""
 
     def __init__(self, tree: Tree[Token], source: SourceText, rules: Rules) -> None:

@@ -39,7 +39,7 @@ class Upgraded(msgspec.Struct):
 
 @cache
 def key_renames() -> tuple[KeyRename, ...]:
-    """Return all renamed keys, the oldest change first."""
+    """Return all renamed keys, the oldest change first. Raises ValueError if `migrate/upgrades.yaml` is broken."""
     tree, diagnostics = parse(_FILE, resources.text(f"migrate/{_FILE}"))
     if tree is None or not isinstance(tree.data, list):
         raise ValueError(f"migrate/{_FILE} is broken: {diagnostics}")
