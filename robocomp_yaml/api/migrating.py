@@ -8,8 +8,8 @@ from robocomp_yaml.api.outcome import File
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy import migration, outputs
 from robocomp_yaml.legacy.migration import Progress
-from robocomp_yaml.legacy.result import Migration as Run
-from robocomp_yaml.legacy.settings.plan import Guesses
+from robocomp_yaml.legacy.result import MigrationRun
+from robocomp_yaml.legacy.settings.plan import Corrections
 from robocomp_yaml.pipeline import search_folders
 
 _ACTIONS = {
@@ -27,10 +27,10 @@ class Migration:
 
     def __init__(
         self, paths: Sequence[str], output: str | None, include: Sequence[str], *, force: bool = False,
-        exact: bool = False, guesses: Guesses = Guesses(), progress: Progress = iter,
+        exact: bool = False, guesses: Corrections = Corrections(), progress: Progress = iter,
     ) -> None:  # fmt: skip
         self._include = tuple(include)
-        self.run: Run = migration.migrate(
+        self.run: MigrationRun = migration.migrate(
             paths, output, search_folders(self._include), force=force, progress=progress, guesses=guesses, exact=exact
         )
 
@@ -63,4 +63,4 @@ class Migration:
         """Writes the documents, and looks at what was written as `check` does. Files that were edited since stay; what
         could not be written is told by `diagnostics`."""
         self.run.write()
-        migration.look_back(self.run, self._include)
+        migration.check_written(self.run, self._include)

@@ -17,7 +17,7 @@ from robocomp_yaml.diag.render import tell
 from robocomp_yaml.transactions import whole_file
 
 if TYPE_CHECKING:
-    from robocomp_yaml.legacy.result import Migration
+    from robocomp_yaml.legacy.result import MigrationRun
     from robocomp_yaml.legacy.sources import LegacyFile
 
 LONG = 50
@@ -68,13 +68,13 @@ def command(
     edited is overwritten, and the sources stay as they are.
     """
     from robocomp_yaml.legacy.ledger import as_json
-    from robocomp_yaml.legacy.migration import look_back, migrate
-    from robocomp_yaml.legacy.settings.corrections import Wrong, corrections
+    from robocomp_yaml.legacy.migration import check_written, migrate
+    from robocomp_yaml.legacy.settings.corrections import CorrectionError, read_corrections
     from robocomp_yaml.pipeline import search_folders
 
     try:
-        guesses = corrections(names, rules)
-    except (Wrong, OSError, UnicodeDecodeError) as error:
+        guesses = read_corrections(names, rules)
+    except (CorrectionError, OSError, UnicodeDecodeError) as error:
         raise click.UsageError(str(error)) from None
     if report is not None:
         _refuse_to_overwrite(report)
@@ -84,7 +84,7 @@ def command(
         terminal.data(change.diff(path), err=format_ != "text" or report == "-")
     if not dry_run:
         run.write()
-        look_back(run, include)
+        check_written(run, include)
     lost = sum(entry.lines()["lost"] for entry in run.entries)
     _print(ctx, run, format_, dry_run, err=report == "-")
     if report is not None:
@@ -125,7 +125,7 @@ def _save(path: str, text: str) -> None:
         raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
 
 
-def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, err: bool) -> None:
+def _print(ctx: click.Context, run: MigrationRun, format_: str, dry_run: bool, *, err: bool) -> None:
     """Diagnostics, each document if asked for, and the summary by format: on standard output, or where the report
     goes there, on standard error."""
     say = partial(terminal.say, err=err)
@@ -145,7 +145,7 @@ def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, e
         say("nothing was written (--dry-run)")
 
 
-def _table(run: Migration) -> list[str]:
+def _table(run: MigrationRun) -> list[str]:
     """How many files of each format ended how."""
     from robocomp_yaml.legacy.ledger import STATUSES
 

@@ -12,6 +12,7 @@ from hypothesis.strategies import SearchStrategy
 from robocomp_yaml.legacy import document, ledger
 from robocomp_yaml.legacy.convert import Converted, convert
 from robocomp_yaml.legacy.draft import ConfigDraft
+from robocomp_yaml.legacy.sources import LegacyFile
 from robocomp_yaml.model import build_component, build_interface
 from robocomp_yaml.model.component import Component, Gui, Language, Option, Use
 from robocomp_yaml.model.interface import (
@@ -279,10 +280,10 @@ PIECES = st.lists(st.sampled_from([*SAMPLE.split(" "), *OTHERS]))
     st.sampled_from(["x.idsl", "x.ice", "x.cdsl", "x", "x.conf", "x.toml", "x.jcdsl", "x.pdsl", "x.pconf"]),
     PIECES.map(" ".join) | st.text() | st.binary(),
 )
-def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str | bytes) -> None:
+def test_no_input_fails_and_every_line_is_counted(name: str, text: str | bytes) -> None:
     result, written = _converted(name, text)
     assert result.refused == any(d.severity == "error" for d in result.diagnostics)
-    entry = ledger.Entry(result, diagnostics=[*result.diagnostics])
+    entry = ledger.LedgerEntry(LegacyFile(name, "", ""), result, diagnostics=[*result.diagnostics])
     if result.source is not None:
         assert entry.lines().total() == result.source.lines
         for diagnostic in result.diagnostics:

@@ -1,4 +1,4 @@
-"""RC5xxx: what `rcyaml migrate` says about RCManager's networks and about launchers."""
+"""RC5xxx: what `rcyaml migrate` reports about RCManager's networks and launchers."""
 
 from __future__ import annotations
 

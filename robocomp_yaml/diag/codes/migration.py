@@ -1,4 +1,4 @@
-"""RC5xxx: what `rcyaml migrate` says about a legacy file and about what it wrote."""
+"""RC5xxx: what `rcyaml migrate` reports about legacy files and the documents that it wrote."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""`migrate` reads what it wrote as `check` does: what a config cannot say as parameters stays a property, and what is
-wrong all the same is told."""
+"""`migrate` checks the documents that it wrote: settings that are not valid as parameters are properties, and remaining
+errors are reported."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from conftest import write_tree
 from robocomp_yaml.source.tree import parse
 
 Run = Callable[..., Result]
-FLAT = "Endpoints0=true,true\n"  # with it, components take quotes away
+FLAT = "Endpoints0=true,true\n"  # with this key, components remove quotes
 CONFIGS = {
     "a quoted text": ('Laser = "true"\n' + FLAT, {"Laser": '"true"'}),
     "above rows that are called as a section of TOML": ('names = "left"\nAgent0=a,1\n', {"names": '"left"'}),
@@ -36,7 +36,7 @@ def test_what_cannot_be_a_parameter_is_a_property(name: str, rcyaml: Run, tmp_pa
     assert all(f"{key}={value}" in exported for key, value in properties.items())
 
 
-def test_what_check_refuses_is_told_once_for_a_document(rcyaml: Run, tmp_path: Path) -> None:
+def test_errors_of_check_are_reported_once_for_a_document(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(
         tmp_path,
         {
@@ -73,15 +73,15 @@ NOT_THERE = {
 
 
 @pytest.mark.parametrize("name", NOT_THERE)
-def test_what_is_not_there_is_said_once(name: str, rcyaml: Run, tmp_path: Path) -> None:
+def test_what_is_missing_is_reported_once(name: str, rcyaml: Run, tmp_path: Path) -> None:
     files, codes = NOT_THERE[name]
-    write_tree(tmp_path, {"rcyaml.yaml": "interfaces: []\n", **files})  # a workspace where each is an error
+    write_tree(tmp_path, {"rcyaml.yaml": "interfaces: []\n", **files})  # a workspace in which each is an error
     result = rcyaml("migrate", ".", "--format", "json")
     assert [each["code"] for each in json.loads(result.stdout)["diagnostics"]] == codes
     assert rcyaml("check", ".").exit_code == 1
 
 
-def test_another_of_the_same_kind_is_said(rcyaml: Run, tmp_path: Path) -> None:
+def test_another_fault_of_the_same_kind_is_reported(rcyaml: Run, tmp_path: Path) -> None:
     interface = "module RoboCompA { interface A { Eye f(); void g(RoboCompZ::Ear x); }; };\n"
     write_tree(tmp_path, {"rcyaml.yaml": "interfaces: []\n", "A.idsl": 'import "Nada.idsl";\n' + interface})
     found = json.loads(rcyaml("migrate", ".", "--format", "json").stdout)["diagnostics"]
@@ -89,6 +89,6 @@ def test_another_of_the_same_kind_is_said(rcyaml: Run, tmp_path: Path) -> None:
     assert "'RoboCompZ.Ear'" in found[0]["message"] and "more)" not in found[0]["message"]
 
 
-def test_a_dry_run_has_nothing_to_look_at(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_dry_run_checks_no_documents(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"speech.cdsl": "Component C { Communications { implements A; }; language python; };\n"})
     assert "RC5039" not in rcyaml("migrate", ".", "--dry-run").output
