@@ -49,7 +49,8 @@ class Configuration(msgspec.Struct):
 
     def make(self) -> None:
         values = self.base.values
-        linked = values.parameters if values is not None else self._own_parameters()
+        component = self.draft.instance.component
+        linked = values.parameters if values is not None else component.parameters if component is not None else None
         if values is not None and linked is None:
             return  # that nobody knows its parameters has been said
         if self.base.flat is not None:
@@ -71,10 +72,6 @@ class Configuration(msgspec.Struct):
         else:
             flat = self.base.flat if self.base.flat.endswith("\n") else f"{self.base.flat}\n"
             self.text = f"{flat}\n{head}{section_text(sections)}"
-
-    def _own_parameters(self) -> LinkedParameters | None:
-        component = self.draft.instance.component
-        return component.parameters if component is not None else None
 
     def _on_values(self, linked: LinkedParameters) -> list[Section] | None:
         base = self.base.values
@@ -171,11 +168,8 @@ class Configuration(msgspec.Struct):
         if names:
             span = next(iter(names.values())).span
             made["name"] = _entry("name", mapping_at(span, {name: _entry(name, to) for name, to in names.items()}))
-            none = {
-                f"{name}{end}": _entry(f"{name}{end}", Given("", to.span))
-                for name, to in names.items()
-                for end in ("", "Pub")
-            }
+            ends = {f"{name}{end}": Given("", to.span) for name, to in names.items() for end in ("", "Pub")}
+            none = {name: _entry(name, given) for name, given in ends.items()}
             made["prefix"] = _entry("prefix", mapping_at(span, none))
         return made
 

@@ -13,14 +13,12 @@ from robocomp_yaml.link.deployments import LinkedInstance
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model.component import IGNORE
 from robocomp_yaml.model.deployment import Pair
-from robocomp_yaml.network import ice_texts
 from robocomp_yaml.network.contents import Contents, name_of
-from robocomp_yaml.network.draft import Draft, Given, Offer
-from robocomp_yaml.network.drafts import Drafts, is_broken
+from robocomp_yaml.network.draft import Draft, Drafts, Given, Offer, is_broken, text_fault
 from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
-from robocomp_yaml.network.targets import Targets
+from robocomp_yaml.network.targets import Named, named
 from robocomp_yaml.source.ice_options import BLANKS, Refused
 from robocomp_yaml.source.ice_proxy import parse_proxy
 
@@ -81,7 +79,6 @@ class Connections(msgspec.Struct):
     drafts: Drafts
     contents: Contents
     gates: Gates
-    targets: Targets
     found: list[Connection] = []
     needs: list[Need] = []
     diagnostics: list[Diagnostic] = []
@@ -111,8 +108,10 @@ class Connections(msgspec.Struct):
             draft.proxies[pair.name] = Given(proxy, pair.span)
             self.found.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
             return
-        target = self.targets.named(draft, pair)
-        if target is None:
+        target = named(self.drafts, draft, pair)
+        if isinstance(target, Diagnostic):
+            self.diagnostics.append(target)
+        if not isinstance(target, Named):
             return
         behind = target.interface
         fitting = [offer for offer in target.chosen() if offer.interface == interface or (port is None and behind)]
@@ -253,19 +252,10 @@ def _faults(draft: Draft, pair: Pair) -> Iterator[Diagnostic]:
         found = parse_proxy(pair.text)
     except Refused as refused:
         usual = f'a proxy is spelled as Ice has it: `"{pair.name.lower()}:tcp -h HOST -p PORT"`'
-        yield codes.BAD_PROXY.at(
-            ice_texts.place(draft, pair.span, pair.text, refused),
-            text=pair.text,
-            problem=refused.problem,
-            hint=ice_texts.hint(draft, pair.text, refused, usual),
-        )
+        yield text_fault(codes.BAD_PROXY, draft, pair.span, pair.text, refused, usual, text=pair.text)
         return
     for unknown in found.unknown:
-        yield codes.PASSED_OVER.at(
-            ice_texts.place(draft, pair.span, pair.text, unknown),
-            problem=unknown.problem,
-            hint=ice_texts.hint(draft, pair.text, unknown, ""),
-        )
+        yield text_fault(codes.PASSED_OVER, draft, pair.span, pair.text, unknown)
 
 
 def _may_be_absent(port: Port | None) -> bool:

@@ -13,17 +13,15 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.deployment import PROGRAM, Text
-from robocomp_yaml.network import ice_texts, ports, processes
+from robocomp_yaml.network import ports, processes
 from robocomp_yaml.network.base import Base, base_of
 from robocomp_yaml.network.configuration import Configuration
 from robocomp_yaml.network.connections import Connections
 from robocomp_yaml.network.contents import Contents
-from robocomp_yaml.network.draft import Draft, Offer
-from robocomp_yaml.network.drafts import Drafts, drafts_of
+from robocomp_yaml.network.draft import Draft, Drafts, drafts_of, text_fault
 from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import FOLDER, Network, Process
 from robocomp_yaml.network.order import AFTER, Need, optional, ordered
-from robocomp_yaml.network.targets import Targets
 from robocomp_yaml.network.topics import Topics
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, path_fault, shortened, size
 from robocomp_yaml.source.ice_endpoint import fixed_endpoint
@@ -48,13 +46,12 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
         return bases[draft]
 
     contents = Contents()
-    targets = Targets(drafts)
-    connections, topics = Connections(drafts, contents, gates, targets), Topics(drafts, contents, base)
+    connections, topics = Connections(drafts, contents, gates), Topics(drafts, contents, base)
     connections.resolve()
     gates.connect()
     topics.resolve()
     network.connections = [*connections.found, *gates.found, *topics.found]
-    diagnostics = [*endpoint_faults(drafts), *targets.diagnostics, *connections.diagnostics, *topics.diagnostics]
+    diagnostics = [*endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
     needs = [*_said(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
     wanted = {need.target for need in needs if need.source in enabled}
@@ -102,31 +99,17 @@ def _put_in_order(network: Network, needs: Sequence[Need]) -> list[Diagnostic]:
 
 
 def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
-    for draft in drafts.drafts.values():
-        for offer in draft.adapters:
-            if offer.given:
-                yield from _of_text(draft, offer)
-            elif offer.number > LAST_PORT:
-                yield codes.PORT_TOO_HIGH.at(
-                    offer.span,
-                    name=draft.name,
-                    port=offer.number,
-                    hint="begin with a lower one, or use fewer instances",
-                )
-
-
-def _of_text(draft: Draft, offer: Offer) -> Iterator[Diagnostic]:
-    try:
-        fixed_endpoint(offer.given)
-    except Refused as refused:
-        usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
-        yield codes.BAD_ENDPOINT.at(
-            ice_texts.place(draft, offer.span, offer.given, refused),
-            name=offer.adapter,
-            text=offer.given,
-            problem=refused.problem,
-            hint=ice_texts.hint(draft, offer.given, refused, usual),
-        )
+    usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
+    for offer in (offer for draft in drafts.drafts.values() for offer in draft.adapters):
+        if offer.given:
+            try:
+                fixed_endpoint(offer.given)
+            except Refused as refused:
+                facts = {"name": offer.adapter, "text": offer.given}
+                yield text_fault(codes.BAD_ENDPOINT, offer.owner, offer.span, offer.given, refused, usual, **facts)
+        elif offer.number > LAST_PORT:
+            hint = "begin with a lower one, or use fewer instances"
+            yield codes.PORT_TOO_HIGH.at(offer.span, name=offer.owner.name, port=offer.number, hint=hint)
 
 
 def length_faults(linked: LinkedDeployment, drafts: Drafts, network: Network) -> Iterator[Diagnostic]:

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
-import msgspec
+from collections.abc import Iterator
+from typing import Any
 
+import msgspec
+from msgspec.structs import replace
+
+from robocomp_yaml.diag.code import Code
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.deployments import LinkedInstance, LinkedStorm
+from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm
 from robocomp_yaml.link.program import Port
+from robocomp_yaml.model import deployment as model
 from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
-from robocomp_yaml.source.ice_options import BLANKS
+from robocomp_yaml.source.ice_options import BLANKS, Refused
 
 MANAGER, PUBLISH = "TopicManager", "Publish"
 STORM_INSTANCE = "IceStorm"
+_ANY_TEXT = "what is for a program that is none of Ice, and may be any text, stands under `args:` or `env:`"
 
 
 def is_loopback(address: str) -> bool:
@@ -137,3 +146,97 @@ class StormDraft(msgspec.Struct, eq=False):
             span=storm.port_span if storm.port else storm.span,
         )
         return manager, Endpoint(PUBLISH, "", self.publish, listening(self.host, self.publish), span=storm.span)
+
+
+class Drafts(msgspec.Struct):
+    """Instances and IceStorms in the documents' order. `complete` is False where something could not be read, so that
+    what is missing may be there."""
+
+    linked: LinkedDeployment
+    hosts: dict[str, Host] = {}
+    drafts: dict[LinkedInstance, Draft] = {}
+    storms: dict[LinkedStorm, StormDraft] = {}
+    complete: bool = True
+
+    def of(self, instance: LinkedInstance) -> Draft | None:
+        """The draft of the process that an instance is, or is a second name of."""
+        return self.drafts.get(instance.process or instance)
+
+
+def drafts_of(linked: LinkedDeployment) -> Drafts:
+    result = Drafts(linked, {name: _host(host) for name, host in linked.hosts.items()})
+    result.complete = not (linked.broken or any(map(is_broken, linked.groups.values())))
+    for storm in linked.storms.values():
+        result.storms[storm] = StormDraft(storm, _placed(result.hosts, storm.host))
+        result.complete &= not storm.broken
+    for instance in linked.instances.values():
+        is_known = instance.component is not None or instance.entry.kind != model.COMPONENT
+        result.complete &= is_known and not instance.broken
+        if is_known and instance.entry.kind != model.PROCESS:
+            draft = result.drafts[instance] = Draft(instance, _placed(result.hosts, instance.host))
+            draft.offers, draft.hears = list(_offers(draft)), list(_hears(draft))
+            result.complete &= instance.component is None or not instance.component.broken
+    for instance in linked.instances.values():
+        owner = result.drafts.get(instance.process) if instance.process else None
+        if owner is not None:
+            owner.aliases.append(instance)
+            owner.offers += _endpoints(owner, instance)
+    return result
+
+
+def is_broken(group: LinkedGroup) -> bool:
+    """Whether something about a group has been reported, so that what it serves is not known."""
+    return group.broken or len(group.serves) < len(group.group.exposed)
+
+
+def _host(host: model.Host) -> Host:
+    return Host(host.name, host.address.text, host.user, host.address.span)
+
+
+def _placed(hosts: dict[str, Host], host: model.Host | None) -> Host:
+    if host is not None:
+        return hosts.setdefault(host.name, _host(host))
+    return hosts.setdefault(LOOPBACK, Host(LOOPBACK))
+
+
+def _offers(draft: Draft) -> Iterator[Offer]:
+    component = draft.instance.component
+    if component is None:
+        yield from _endpoints(draft, draft.instance)
+        return
+    given = {pair.name: pair for pair in draft.instance.entry.endpoints}
+    served: list[tuple[str, str, Port | None]] = [(p.name, p.interface.name, p) for p in component.implements]
+    if all(port.name != COMMON_BEHAVIOR for port in component.implements):
+        served.append((COMMON_BEHAVIOR, COMMON_BEHAVIOR, None))
+    for name, interface, port in served:
+        pair = given.get(name)
+        yield Offer(draft, name, interface, pair.span if pair else draft.span, port, given=pair.text if pair else "")
+
+
+def _hears(draft: Draft) -> Iterator[Offer]:
+    entry, component = draft.instance.entry, draft.instance.component
+    given = {pair.name: pair for pair in entry.endpoints}
+    fixed = {number.name: number for number in entry.ports}
+    for port in component.subscribes if component else ():
+        where = given.get(port.name) or fixed.get(port.name)
+        if where is not None:
+            text = given[port.name].text if port.name in given else ""
+            yield Offer(draft, f"{port.name}Topic", port.interface.name, where.span, port, given=text)
+
+
+def _endpoints(owner: Draft, instance: LinkedInstance) -> Iterator[Offer]:
+    """What an entry says that a program serves; the name may be qualified by a module."""
+    for pair in instance.entry.endpoints:
+        yield Offer(owner, pair.name, pair.name.rpartition(".")[2], pair.span, given=pair.text)
+
+
+def text_fault(
+    code: Code, draft: Draft, span: Span, written: str, refused: Refused, otherwise: str = "", **facts: Any
+) -> Diagnostic:
+    """What Ice would refuse in a text of the document, where it is; `otherwise` is the hint where no word is meant. The
+    text of an instance is not as the document has it: `{i}` is filled in."""
+    where = span if draft.instance.number is not None else span.inside(written, refused.start, refused.end)
+    hint = did_you_mean(written[refused.start : refused.end], refused.meant, otherwise=otherwise)
+    if draft.instance.component is None:
+        hint = replace(hint, text=f"{hint}; {_ANY_TEXT}")
+    return code.at(where, problem=refused.problem, hint=hint, **facts)

@@ -14,8 +14,7 @@ from robocomp_yaml import resources
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, Served
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.network.draft import Draft, Given, Offer
-from robocomp_yaml.network.drafts import Drafts
+from robocomp_yaml.network.draft import Draft, Drafts, Given, Offer
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from robocomp_yaml.link.deployments import LinkedInstance
-from robocomp_yaml.network.draft import MANAGER, PUBLISH, Draft, Offer, StormDraft
-from robocomp_yaml.network.drafts import Drafts
+from robocomp_yaml.network.draft import MANAGER, PUBLISH, Draft, Drafts, Offer, StormDraft
 from robocomp_yaml.network.port_numbers import RESERVED, default_port, next_free
 
 STORM_PORT = 9999

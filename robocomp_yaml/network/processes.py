@@ -39,6 +39,7 @@ def of_draft(
         folder = os.path.abspath(os.path.join(os.path.dirname(instance.document.path), entry.cwd.text))
     command = tuple(_command(draft, program))
     is_told = any(CONFIG in part for part in command[1:])
+    of_aliases = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
     return Process(
         draft.name,
         draft.host.name,
@@ -58,7 +59,7 @@ def of_draft(
         secrets=tuple(sorted(set(declared(component.parameters.parameters.root)))) if component is not None else (),
         component=component.component.name if component is not None else "",
         build=_build(draft),
-        extra=(*entry.extra, *_of_aliases(draft)),
+        extra=(*entry.extra, ("aliases", of_aliases)) if of_aliases else entry.extra,
         span=entry.span,
     )
 
@@ -68,12 +69,6 @@ def _variable(given: model.Variable, document: str) -> Variable:
     if file and not file.startswith("~/"):
         file = os.path.abspath(os.path.join(os.path.dirname(document), file))
     return Variable(given.name, given.value, given.source, file)
-
-
-def _of_aliases(draft: Draft) -> Iterator[tuple[str, object]]:
-    given = {alias.name: dict(alias.entry.extra) for alias in draft.aliases if alias.entry.extra}
-    if given:
-        yield "aliases", given
 
 
 def program_of(draft: Draft) -> str:
@@ -151,15 +146,14 @@ def _code(folder: str, component: LinkedComponent | None, known: dict[str, tuple
     if not loaded:
         return ()
     if folder not in known:
-        known[folder] = tuple(
-            sorted(
-                os.path.abspath(os.path.join(where, name))
-                for below, endings in loaded.items()
-                for where, _, names in os.walk(os.path.join(folder, below))
-                for name in names
-                if name.endswith(endings)
-            )
+        files = (
+            os.path.abspath(os.path.join(where, name))
+            for below, endings in loaded.items()
+            for where, _, names in os.walk(os.path.join(folder, below))
+            for name in names
+            if name.endswith(endings)
         )
+        known[folder] = tuple(sorted(files))
     return known[folder]
 
 

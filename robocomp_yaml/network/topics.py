@@ -13,8 +13,7 @@ from robocomp_yaml.link.deployments import LinkedStorm
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.network.base import Base
 from robocomp_yaml.network.contents import Contents
-from robocomp_yaml.network.draft import Draft, Given, StormDraft
-from robocomp_yaml.network.drafts import Drafts
+from robocomp_yaml.network.draft import Draft, Drafts, Given, StormDraft
 from robocomp_yaml.network.network import TOPIC, Connection
 from robocomp_yaml.network.order import Need
 from robocomp_yaml.network.topic_names import NamedEnd, full_names
