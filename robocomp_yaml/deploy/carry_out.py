@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 import time
-from collections.abc import Awaitable, Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import aclosing
 from typing import Any
 
@@ -82,19 +82,14 @@ async def carry_out(
     depends on it is not; the latter holds also where one that ran already is not ready. When the time is over, nothing
     more is started, and what is not ready has failed. What is `blocked` is left as it is, and counts as failed."""
     blocked = blocked or {}
-    leaving = plan.of(STOP, RESTART) + [step for step in plan.of(START) if _is_in_the_way(step)]
-    leaving = [step for step in leaving if step.name not in blocked]
-    await stop_all(engine, [step.running for step in leaving if step.running], report)
+    leaving = [step.running for step in plan.of(STOP, RESTART) if step.running]
+    leaving += [step.running for step in plan.of(START) if step.running and step.running.state in (RUNNING, WAITING)]
+    await stop_all(engine, [running for running in leaving if running.name not in blocked], report)
     if gone := [step.name for step in plan.of(STOP)]:
         await engine.forget(gone)
     if specs := [step.spec for step in plan.of(START, RESTART, CHANGE) if step.spec and step.name not in blocked]:
         await engine.prepare(specs)
-    starts = _Starts(engine, plan, report, keep_going, limit or TimeLimit(), blocked)
-    return await starts.run()
-
-
-def _is_in_the_way(step: Step) -> bool:
-    return step.running is not None and step.running.state in (RUNNING, WAITING)
+    return await _Starts(engine, Watch(engine), plan, report, keep_going, limit or TimeLimit(), blocked).run()
 
 
 async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -> None:
@@ -106,11 +101,11 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
     async def stop(name: str, users: list[asyncio.Task[None]]) -> None:
         if users:
             await asyncio.wait(users)
-        began, is_told = time.monotonic(), leaving[name].state in (RUNNING, WAITING)
-        if is_told:
+        began, is_reported = time.monotonic(), leaving[name].state in (RUNNING, WAITING)
+        if is_reported:
             report(Event(name, STOPPING))
         await engine.stop(name)
-        if is_told:
+        if is_reported:
             report(Event(name, GONE, seconds=time.monotonic() - began))
 
     for name in reversed(in_order(after)):
@@ -121,31 +116,31 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
             raise result
 
 
-class _Starts:
-    """The starts of one plan under way."""
+class _Starts(msgspec.Struct):
+    """The starts of one plan under way. `_since` has the start of the wait for each process that is pending."""
 
-    def __init__(
-        self, engine: Engine, plan: Plan, report: Report, keep_going: bool, limit: TimeLimit,
-        blocked: Mapping[str, Diagnostic],
-    ) -> None:  # fmt: skip
-        self._engine, self._plan, self._report = engine, plan, report
-        self._keep_going, self._limit, self._blocked = keep_going, limit, blocked
-        self._outcome = Outcome()
-        self._watch = Watch(engine)
-        self._since: dict[str, float] = {}  # when it began to be waited for; those of which it is not known how it ends
-        self._tasks: dict[str, asyncio.Task[bool]] = {}
-        self._order = in_order({step.name: _after(step) for step in plan.of(START, RESTART, CHANGE, KEEP)})
+    _engine: Engine
+    _watch: Watch
+    _plan: Plan
+    _report: Report
+    _keep_going: bool
+    _limit: TimeLimit
+    _blocked: Mapping[str, Diagnostic]
+    _outcome: Outcome = msgspec.field(default_factory=Outcome)
+    _since: dict[str, float] = {}
+    _tasks: dict[str, asyncio.Task[bool]] = {}
 
     async def run(self) -> Outcome:
         starting = {step.name for step in self._plan.of(START, RESTART)}
+        order = in_order({step.name: _after(step) for step in self._plan.of(START, RESTART, CHANGE, KEEP)})
         try:
-            for step in (self._plan.steps[name] for name in self._order):
+            for step in (self._plan.steps[name] for name in order):
                 if step.name in starting:
                     # Those that close a cycle come later in the order, and are not waited for.
                     before = {name: self._tasks[name] for name in _after(step) if name in self._tasks}
                     self._tasks[step.name] = asyncio.create_task(self._start(step, before))
-                else:
-                    self._tasks[step.name] = asyncio.create_task(self._wait_for(step))
+                else:  # it runs already: as a rule it answers at once
+                    self._tasks[step.name] = asyncio.create_task(self._ends_ready(step, is_new=False))
             pending = set(self._tasks.values())
             while pending:
                 if self._limit.is_over:
@@ -184,31 +179,24 @@ class _Starts:
         if not all(is_ready or name in optional for name, is_ready in zip(before, ready, strict=True)):
             return False
         self._report(Event(step.name, STARTING))
-        return await self._ends_ready(step, self._begin)
+        return await self._ends_ready(step, is_new=True)
 
-    async def _wait_for(self, step: Step) -> bool:
-        """Waits for a process that runs already: as a rule it answers at once."""
-        return await self._ends_ready(step, None)
-
-    async def _begin(self, name: str) -> None:
-        self._outcome.began.append(name)
-        await self._engine.start(name)
-
-    async def _ends_ready(self, step: Step, begin: Callable[[str], Awaitable[None]] | None) -> bool:
+    async def _ends_ready(self, step: Step, *, is_new: bool) -> bool:
         assert step.spec
         self._since[step.name] = time.monotonic()
         try:
             logs = [step.name] if step.spec.process.ready.log else []
             async with aclosing(await self._engine.lines(logs, 0, True)) as lines:
-                if begin:
-                    await begin(step.name)
-                if begin or not (step.running and await holds(self._engine, step.spec, step.running)):
+                if is_new:
+                    self._outcome.began.append(step.name)
+                    await self._engine.start(step.name)
+                if is_new or not (step.running and await holds(self._engine, step.spec, step.running)):
                     await until_ready(self._engine, step.spec, lines, self._watch.of(step.name))
         except DeployFailed as error:
             self._fail(step.name, error.diagnostic)
             return False
         took = self._took(step.name)
-        if begin:
+        if is_new:
             self._report(Event(step.name, READY, seconds=took))
         return True
 

@@ -13,8 +13,6 @@ from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.network.network import ConfigFile, Process, Variable
 from robocomp_yaml.source import properties
 
-_LISTS = ("after", "aliases", "groups", "folders")
-
 
 class Difference(msgspec.Struct, frozen=True):
     """`old` and `new` are '' where there is nothing. `is_live` where it holds without a restart."""
@@ -36,7 +34,7 @@ def differences(old: Spec, new: Spec) -> list[Difference]:
     before, after = old.process, new.process
     return [
         *_field("host", old.address, new.address),
-        *_command_field(old, new),
+        *([Difference("command", _command(old), _command(new))] if old.command != new.command else ()),
         *_field("cwd", before.cwd, after.cwd),
         *_entries("env", _variables(before.env), _variables(after.env), ()),
         *_config(before.config, after.config, {*before.secrets, *after.secrets}),
@@ -61,11 +59,6 @@ def _entries(name: str, old: dict[str, str], new: dict[str, str], hidden: Collec
 def _shown(key: str, value: str | None, hidden: Collection[str]) -> str:
     """An empty value is not the same as none; secrets are hidden."""
     return "''" if value == "" else secrets.value(key, value or "", hidden)
-
-
-def _command_field(old: Spec, new: Spec) -> Iterator[Difference]:
-    if old.command != new.command:
-        yield Difference("command", _command(old), _command(new))
 
 
 def _command(spec: Spec) -> str:
@@ -100,7 +93,7 @@ def _live(before: Process, after: Process) -> Iterator[Difference]:
     for name, old, new in (("ready", _ready(before), _ready(after)), ("restart", _restart(before), _restart(after))):
         for key in old:
             yield from _field(f"{name}.{key}", old[key], new[key], is_live=True)
-    for name in _LISTS:
+    for name in ("after", "aliases", "groups", "folders"):
         yield from _names(name, getattr(before, name), getattr(after, name))
     if before.ready.pings != after.ready.pings and before.endpoints == after.endpoints:
         yield from _names("ready.pings", before.ready.pings, after.ready.pings)

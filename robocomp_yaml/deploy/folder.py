@@ -6,9 +6,9 @@ import contextlib
 import fcntl
 import os
 import re
-import time
 from collections.abc import Iterator
 
+from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.source.discover import kind_of
 from robocomp_yaml.source.regular import text
 from robocomp_yaml.transactions import whole_file
@@ -48,10 +48,7 @@ def locked(folder: str, patience: float = 2.0) -> Iterator[bool]:
     make(folder)
     lock = os.open(f"{folder}/state", os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     try:
-        until = time.monotonic() + patience
-        while not (is_ours := _acquire(lock)) and time.monotonic() < until:
-            time.sleep(0.05)
-        yield is_ours
+        yield until(lambda: _acquire(lock), patience, 0.05)
     finally:
         os.close(lock)
 

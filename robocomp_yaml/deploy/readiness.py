@@ -50,7 +50,7 @@ async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
     """Whether a process is ready now."""
     ready = spec.process.ready
     if running.state == ENDED:
-        return not (ready.pings or ready.port or ready.command or ready.log)
+        return not ready.is_asked
     if running.state != RUNNING:
         return False
     if ready.log:
@@ -104,7 +104,7 @@ async def _until_it_ends(spec: Spec, state: State) -> str:
         running = await state(max(began, time.monotonic() - RECENT))
         if running is None or running.state in (GIVEN_UP, STOPPED, LOST):
             return (running.end if running else "") or "it was stopped meanwhile"
-        if running.state == ENDED and _asks_for_something(spec):
+        if running.state == ENDED and spec.process.ready.is_asked:
             # The sign may be its last line, which those who follow the log see a little later.
             await asyncio.sleep(2 * _LONGEST if spec.process.ready.log else 0)
             return running.last_exit
@@ -115,7 +115,7 @@ async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line]
         async for line in lines:
             if _is_sign(spec.process.ready.log, line.text):
                 return
-    is_asked = _asks_for_something(spec)
+    is_asked = spec.process.ready.is_asked
     pause = _SHORTEST if is_asked else SETTLED
     while True:
         await asyncio.sleep(pause)
@@ -130,11 +130,6 @@ async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line]
                 return
             if running.state == RUNNING:
                 pause = max(SETTLED - running.uptime, _SHORTEST)
-
-
-def _asks_for_something(spec: Spec) -> bool:
-    ready = spec.process.ready
-    return bool(ready.pings or ready.port or ready.command or ready.log)
 
 
 async def _look(engine: Engine, spec: Spec, within: float) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 import msgspec
 
@@ -23,3 +24,11 @@ class TimeLimit(msgspec.Struct, frozen=True):
 
     def __str__(self) -> str:
         return f"{self.seconds:g}"
+
+
+def until(condition: Callable[[], bool], within: float, pause: float = 0.01) -> bool:
+    """Waits for a condition, and looks at it at least once; whether it held within so many seconds."""
+    end = time.monotonic() + within
+    while not (holds := condition()) and time.monotonic() < end:
+        time.sleep(pause)
+    return holds

@@ -15,7 +15,7 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host, is_loopback
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
 from robocomp_yaml.source.ice_options import BLANKS, Refused
@@ -23,10 +23,6 @@ from robocomp_yaml.source.ice_options import BLANKS, Refused
 MANAGER, PUBLISH = "TopicManager", "Publish"
 STORM_INSTANCE = "IceStorm"
 _ANY_TEXT = "what is for a program that is none of Ice, and may be any text, stands under `args:` or `env:`"
-
-
-def is_loopback(address: str) -> bool:
-    return address in (LOOPBACK, "::1", "ip6-localhost") or address.startswith("127.")
 
 
 def listening(host: Host, number: int) -> str:

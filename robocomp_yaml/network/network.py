@@ -22,6 +22,10 @@ FOLDER = ".rcyaml/deployments"
 """Where deployments have their own folders, beside their documents."""
 
 
+def is_loopback(address: str) -> bool:
+    return address in (LOOPBACK, "::1", "ip6-localhost") or address.startswith("127.")
+
+
 class Host(Located, frozen=True):
     """A machine; `address` is a name or an IP address, LOOPBACK where the document names no hosts. `user` is for ssh,
     '' for the caller's own."""
@@ -73,6 +77,10 @@ class Readiness(msgspec.Struct, frozen=True):
     port: int | None = None
     command: tuple[str, ...] = ()
     log: str = ""
+
+    @property
+    def is_asked(self) -> bool:
+        return bool(self.pings or self.port or self.command or self.log)
 
 
 class Restart(msgspec.Struct, frozen=True):

@@ -18,8 +18,7 @@ from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, STOP_WITHIN, STOPPED, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.local import procfs
-from robocomp_yaml.deploy.local.log_reader import LogReader
-from robocomp_yaml.deploy.local.log_reader import merged as merged_here
+from robocomp_yaml.deploy.local.log_reader import LogReader, Reader, merged
 from robocomp_yaml.deploy.local.obstacles import Cleared, is_here, obstacles
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import Spec
@@ -90,7 +89,7 @@ class IceGridEngine:
             if self._places.wanted():
                 grid.close()
             else:
-                start_up.ended(grid, self._places, self._network.name)
+                start_up.ended(grid, self._network.name)
             raise
         self._end_left(grid)
 
@@ -100,7 +99,7 @@ class IceGridEngine:
         from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
         with contextlib.suppress(GridFailed):
-            leftovers.end_all(grid, self._places)
+            leftovers.end_all(grid)
 
     async def observe(self) -> dict[str, Running]:
         from robocomp_yaml.deploy.icegrid.status import observe
@@ -108,7 +107,7 @@ class IceGridEngine:
         if not self._specs:
             return {}
         hosts = {name: process.host for name, process in self._network.processes.items()}
-        return await self._beside("", "observed", observe, self._reached(), self._places, dict(self._specs), hosts)
+        return await self._beside("", "observed", observe, self._reached(), dict(self._specs), hosts)
 
     async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
         """On this machine all that can be known; of other hosts, whether they have a node, and the ports."""
@@ -175,7 +174,7 @@ class IceGridEngine:
         path = self._places.rule(spec.name)
         script = 'mkdir -p -- "${2%/*}" && printf "%s\\n" "$1" >"$2.new" && mv -- "$2.new" "$2"'
         command = ("bash", "-c", script, "bash", restart_rule(spec.process, number), path)
-        run_beside(grid, self._places, spec, command, _RULE_WITHIN, self._lock, self._deploy)
+        run_beside(grid, spec, command, _RULE_WITHIN, self._lock, self._deploy)
 
     def _deploy(self, replaced: Collection[str], servers: list[tuple[str, Any]]) -> None:
         """Deploys these servers, and those that were deployed before except the replaced."""
@@ -199,8 +198,8 @@ class IceGridEngine:
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
-        if spec and is_here(spec.address) and not self._cleared.take(spec) and (found := obstacles([spec], ())):
-            raise DeployFailed(found[0])
+        if spec and is_here(spec.address):
+            self._cleared.require(spec)
         await self._want(self._wanted | {name})
         await self._beside(name, "started", self._reached().start, name)
 
@@ -241,18 +240,19 @@ class IceGridEngine:
                 own_folder.remove(self._places.folder, spec.process.config.path)
 
     async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncGenerator[Line, None]:
-        from robocomp_yaml.deploy.icegrid.logs import GridReader, merged
+        from robocomp_yaml.deploy.icegrid.grid import GridReader
 
-        def reader(name: str) -> LogReader | GridReader:
-            spec = self._specs.get(name)
-            if grid and spec and not is_here(spec.address):
-                return GridReader(grid, name, self._places.log(name))
+        def reader(name: str) -> Reader:
+            if grid and name in far:
+                return GridReader(grid, name)
             return LogReader(self._places.folder, name)
 
-        specs, grid = [self._specs.get(name) for name in names], self._grid
-        if grid is None or all(spec is None or is_here(spec.address) for spec in specs):
-            return merged_here([LogReader(self._places.folder, name) for name in names], last, follow)
-        return merged(await self._beside("", "read", lambda: [reader(name) for name in names]), last, follow)
+        specs, grid = {name: self._specs.get(name) for name in names}, self._grid
+        far = {name for name, spec in specs.items() if grid and spec and not is_here(spec.address)}
+        if not far:
+            return merged([reader(name) for name in names], last, follow)
+        readers = await self._beside("", "read", lambda: [reader(name) for name in names])
+        return merged(readers, last, follow, is_far=True)
 
     async def run(self, name: str, command: Sequence[str], within: float) -> int:
         from robocomp_yaml.deploy.icegrid.beside import run_beside
@@ -260,7 +260,7 @@ class IceGridEngine:
         spec = self._specs[name]
         assert spec
         grid = self._reached()
-        return await self._beside(name, "asked", run_beside, grid, self._places, spec, tuple(command), within,
+        return await self._beside(name, "asked", run_beside, grid, spec, tuple(command), within,
                                   self._lock, self._deploy)  # fmt: skip
 
     async def close(self, *, end: bool = False) -> None:
@@ -268,7 +268,7 @@ class IceGridEngine:
 
         grid, self._grid = self._grid, None
         if grid and end:
-            await self._beside("", "ended", start_up.ended, grid, self._places, self._network.name)
+            await self._beside("", "ended", start_up.ended, grid, self._network.name)
         elif grid:
             await self._beside("", "left", grid.close)
         self._calls.shutdown(wait=False)

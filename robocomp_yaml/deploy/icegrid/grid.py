@@ -11,8 +11,11 @@ from typing import Any
 import Ice
 import IceGrid
 
+from robocomp_yaml.deploy.engine import Line
 from robocomp_yaml.deploy.icegrid import settings
 from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.deploy.local.log_reader import line_of
+from robocomp_yaml.deploy.time_limit import until
 
 _RETRY = 0.01
 _LOOK_WITHIN = 4000  # milliseconds
@@ -30,6 +33,7 @@ class Grid:
     """A session. Its methods may be called from several threads; they raise GridFailed."""
 
     def __init__(self, places: Places, registry: Registry) -> None:
+        self.places = places
         data = Ice.InitializationData()
         data.properties = Ice.createProperties()
         for key, value in settings.of_client(places).items():
@@ -124,6 +128,11 @@ class Grid:
             if self.states([name])[name][0] != "Inactive":
                 raise
 
+    def run(self, name: str, within: float) -> bool:
+        """Starts a server and waits until it has ended; False where it has not within so many seconds."""
+        self.start(name)
+        return until(lambda: self.states([name])[name][0] in ("Inactive", ""), within)
+
     def read(self, name: str, path: str) -> list[str]:
         """The lines of one of a process's files, on its host; none where it is not there."""
         try:
@@ -178,6 +187,30 @@ def in_words(error: Exception) -> str:
     """What IceGrid says is wrong, else what kind of exception it is."""
     reason = getattr(error, "reason", "") or str(error)
     return " ".join(reason.split()).rstrip(".") or type(error).__name__
+
+
+class GridReader:
+    """The log of a process on another host. What is written while its node does not answer is read later."""
+
+    def __init__(self, grid: Grid, name: str) -> None:
+        self._grid, self._name = grid, name
+        self._seen = self._lines()
+
+    def last(self, count: int) -> list[Line]:
+        return [line_of(self._name, text) for text in self._seen[-count:]] if count > 0 else []
+
+    def new(self) -> list[Line]:
+        lines = self._lines()
+        is_same_file = lines[:1] == self._seen[:1] and len(lines) >= len(self._seen)
+        fresh = lines[len(self._seen) :] if is_same_file else lines
+        self._seen = lines or self._seen
+        return [line_of(self._name, text) for text in fresh]
+
+    def _lines(self) -> list[str]:
+        try:
+            return [line for line in self._grid.read(self._name, self._grid.places.log(self._name)) if line]
+        except GridFailed:
+            return []
 
 
 class _Silent(Ice.Logger):  # type: ignore[misc]

@@ -98,7 +98,7 @@ class Keeper:
             self._changed.clear()
             if not self.over.is_set():
                 self._bring_back(grid)
-                leftovers.end_all(grid, self.places)
+                leftovers.end_all(grid)
 
     def _pause(self) -> float:
         now = time.monotonic()
@@ -114,7 +114,7 @@ class Keeper:
                 self._tries.pop(name, None)
                 continue
             at, delay = self._tries.get(name, (now, _SHORTEST / 2))
-            if at > now or is_over(grid, self.places, name, here=is_here(specs[name].address)):
+            if at > now or is_over(grid, name, here=is_here(specs[name].address)):
                 continue
             self._tries[name] = (now + min(2 * delay, _LONGEST), min(2 * delay, _LONGEST))
             if name not in self.places.wanted():

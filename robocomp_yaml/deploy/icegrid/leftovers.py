@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import time
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.icegrid import descriptors
@@ -17,7 +16,7 @@ from robocomp_yaml.deploy.icegrid.places import KEEPER, Places
 
 _FOLDER = "state/icegrid/left"
 _APPLICATION = f"{KEEPER}.left"
-_LOOK, _WITHIN = 0.02, 5.0
+_WITHIN = 5.0
 
 
 def note(places: Places, host: str, name: str) -> None:
@@ -29,26 +28,24 @@ def drop(places: Places, host: str, name: str) -> None:
     own_folder.remove(places.folder, f"{_FOLDER}/{host}/{name}")
 
 
-def end_all(grid: Grid, places: Places) -> None:
+def end_all(grid: Grid) -> None:
     """Ends what is noted of hosts that answer. Raises GridFailed."""
-    for host in _listed(f"{places.folder}/{_FOLDER}"):
-        names = _listed(f"{places.folder}/{_FOLDER}/{host}")
+    folder = f"{grid.places.folder}/{_FOLDER}"
+    for host in _listed(folder):
+        names = _listed(f"{folder}/{host}")
         if names and grid.has_node(host):
-            _end(grid, places, host, names)
+            _end(grid, host, names)
             for name in names:
-                drop(places, host, name)
+                drop(grid.places, host, name)
 
 
-def _end(grid: Grid, places: Places, host: str, names: list[str]) -> None:
+def _end(grid: Grid, host: str, names: list[str]) -> None:
     """With a server that only does this, in an application of its own, which no command touches."""
-    server = descriptors.ender(places, names, grid.user_of(host))
+    server = descriptors.ender(grid.places, names, grid.user_of(host))
     grid.remove(_APPLICATION)
     grid.deploy(descriptors.application(_APPLICATION, [(host, server)]), is_new=True)
     try:
-        grid.start(server.id)
-        until = time.monotonic() + _WITHIN
-        while grid.states([server.id])[server.id][0] != "Inactive" and time.monotonic() < until:
-            time.sleep(_LOOK)
+        grid.run(server.id, _WITHIN)
     finally:
         grid.remove(_APPLICATION)
 

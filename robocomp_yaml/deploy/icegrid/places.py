@@ -16,7 +16,7 @@ import msgspec
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.spec import Spec
-from robocomp_yaml.network.network import LOOPBACK, Host
+from robocomp_yaml.network.network import Host, is_loopback
 
 KEEPER = "rcyaml.keeper"
 """The id of the server that brings processes back after a node's death. No process can have it as a name."""
@@ -127,7 +127,7 @@ def registry_address(hosts: Iterable[Host]) -> str:
     others = [host.address for host in hosts if not is_here(host.address)]
     if not others:
         return "127.0.0.1"
-    own = [host.address for host in hosts if host.address not in others and not _is_loopback(host.address)]
+    own = [host.address for host in hosts if host.address not in others and not is_loopback(host.address)]
     return own[0] if own else _towards(others[0])
 
 
@@ -135,10 +135,6 @@ def free_port(address: str) -> int:
     with socket.create_server((address, 0)) as probe:
         port: int = probe.getsockname()[1]
         return port
-
-
-def _is_loopback(address: str) -> bool:
-    return address == LOOPBACK or address.startswith("127.") or address == "::1"
 
 
 def _towards(address: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -15,14 +15,10 @@ from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.icegrid import daemons, settings
 from robocomp_yaml.deploy.icegrid.daemons import Start, outcome
-from robocomp_yaml.deploy.icegrid.places import (
-    Places,
-    Registry,
-    free_port,
-    registry_address,
-)
+from robocomp_yaml.deploy.icegrid.places import Places, Registry, free_port, registry_address
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.local.record import clear_up
+from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.diag.codes import grids
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
@@ -34,7 +30,6 @@ if TYPE_CHECKING:
 _PATIENCE = 20.0  # seconds: far more than is needed, also where a machine is busy
 _ENDS_WITHIN, _REGISTRY_ENDS_WITHIN = 15.0, 3.0
 _RECONNECTS_WITHIN = 15.0  # seconds in which a node finds a registry that has come back
-_LOOK = 0.01
 _AT_ONCE = 8  # connections over SSH
 
 
@@ -94,7 +89,7 @@ def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[H
     begin = time.monotonic()
     tried = _started(missing, scripts)
     by_hand = [host for host in missing if tried[host.name].reason and not known.get(host.name, True)]
-    _until(lambda: all(grid.has_node(host.name) for host in by_hand), _RECONNECTS_WITHIN + begin - time.monotonic())
+    until(lambda: all(grid.has_node(host.name) for host in by_hand), _RECONNECTS_WITHIN + begin - time.monotonic())
     tried |= {host.name: daemons.Start(was_there=True) for host in by_hand if grid.has_node(host.name)}
     is_ours = {name: not start.reason for name, start in tried.items() if not start.was_there}
     places.keep_nodes({**{host.name: False for host in hosts}, **known, **is_ours})
@@ -102,7 +97,7 @@ def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[H
     for host in missing:
         reason = tried[host.name].reason
         hint = f"start it by hand, then try again: {daemons.by_hand(shown_path(scripts[host.name]), host)}"
-        if not reason and not _until(lambda host=host: grid.has_node(host.name), _PATIENCE):  # type: ignore[misc]
+        if not reason and not until(lambda host=host: grid.has_node(host.name), _PATIENCE):  # type: ignore[misc]
             own = f"{places.root}/nodes/{host.name}"
             said = daemons.last_words(own) or f"see {own}/log there"
             reason = f"it was started, and does not reach the registry at {registry.address}:{registry.port}: {said}"
@@ -123,12 +118,13 @@ def _started(hosts: Sequence[Host], scripts: Mapping[str, str]) -> dict[str, dae
         return {host.name: outcome for host, outcome in zip(hosts, outcomes, strict=True)}
 
 
-def ended(grid: Grid, places: Places, application: str) -> None:
+def ended(grid: Grid, application: str) -> None:
     """Ends what the engine runs: its servers, the nodes that it started, and the registry."""
     from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
     with suppress(GridFailed):  # a node that does not answer: its servers are gone, or end when it comes back
         grid.remove(application)
+    places = grid.places
     nodes = places.nodes()
     for host, is_ours in nodes.items():
         if is_ours:
@@ -145,20 +141,13 @@ def _end_here(places: Places) -> None:
     for folder in (*nodes, places.registry_folder):
         daemons.end(folder)
     # The registry would wait for a host that is cut off.
-    if not _until(lambda: not daemons.is_alive(places.registry_folder), _REGISTRY_ENDS_WITHIN):
+    if not until(lambda: not daemons.is_alive(places.registry_folder), _REGISTRY_ENDS_WITHIN):
         daemons.kill(places.registry_folder)
-    _until(lambda: not any(map(daemons.is_alive, (*nodes, places.registry_folder))), _ENDS_WITHIN)
+    until(lambda: not any(map(daemons.is_alive, (*nodes, places.registry_folder))), _ENDS_WITHIN)
 
 
 def _start(host: Host, script: str) -> daemons.Start:
     return daemons.start_node_here(script) if is_here(host.address) else run(script, host)
-
-
-def _until(condition: Callable[[], bool], within: float) -> bool:
-    end = time.monotonic() + within
-    while not (holds := condition()) and time.monotonic() < end:
-        time.sleep(_LOOK)
-    return holds
 
 
 def _failed(network: Network, reason: str) -> DeployFailed:

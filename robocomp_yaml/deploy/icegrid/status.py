@@ -47,9 +47,9 @@ def of_text(text: str) -> Told | None:
         return None
 
 
-def told(grid: Grid, places: Places, name: str, *, here: bool) -> Told | None:
+def told(grid: Grid, name: str, *, here: bool) -> Told | None:
     """None where `run` has not said anything yet."""
-    path = places.status(name)
+    path = grid.places.status(name)
     if not here:
         return of_text("\n".join(grid.read(name, path)))
     try:
@@ -59,22 +59,20 @@ def told(grid: Grid, places: Places, name: str, *, here: bool) -> Told | None:
         return None
 
 
-def is_over(grid: Grid, places: Places, name: str, *, here: bool) -> bool:
+def is_over(grid: Grid, name: str, *, here: bool) -> bool:
     """Whether a process whose server is gone ended for good, by its policy."""
-    last = told(grid, places, name, here=here)
+    last = told(grid, name, here=here)
     return last is not None and last.state in _FINAL
 
 
-def observe(
-    grid: Grid, places: Places, specs: Mapping[str, Spec | None], hosts: Mapping[str, str]
-) -> dict[str, Running]:  # fmt: skip
+def observe(grid: Grid, specs: Mapping[str, Spec | None], hosts: Mapping[str, str]) -> dict[str, Running]:
     """All processes as they are now; `hosts` are the names of those whose spec cannot be read. Of those whose `run` is
     alive on this machine, IceGrid need not be asked."""
-    wanted = places.wanted()
+    wanted = grid.places.wanted()
     here = {spec.address: is_here(spec.address) for spec in specs.values() if spec}
-    near = {name: told(grid, places, name, here=True) for name, spec in specs.items() if spec and here[spec.address]}
+    near = {name: told(grid, name, here=True) for name, spec in specs.items() if spec and here[spec.address]}
     alive = procfs.table() if near else {}
-    runners = {name: last.runner for name, last in near.items() if last and _runs(places, name, last, alive)}
+    runners = {name: last.runner for name, last in near.items() if last and _runs(grid.places, name, last, alive)}
     states = {name: ("Active", runner) for name, runner in runners.items()}
     states |= grid.states(name for name in specs if name not in runners)
     found: dict[str, Running] = {}
@@ -85,7 +83,7 @@ def observe(
             found[name] = Running(name, spec, host, LOST if name in wanted else STOPPED)
             continue
         # What was asked for after it told something may have told more meanwhile.
-        last = near[name] if name in runners else told(grid, places, name, here=name in near)
+        last = near[name] if name in runners else told(grid, name, here=name in near)
         found[name] = _seen(name, spec, host, state, runner, last, name in wanted, alive if name in near else None)
     return found
 

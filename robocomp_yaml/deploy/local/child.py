@@ -15,7 +15,6 @@ from typing import Any
 from robocomp_yaml.deploy.local import procfs, program
 from robocomp_yaml.deploy.local.kernel import OpenFiles, die_with, tie
 from robocomp_yaml.deploy.local.log_file import LogFile
-from robocomp_yaml.deploy.local.variables import from_files
 
 RUNNING, WAITING, GIVEN_UP, ENDED, STOPPED = "running", "waiting", "given up", "ended", "stopped"
 _NEVER, _ALWAYS = "no", "always"
@@ -143,7 +142,7 @@ class Child:
     def _spawn(self) -> None:
         command, folder = self.spec["command"], self.spec["process"]["cwd"]
         files = [(one["name"], one["file"]) for one in self.spec["process"]["env"] if one["file"]]
-        environment = {**self._environment, **from_files(files), procfs.MARK: self.mark}
+        environment = {**self._environment, **program.variables(files), procfs.MARK: self.mark}
         found = program.find(command[0], folder, environment)
         ours, theirs = os.pipe2(os.O_CLOEXEC | os.O_NONBLOCK)
         os.set_blocking(theirs, True)

@@ -23,6 +23,7 @@ from robocomp_yaml.deploy.local.obstacles import (
     obstacles,
     whole_environment_of,
 )
+from robocomp_yaml.deploy.local.service import PROTOCOL
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
@@ -61,7 +62,7 @@ class LocalEngine:
         if connection is None:
             return False
         self._client = await Client.over(connection)
-        if (await self._ask("", "hello"))["protocol"] != launch.PROTOCOL:
+        if (await self._ask("", "hello"))["protocol"] != PROTOCOL:
             raise self._folder_failed(network.folder, "another version of rcyaml started what runs there")
         return True
 
@@ -95,8 +96,7 @@ class LocalEngine:
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
-        if not self._cleared.take(spec) and (found := obstacles([spec], ())):
-            raise DeployFailed(found[0])
+        self._cleared.require(spec)
         await self._ask(name, "start", name=name, environment=environment_of(spec.process))
 
     async def stop(self, name: str, within: float = STOP_WITHIN) -> None:

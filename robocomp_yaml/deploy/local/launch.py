@@ -9,9 +9,6 @@ import subprocess
 import sys
 
 from robocomp_yaml.deploy.local import channel, procfs, record
-from robocomp_yaml.deploy.local.service import PROTOCOL
-
-__all__ = ["PROTOCOL", "reach", "start", "wait_gone"]
 
 _LINES = 10
 _PATIENCE = 20.0  # seconds: far more than it needs, also where the machine is busy

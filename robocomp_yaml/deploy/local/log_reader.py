@@ -5,15 +5,27 @@ from __future__ import annotations
 import asyncio
 import heapq
 import os
-from collections.abc import AsyncGenerator, Iterator, Sequence
+from collections.abc import AsyncGenerator, Iterable, Iterator, Sequence
 from contextlib import suppress
-from typing import BinaryIO
+from typing import BinaryIO, Protocol
 
 from robocomp_yaml.deploy.engine import Line
 
 _PERIOD = 0.1  # seconds between two looks at logs that are followed
 _BLOCK = 1 << 16
 _STAMP = len("2026-11-21T10:02:03.123Z")
+
+
+class Reader(Protocol):
+    """What reads one process's log from where it was when this was made."""
+
+    def last(self, count: int) -> list[Line]: ...
+
+    def new(self) -> Iterable[Line]: ...
+
+
+def line_of(name: str, text: str) -> Line:
+    return Line(name, text[_STAMP + 1 :], text[:_STAMP])
 
 
 class LogReader:
@@ -59,22 +71,25 @@ class LogReader:
         return b""
 
     def _line(self, line: bytes) -> Line:
-        text = line.decode("utf-8", "replace")
-        return Line(self.name, text[_STAMP + 1 :], text[:_STAMP])
+        return line_of(self.name, line.decode("utf-8", "replace"))
 
 
-async def merged(readers: Sequence[LogReader], last: int, follow: bool) -> AsyncGenerator[Line, None]:
+async def merged(
+    readers: Sequence[Reader], last: int, follow: bool, *, is_far: bool = False
+) -> AsyncGenerator[Line, None]:
     """The lines of all, by time; those of one process always in their own order, whatever the clock did."""
-    for line in _by_time([reader.last(last) for reader in readers]):
-        yield line
-    while follow:
-        for line in _by_time([list(reader.new()) for reader in readers]):
+
+    def new() -> list[list[Line]]:
+        return [list(reader.new()) for reader in readers]
+
+    parts = [reader.last(last) for reader in readers]
+    while True:
+        for line in heapq.merge(*parts, key=lambda line: line.time):
             yield line
-        await asyncio.sleep(_PERIOD)
-
-
-def _by_time(parts: Sequence[Sequence[Line]]) -> Iterator[Line]:
-    return heapq.merge(*parts, key=lambda line: line.time)
+        if not follow:
+            return
+        await asyncio.sleep(2 * _PERIOD if is_far else _PERIOD)
+        parts = await asyncio.to_thread(new) if is_far else new()
 
 
 def _last_lines(file: BinaryIO, end: int, count: int) -> list[bytes]:

@@ -8,9 +8,9 @@ import time
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from robocomp_yaml.deploy.differences import shown_path
+from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.folder import document_in
 from robocomp_yaml.deploy.local import procfs, program
-from robocomp_yaml.deploy.local.variables import from_files
 from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -33,7 +33,7 @@ def environment_of(process: Process) -> dict[str, str]:
 
 def whole_environment_of(process: Process) -> dict[str, str]:
     """That of the process as it would start now. Raises OSError where a file cannot be read."""
-    return environment_of(process) | from_files((one.name, one.file) for one in process.env if one.file)
+    return environment_of(process) | program.variables((one.name, one.file) for one in process.env if one.file)
 
 
 def obstacles(specs: Sequence[Spec], own: Collection[int]) -> list[Diagnostic]:
@@ -59,9 +59,11 @@ class Cleared:
         self._specs = {spec.name: spec for spec in specs if not (spec.process.after and spec.process.endpoints)}
         self._until = time.monotonic() + _JUST
 
-    def take(self, spec: Spec) -> bool:
-        """Whether it is one of these; once only."""
-        return self._specs.pop(spec.name, None) is spec and time.monotonic() < self._until
+    def require(self, spec: Spec) -> None:
+        """Raises DeployFailed for one that is none of these, or is asked for again, and has an obstacle."""
+        is_one = self._specs.pop(spec.name, None) is spec and time.monotonic() < self._until
+        if not is_one and (found := obstacles([spec], ())):
+            raise DeployFailed(found[0])
 
 
 def not_here(network: Network) -> Diagnostic | None:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import NamedTuple
 
 from robocomp_yaml import secrets
+from robocomp_yaml.digraph import reached
 
 MARK = "RCYAML_PROCESS"
 """The variable by which everything that a process of a deployment started is known: `FOLDER:NAME`."""
@@ -129,13 +130,7 @@ def descendants(of: Collection[int], alive: dict[int, Entry]) -> set[int]:
     children: dict[int, list[int]] = {}
     for one in alive.values():
         children.setdefault(one.parent, []).append(one.pid)
-    found, rest = set(of), list(of)
-    while rest:
-        for child in children.get(rest.pop(), ()):
-            if child not in found:
-                found.add(child)
-                rest.append(child)
-    return found
+    return set(reached(of, lambda pid: children.get(pid, ())))
 
 
 def memory(members: Collection[int]) -> int:

@@ -18,7 +18,8 @@ _PATIENCE = 5.0  # seconds for what was killed to be gone
 
 def write(folder: str, keeper: int) -> None:
     found = procfs.entry(keeper)
-    with open(f"{folder}/{_FILE}", "w", encoding="ascii", opener=_for_the_owner) as file:
+    descriptor = os.open(f"{folder}/{_FILE}", os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
+    with open(descriptor, "w", encoding="ascii") as file:
         file.write(f"{keeper} {found.start if found else 0}\n")
 
 
@@ -58,7 +59,3 @@ def clear_up(folder: str) -> list[str]:
 def _lives(pid: int) -> bool:
     found = procfs.entry(pid)
     return found is not None and not found.is_dead
-
-
-def _for_the_owner(path: str, flags: int) -> int:
-    return os.open(path, flags, 0o600)

@@ -10,7 +10,7 @@ import asyncio
 import json
 import os
 import signal
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable
 from typing import Any
 
 from robocomp_yaml.deploy.local import channel, procfs, record
@@ -81,10 +81,11 @@ class _Service:
                 return
             while line := await reader.readline():
                 request = json.loads(line)
-                task = asyncio.create_task(self._answer(request["id"], _REQUESTS[request["do"]](self, request), writer))
+                work = getattr(self, f"do_{request['do']}")(request)
+                task = asyncio.create_task(self._answer(request["id"], work, writer))
                 tasks.add(task)
                 task.add_done_callback(tasks.discard)
-        except (ValueError, LookupError, TypeError, ConnectionError):
+        except (ValueError, LookupError, TypeError, AttributeError, ConnectionError):
             pass  # what talks like this is no client of ours
         finally:
             # What a client began is brought to its end, even where the client is gone.
@@ -102,30 +103,21 @@ class _Service:
         except ConnectionError:
             pass
 
-    async def _hello(self, request: Request) -> Request:
+    async def do_hello(self, request: Request) -> Request:
         return {"protocol": PROTOCOL, "pid": os.getpid()}
 
-    async def _observe(self, request: Request) -> Request:
+    async def do_observe(self, request: Request) -> Request:
         now, families = asyncio.get_running_loop().time(), self._families.now()
         found = []
         for child in self.children.values():
             members = families.get(child.pid, set())
-            found.append(
-                {
-                    "spec": child.spec,
-                    "state": child.state,
-                    "pid": child.pid,
-                    "uptime": now - child.since,
-                    "restarts": child.restarts,
-                    "last_exit": child.last_exit,
-                    "memory": procfs.memory(members),
-                    "cpu": sum(self._families.alive[pid].cpu for pid in members),
-                    "members": sorted(members),
-                }
-            )
+            facts = {name: getattr(child, name) for name in ("spec", "state", "pid", "restarts", "last_exit")}
+            cpu = sum(self._families.alive[pid].cpu for pid in members)
+            used = {"memory": procfs.memory(members), "cpu": cpu, "members": sorted(members)}
+            found.append({**facts, "uptime": now - child.since, **used})
         return {"processes": found}
 
-    async def _prepare(self, request: Request) -> Request:
+    async def do_prepare(self, request: Request) -> Request:
         for spec in request["specs"]:
             name = spec["process"]["name"]
             if name in self.children:
@@ -135,13 +127,13 @@ class _Service:
                 self.children[name] = Child(spec, f"{self.folder}:{name}", log, self._families, self._files)
         return {}
 
-    async def _start(self, request: Request) -> Request:
+    async def do_start(self, request: Request) -> Request:
         child = self.children[request["name"]]
         async with child.lock:
             child.start(request["environment"])
         return {}
 
-    async def _stop_one(self, request: Request) -> Request:
+    async def do_stop(self, request: Request) -> Request:
         if child := self.children.get(request["name"]):
             await self._stop(child, request["within"])
         return {}
@@ -150,23 +142,12 @@ class _Service:
         async with child.lock:
             await child.stop(within)
 
-    async def _forget(self, request: Request) -> Request:
+    async def do_forget(self, request: Request) -> Request:
         for name in request["names"]:
             if child := self.children.pop(name, None):
                 child.log.close()
         return {}
 
-    async def _end(self, request: Request) -> Request:
+    async def do_end(self, request: Request) -> Request:
         self._over.set()
         return {}
-
-
-_REQUESTS: dict[str, Callable[[_Service, Request], Awaitable[Request]]] = {
-    "hello": _Service._hello,
-    "observe": _Service._observe,
-    "prepare": _Service._prepare,
-    "start": _Service._start,
-    "stop": _Service._stop_one,
-    "forget": _Service._forget,
-    "end": _Service._end,
-}

@@ -27,16 +27,16 @@ def main() -> None:
         serve(folder)
         sys.exit(0)
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-        signal.signal(number, lambda number, frame: _pass_on(supervisor, number))
+        signal.signal(number, lambda number, frame: _kill(supervisor, number))
     status = _wait_for(supervisor)
     _end_all()
     if status == 0:
         record.remove(folder)
 
 
-def _pass_on(supervisor: int, number: int) -> None:
-    with suppress(ProcessLookupError):
-        os.kill(supervisor, number)
+def _kill(pid: int, number: int) -> None:
+    with suppress(OSError):
+        os.kill(pid, number)
 
 
 def _wait_for(supervisor: int) -> int:
@@ -50,10 +50,7 @@ def _end_all() -> None:
     """Kills all that came from this process, until nothing is left: what is killed leaves its children to us."""
     while True:
         for pid in procfs.descendants([os.getpid()], procfs.table()) - {os.getpid()}:
-            try:
-                os.kill(pid, signal.SIGKILL)
-            except OSError:
-                continue
+            _kill(pid, signal.SIGKILL)
         try:
             os.wait()
         except ChildProcessError:

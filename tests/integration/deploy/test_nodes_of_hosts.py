@@ -61,7 +61,7 @@ def ensure(places: Places, monkeypatch: pytest.MonkeyPatch) -> Ensure:
             return starts[host.name]
 
         monkeypatch.setattr(start_up, "_start", start)
-        monkeypatch.setattr(start_up, "_until", until)
+        monkeypatch.setattr(start_up, "until", until)
         monkeypatch.setattr(daemons, "write_script", lambda places, host, registry: f"/{host.name}.sh")
         any_grid: Any = grid
         return waited, start_up.ensure_nodes(any_grid, places, NETWORK, HOSTS)

@@ -13,7 +13,8 @@ from xml.etree import ElementTree
 import pytest
 from ruamel.yaml import YAML
 
-from robocomp_yaml.deploy.local.variables import LONGEST, from_files
+from robocomp_yaml.deploy.local.program import LONGEST
+from robocomp_yaml.deploy.local.program import variables as from_files
 from robocomp_yaml.emit.exports import Unwritable, export, noted
 from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Host, Network, Process, Variable
 
