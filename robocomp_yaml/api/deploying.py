@@ -55,7 +55,7 @@ class Deployment:
         network = analysis.networks.get(os.path.realpath(path))
         self.unread = network is None
         if network is None and lenient:
-            from robocomp_yaml.deploy.stand_in import stand_in
+            from robocomp_yaml.deploy.local.engine import stand_in
 
             network = stand_in(path)
         if network is None or (has_errors(analysis.diagnostics) and not lenient):

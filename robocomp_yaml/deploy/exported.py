@@ -5,16 +5,21 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
+from typing import Any
 
+from msgspec.structs import replace
+
+from robocomp_yaml import secrets
 from robocomp_yaml.deploy import folder
 from robocomp_yaml.diag.codes import emitting
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit import exports
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.network import ConfigFile, Network, Process
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.digest import digest
+from robocomp_yaml.source.hidden_properties import without_secret
 from robocomp_yaml.source.regular import regular
 
 RECORD = ".rcyaml/exports.json"
@@ -25,8 +30,6 @@ def files(
 ) -> tuple[dict[str, str], list[Diagnostic]]:  # fmt: skip
     """The files of an export, and what it says otherwise than the network; an error, and no files, where it cannot say
     it at all. Unless `reveal`, secrets are hidden."""
-    from robocomp_yaml.network.hidden import hidden
-
     try:
         with exports.noted() as notes:
             made = exports.export(network if reveal else hidden(network), form, plugins)
@@ -78,3 +81,39 @@ def _read(path: str) -> bytes | None:
 
 def _bytes(text: str) -> bytes:
     return text.encode(errors="surrogateescape")
+
+
+def hidden(network: Network) -> Network:
+    processes = {name: _process(process) for name, process in network.processes.items()}
+    return replace(network, processes=processes, extra=_extra(network.extra))
+
+
+def _process(process: Process) -> Process:
+    names = process.secrets
+    return replace(
+        process,
+        command=tuple(secrets.words(process.command, names)),
+        env=tuple(replace(one, value=secrets.value(one.name, one.value, names)) for one in process.env),
+        ready=replace(process.ready, command=tuple(secrets.words(process.ready.command, names))),
+        config=_config(process.config, names) if process.config else None,
+        extra=_extra(process.extra),
+    )
+
+
+def _config(config: ConfigFile, names: tuple[str, ...]) -> ConfigFile:
+    """A line is known as one of Ice's, or by the words of any other text."""
+    known = frozenset((*config.secrets, *names))
+    lines = [without_secret(line, known) for line in config.text.split("\n")]
+    return replace(config, text="".join(secrets.hidden_lines("\n".join(lines), known)))
+
+
+def _extra(extra: tuple[tuple[str, object], ...]) -> tuple[tuple[str, object], ...]:
+    return tuple((name, _below(name, value)) for name, value in extra)
+
+
+def _below(name: str, value: object) -> Any:
+    if isinstance(value, dict):
+        return {key: _below(key, item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_below(name, item) for item in value]
+    return secrets.value(name, value) if isinstance(value, str) else value

@@ -100,8 +100,7 @@ async def _undo(
         again = await carry_out(engine, undo(result.plan, before, now), report, keep_going=True)
         for name, found in again.failed.items():
             # What an engine has kept of a process does not know where it stands in the document.
-            process = network.processes.get(name)
-            result.diagnostics.append(replace(found, span=process.span if process else Span(network.path)))
+            result.diagnostics.append(replace(found, span=network.span_of(name)))
 
 
 async def _what_failed(engine: Engine, network: Network, result: Result, limit: TimeLimit) -> list[Diagnostic]:

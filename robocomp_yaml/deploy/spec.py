@@ -40,9 +40,12 @@ class Spec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return data
 
     @classmethod
-    def of_data(cls, data: dict[str, Any]) -> Spec:
-        """Raises ValueError where another version of rcyaml wrote the data."""
-        return msgspec.convert(data, cls)
+    def of_data(cls, data: dict[str, Any]) -> Spec | None:
+        """None where another version of rcyaml wrote the data."""
+        try:
+            return msgspec.convert(data, cls)
+        except ValueError:
+            return None
 
 
 def spec_of(network: Network, process: Process, digests: dict[str, str]) -> Spec:

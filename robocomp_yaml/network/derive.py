@@ -13,12 +13,12 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.deployment import PROGRAM, Text
-from robocomp_yaml.network import ports, processes
+from robocomp_yaml.network import processes
 from robocomp_yaml.network.base import Base, base_of
 from robocomp_yaml.network.configuration import Configuration
 from robocomp_yaml.network.connections import Connections
 from robocomp_yaml.network.contents import Contents
-from robocomp_yaml.network.draft import Draft, Drafts, drafts_of, text_fault
+from robocomp_yaml.network.draft import Draft, Drafts, assign_ports, drafts_of, text_fault
 from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import FOLDER, Network, Process
 from robocomp_yaml.network.order import AFTER, Need, optional, ordered
@@ -37,7 +37,7 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
     network = Network(deployment.name, os.path.abspath(deployment.path), folder, drafts.hosts, extra=deployment.extra)
     gates = Gates(drafts)
     gates.place()
-    ports.assign(drafts)
+    assign_ports(drafts)
     bases: dict[Draft, Base] = {}
 
     def base(draft: Draft) -> Base:

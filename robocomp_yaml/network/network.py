@@ -189,6 +189,11 @@ class Network(msgspec.Struct):
         """The absolute path of a process's configuration; '' without one."""
         return f"{self.folder}/{process.config.path}" if process.config else ""
 
+    def span_of(self, name: str) -> Span:
+        """Where the document has the process of that name; the document where it has none."""
+        process = self.processes.get(name)
+        return process.span if process and process.span.file else Span(self.path)
+
     def address(self, process: Process) -> str:
         return self.hosts[process.host].address
 

@@ -14,8 +14,11 @@ from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Mapp
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from msgspec.structs import replace
+
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, STOP_WITHIN, STOPPED, DeployFailed, Line, Running
+from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.places import Places
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LogReader, Reader, merged
@@ -25,7 +28,7 @@ from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying, grids
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.network import NEVER, PROGRAM, Network, Restart
 
 if TYPE_CHECKING:
     from robocomp_yaml.deploy.icegrid.grid import Grid
@@ -34,6 +37,8 @@ T = TypeVar("T")
 
 _TOO_LONG = "its configuration is longer than the 100,000 bytes that IceGrid carries to another host"
 _RULE_WITHIN = 10.0
+_TIMED_OUT, _NOT_FOUND, _UNKNOWN = 124, 127, 1
+_CODE = "exit code "
 _CALLS = 32  # at once: each waits, and costs next to nothing
 
 
@@ -71,16 +76,12 @@ class IceGridEngine:
         return True
 
     def _reach(self, create: bool) -> Grid | None:
-        from robocomp_yaml.deploy.icegrid import start_up
-
         grid = start_up.reached(self._places, self._network)
         if grid and create:
             grid.close()
         return start_up.created(self._places, self._network) if create else grid
 
     def _ensure_nodes(self, grid: Grid) -> None:
-        from robocomp_yaml.deploy.icegrid import start_up
-
         used = {process.host for process in self._network.enabled()}
         hosts = [host for host in self._network.hosts.values() if host.name in used]
         try:
@@ -168,13 +169,12 @@ class IceGridEngine:
 
     def _pass_rule(self, grid: Grid, spec: Spec, number: int) -> None:
         """Tells `run` how it is to restart a process that goes on."""
-        from robocomp_yaml.deploy.icegrid.beside import run_beside
         from robocomp_yaml.deploy.icegrid.descriptors import restart_rule
 
         path = self._places.rule(spec.name)
         script = 'mkdir -p -- "${2%/*}" && printf "%s\\n" "$1" >"$2.new" && mv -- "$2.new" "$2"'
         command = ("bash", "-c", script, "bash", restart_rule(spec.process, number), path)
-        run_beside(grid, spec, command, _RULE_WITHIN, self._lock, self._deploy)
+        self._run(grid, spec, command, _RULE_WITHIN)
 
     def _deploy(self, replaced: Collection[str], servers: list[tuple[str, Any]]) -> None:
         """Deploys these servers, and those that were deployed before except the replaced."""
@@ -255,17 +255,40 @@ class IceGridEngine:
         return merged(readers, last, follow, is_far=True)
 
     async def run(self, name: str, command: Sequence[str], within: float) -> int:
-        from robocomp_yaml.deploy.icegrid.beside import run_beside
-
         spec = self._specs[name]
         assert spec
-        grid = self._reached()
-        return await self._beside(name, "asked", run_beside, grid, spec, tuple(command), within,
-                                  self._lock, self._deploy)  # fmt: skip
+        return await self._beside(name, "asked", self._run, self._reached(), spec, tuple(command), within)
+
+    def _run(self, grid: Grid, spec: Spec, command: tuple[str, ...], within: float) -> int:
+        """The exit code of a command that runs beside a process, on its host: as a server of its own."""
+        from robocomp_yaml.deploy.icegrid import descriptors
+        from robocomp_yaml.deploy.icegrid.grid import GridFailed
+        from robocomp_yaml.deploy.icegrid.status import told
+
+        host, here = spec.process.host, is_here(spec.address)
+        name = f"{spec.name}.ready"
+        process = replace(spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=Restart(NEVER))
+        own = replace(spec, process=process, command=command)
+        server = descriptors.server(self._places, own, grid.user_of(host), 0, is_here=here)
+        with self._lock:
+            self._deploy([name], [(host, server)])
+        try:
+            if not grid.run(name, within):
+                grid.stop(name)
+                return _TIMED_OUT
+            last = told(grid, name, here=here)
+            code = last.last_exit.removeprefix(_CODE) if last else ""
+            return int(code) if code.isdigit() else _UNKNOWN
+        except GridFailed:
+            return _NOT_FOUND
+        finally:
+            with self._lock:
+                self._deploy([name], [])
+            if here:
+                own_folder.remove(self._places.folder, f"state/icegrid/status/{name}")
+                own_folder.remove(self._places.folder, f"logs/{name}.log")
 
     async def close(self, *, end: bool = False) -> None:
-        from robocomp_yaml.deploy.icegrid import start_up
-
         grid, self._grid = self._grid, None
         if grid and end:
             await self._beside("", "ended", start_up.ended, grid, self._network.name)
@@ -290,9 +313,7 @@ class IceGridEngine:
         try:
             return await asyncio.get_running_loop().run_in_executor(self._calls, work, *arguments)
         except GridFailed as error:
-            process = self._network.processes.get(about)
-            where = process.span if process and process.span.file else Span(self._network.path)
-            name = about or self._network.name
+            where, name = self._network.span_of(about), about or self._network.name
             raise DeployFailed(deploying.REFUSED.at(where, name=name, what=what, reason=error)) from error
         except OSError as error:
             path = error.filename or self._network.folder

@@ -95,7 +95,7 @@ class Places(msgspec.Struct, frozen=True):
 
     def specs(self) -> dict[str, Spec | None]:
         """What the processes were given; None where another version of rcyaml wrote it."""
-        return {name: _spec(data) for name, data in self._read(_SPECS, {}).items()}
+        return {name: Spec.of_data(data) for name, data in self._read(_SPECS, {}).items()}
 
     def keep_specs(self, specs: dict[str, Spec | None]) -> None:
         kept = self._read(_SPECS, {})
@@ -112,13 +112,6 @@ class Places(msgspec.Struct, frozen=True):
 
     def _write(self, path: str, data: Any) -> None:
         own_folder.write(self.folder, path, json.dumps(data))
-
-
-def _spec(data: dict[str, Any]) -> Spec | None:
-    try:
-        return Spec.of_data(data)
-    except ValueError:
-        return None
 
 
 def registry_address(hosts: Iterable[Host]) -> str:

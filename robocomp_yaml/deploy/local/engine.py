@@ -12,7 +12,7 @@ from typing import Any
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import STOP_WITHIN, DeployFailed, Line, Running
-from robocomp_yaml.deploy.local import launch, record
+from robocomp_yaml.deploy.local import client, record
 from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorGone
 from robocomp_yaml.deploy.local.kernel import die_with
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
@@ -28,7 +28,7 @@ from robocomp_yaml.deploy.spec import Spec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import Network
+from robocomp_yaml.network.network import FOLDER, Host, Network
 
 
 class LocalEngine:
@@ -48,15 +48,15 @@ class LocalEngine:
         if found := not_here(network):
             raise DeployFailed(found)
         try:
-            connection = launch.reach(network.folder)
+            connection = client.reach(network.folder)
             was_killed = connection is None and record.was_killed(network.folder)
             if was_killed or (connection is None and create):
-                left = [*record.clear_up(network.folder), *(launch.last_words(network.folder) if was_killed else ())]
+                left = [*record.clear_up(network.folder), *(client.last_words(network.folder) if was_killed else ())]
                 if was_killed or left:
                     self.notes.append(deploying.SUPERVISOR_KILLED.at(Span(network.path), more="\n".join(left)))
             if connection is None and create:
                 own_folder.make(network.folder)
-                connection = await launch.start(network.folder)
+                connection = await client.start(network.folder)
         except OSError as error:
             raise self._folder_failed(network.folder, error.strerror or str(error)) from error
         if connection is None:
@@ -133,13 +133,13 @@ class LocalEngine:
                 await started.wait()
 
     async def close(self, *, end: bool = False) -> None:
-        if client := self._client:
+        if self._client:
             if end:
                 await self._ask("", "end")
-                await client.wait_closed()
-                await launch.wait_gone(self._network.folder)
+                await self._client.wait_closed()
+                await client.wait_gone(self._network.folder)
+            await self._client.close()
             self._client = None
-            await client.close()
 
     async def _ask(self, about: str, do: str, **facts: object) -> dict[str, Any]:
         """An answer of the supervisor, about the process of that name where there is one."""
@@ -147,8 +147,7 @@ class LocalEngine:
         try:
             return await self._client.ask(do, **facts)
         except RequestFailed as error:
-            process = self._network.processes.get(about)
-            where = process.span if process and process.span.file else Span(self._network.path)
+            where = self._network.span_of(about)
             raise DeployFailed(deploying.REFUSED.at(where, name=about, what=_DONE.get(do, do), reason=error)) from error
         except SupervisorGone as error:
             killed = deploying.SUPERVISOR_KILLED.at(Span(self._network.path))
@@ -162,10 +161,28 @@ _DONE = {"start": "started", "stop": "stopped"}
 
 
 def _running(entry: dict[str, Any]) -> Running:
-    try:
-        spec = Spec.of_data(entry["spec"])
-    except ValueError:
-        spec = None
     process = entry["spec"]["process"]
     kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu")
-    return Running(process["name"], spec, process["host"], **{key: entry[key] for key in kept})
+    return Running(process["name"], Spec.of_data(entry["spec"]), process["host"], **{key: entry[key] for key in kept})
+
+
+def stand_in(path: str) -> Network | None:
+    """The network of what runs, as it was started; None where nothing does, or the document does not even show its
+    name."""
+    place, name = os.path.abspath(path), own_folder.deployment_in(path)
+    folder = os.path.join(os.path.dirname(place), FOLDER, name)
+    if not name or not record.is_there(folder) or record.was_killed(folder):
+        return None
+    network = Network(name, place, folder)
+
+    async def look() -> None:
+        engine = LocalEngine()
+        if await engine.open(network, create=False):
+            for name, running in (await engine.observe()).items():
+                if running.spec:
+                    network.processes[name] = running.spec.process
+                    network.hosts[running.spec.process.host] = Host(running.spec.process.host)
+        await engine.close()
+
+    asyncio.run(look())
+    return network

@@ -5,7 +5,7 @@ from __future__ import annotations
 import msgspec
 
 from engine_in_memory import network, process
-from robocomp_yaml.network.hidden import hidden
+from robocomp_yaml.deploy.exported import hidden
 from robocomp_yaml.network.network import ConfigFile, Readiness, Variable
 
 CANARY = "canary-hunter2"
