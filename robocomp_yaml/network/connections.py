@@ -9,7 +9,8 @@ import msgspec
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.link.deployments import LinkedInstance
+from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model.component import IGNORE
 from robocomp_yaml.model.deployment import Pair
@@ -18,7 +19,6 @@ from robocomp_yaml.network.draft import Draft, Drafts, Given, Offer, is_broken, 
 from robocomp_yaml.network.gates import Gates
 from robocomp_yaml.network.network import Connection
 from robocomp_yaml.network.order import Need
-from robocomp_yaml.network.targets import Named, named
 from robocomp_yaml.source.ice_options import BLANKS, Refused
 from robocomp_yaml.source.ice_proxy import parse_proxy
 
@@ -126,15 +126,11 @@ class Connections(msgspec.Struct):
         elif fitting and port is not None:
             self._mismatch(draft, port, fitting[0], pair.span)
         else:
-            served = ", ".join(dict.fromkeys(name for name, _ in target.served))
-            self.diagnostics.append(
-                codes.NOT_SERVED.at(
-                    pair.span,
-                    target=pair.text,
-                    interface=interface,
-                    hint=f"it serves {served}" if served else "it serves nothing",
-                )
+            served = ", ".join(dict.fromkeys(name for name, _ in target.served)) or "nothing"
+            not_served = codes.NOT_SERVED.at(
+                pair.span, target=pair.text, interface=interface, hint=f"it serves {served}"
             )
+            self.diagnostics.append(not_served)
 
     def _look_for(self, draft: Draft, port: Port) -> None:
         """Connects a port that nothing is said of: the nearest that serve an equal interface decide."""
@@ -170,15 +166,11 @@ class Connections(msgspec.Struct):
         if target is not draft:
             self.needs.append(Need(draft.name, target.name, port.use.absent if port else "", name, span))
         if draft.instance.entry.enabled and not target.instance.entry.enabled and not _may_be_absent(port):
-            self.diagnostics.append(
-                codes.NOT_ENABLED.at(
-                    span,
-                    source=draft.name,
-                    interface=interface,
-                    target=target.name,
-                    related=[Related("not enabled here", target.span)],
-                )
+            related = [Related("not enabled here", target.span)]
+            off = codes.NOT_ENABLED.at(
+                span, source=draft.name, interface=interface, target=target.name, related=related
             )
+            self.diagnostics.append(off)
 
     def _ambiguous(
         self, draft: Draft, name: str, interface: str, offers: list[Offer], span: Span, port: Port | None = None
@@ -268,3 +260,78 @@ def _required(port: Port | None) -> list[Related]:
 
 def _is_only(offer: Offer) -> bool:
     return sum(other.interface == offer.interface for other in offer.owner.offers) == 1
+
+
+class Named(msgspec.Struct, frozen=True):
+    """`served` are offers by the names under which they are served; `interface` is what stands behind the target's
+    name, or ''."""
+
+    served: tuple[tuple[str, Offer], ...]
+    interface: str
+
+    def chosen(self) -> list[Offer]:
+        """Those that are meant: all, where no interface is named."""
+        return [
+            offer
+            for name, offer in self.served
+            if not self.interface or self.interface in (name, offer.adapter, offer.interface)
+        ]
+
+
+def named(drafts: Drafts, draft: Draft, pair: Pair) -> Named | Diagnostic | None:
+    """What an entry of `connect:` names, or what is wrong with it; None where that has been reported."""
+    linked, instance = drafts.linked, draft.instance
+    targets, behind = linked.find(pair.text, instance.scope)
+    if not targets:
+        return None if instance.broken else _not_there(drafts, draft, pair)
+    served: list[tuple[str, Offer]] = []
+    for target in targets:
+        around = linked.closed_around(target, instance)
+        if isinstance(target, LinkedStorm):
+            hint = "it is an IceStorm, which carries topics"
+            return codes.NOT_SERVED.at(pair.span, target=pair.text, interface=pair.name, hint=hint)
+        if around:
+            group = around[0].name
+            hint = f"connect to '{group}', which serves what it exposes"
+            return codes.CLOSED_GROUP.at(pair.span, target=pair.text, group=group, hint=hint)
+        if _lacks_something(drafts, target):
+            return None
+        served += _of_group(drafts, target, draft) if isinstance(target, LinkedGroup) else _of(drafts, target)
+    return Named(tuple(served), behind)
+
+
+def _not_there(drafts: Drafts, draft: Draft, pair: Pair) -> Diagnostic:
+    proxy = f'"{pair.name.lower()}:tcp -h HOST -p PORT"'
+    names = drafts.linked.names.get(draft.instance.scope, {})
+    hint = did_you_mean(pair.text, names, otherwise=f"what is outside is named by its proxy, in quotes: {proxy}")
+    return codes.NO_TARGET.at(pair.span, name=pair.text, hint=hint)
+
+
+def _lacks_something(drafts: Drafts, target: Target) -> bool:
+    """Whether something that the target may serve could not be read."""
+    if isinstance(target, LinkedGroup):
+        return is_broken(target) or any(_lacks_something(drafts, member) for member in target.members)
+    if isinstance(target, LinkedInstance):
+        is_read = drafts.of(target) is not None and not target.broken
+        return not is_read or bool(target.component and target.component.broken)
+    return False
+
+
+def _of(drafts: Drafts, instance: LinkedInstance) -> Iterator[tuple[str, Offer]]:
+    """What an entry serves; a second name of a process, what stands under it, else what the process does."""
+    owner = drafts.of(instance)
+    own = {pair.name for pair in instance.entry.endpoints} if instance.process else set()
+    for offer in owner.offers if owner else ():
+        if not own or offer.adapter in own:
+            yield offer.adapter, offer
+
+
+def _of_group(drafts: Drafts, group: LinkedGroup, draft: Draft) -> Iterator[tuple[str, Offer]]:
+    """What a group serves to those outside of it, under names of its own; to its own members, everything."""
+    is_outside = group.is_closed and draft.instance not in group.members
+    names = {(one.instance.process or one.instance, one.adapter): one.name for one in group.serves}
+    owners = dict.fromkeys(owner for member in group.members if (owner := drafts.of(member)))
+    for offer in (offer for owner in owners for offer in owner.offers):
+        name = names.get((offer.owner.instance, offer.adapter))
+        if name is not None if is_outside else offer.port or offer.given:
+            yield name or offer.adapter, offer

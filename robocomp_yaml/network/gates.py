@@ -40,17 +40,11 @@ class Gates(msgspec.Struct):
             name = f"{group.name}.gate"
             while name in self.drafts.linked.instances:
                 name += "_"
-            entry = model.Entry(
-                name,
-                model.PROGRAM,
-                model.Text("python3"),
-                config_as=model.Text(model.ARGUMENT),
-                enabled=any(owner.instance.entry.enabled for _, owner in ruled),
-                span=group.group.span,
-            )
-            instance = LinkedInstance(
-                name, entry, group.document, group.scope, folder=first.instance.folder, groups=(group,)
-            )
+            python, how, span = model.Text("python3"), model.Text(model.ARGUMENT), group.group.span
+            enabled = any(owner.instance.entry.enabled for _, owner in ruled)
+            entry = model.Entry(name, model.PROGRAM, python, config_as=how, enabled=enabled, span=span)
+            folder = first.instance.folder
+            instance = LinkedInstance(name, entry, group.document, group.scope, folder=folder, groups=(group,))
             draft = self._of[group] = self.drafts.drafts[instance] = Draft(instance, first.host)
             for served, owner in ruled:
                 interface = next((o.interface for o in owner.offers if o.adapter == served.adapter), served.name)
@@ -97,18 +91,11 @@ class Gates(msgspec.Struct):
             for served, offer in self._behind(group):
                 if offer.endpoint is None:
                     continue
-                gate.proxies[served.name] = Given(offer.proxy, _place(served))
-                self.found.append(
-                    Connection(
-                        gate.name,
-                        served.name,
-                        offer.interface,
-                        offer.owner.name,
-                        proxy=offer.proxy,
-                        span=_place(served),
-                    )
-                )
-                self.needs.append(Need(gate.name, offer.owner.name, "", served.name, _place(served)))
+                target, proxy, span = offer.owner.name, offer.proxy, _place(served)
+                gate.proxies[served.name] = Given(proxy, span)
+                connection = Connection(gate.name, served.name, offer.interface, target, proxy=proxy, span=span)
+                self.found.append(connection)
+                self.needs.append(Need(gate.name, target, "", served.name, span))
 
     def _behind(self, group: LinkedGroup) -> Iterator[tuple[Served, Offer]]:
         for served in _ruled(group):
@@ -126,14 +113,8 @@ class Gates(msgspec.Struct):
             if offer is None or served.rule is None or served.name not in draft.proxies:
                 continue
             allowed = None if served.rule.allow is None else tuple(method.text for method in served.rule.allow)
-            row = (
-                served.name,
-                offer.interface.lower(),
-                offer.text,
-                draft.proxies[served.name].text,
-                served.rule.rate,
-                allowed,
-            )
+            proxy = draft.proxies[served.name].text
+            row = (served.name, offer.interface.lower(), offer.text, proxy, served.rule.rate, allowed)
             rows.append(f"    {row!r},\n")
         return resources.text(PROGRAM).replace(_TABLE, f"SERVED = (\n{''.join(rows)})\n")
 

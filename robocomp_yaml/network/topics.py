@@ -83,15 +83,10 @@ class Topics(msgspec.Struct):
         manager = self.base_of(draft).manager
         if nearest and nearest not in self._several:
             self._several.append(nearest)
-            self.diagnostics.append(
-                codes.TWO_STORMS.at(
-                    draft.span,
-                    source=draft.name,
-                    storms=", ".join(storm.name for storm in nearest),
-                    hint="leave one of them: it serves all hosts",
-                    related=[Related(f"'{storm.name}'", storm.storm.span) for storm in nearest],
-                )
-            )
+            hint, storms = "leave one of them: it serves all hosts", ", ".join(storm.name for storm in nearest)
+            related = [Related(f"'{storm.name}'", storm.storm.span) for storm in nearest]
+            several = codes.TWO_STORMS.at(draft.span, hint=hint, related=related, source=draft.name, storms=storms)
+            self.diagnostics.append(several)
         elif not nearest and not manager and not self.drafts.linked.is_included and self.drafts.complete:
             self._without.append(draft)
         return None, manager
@@ -112,8 +107,7 @@ class Topics(msgspec.Struct):
         )
 
     def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> _End:
-        rename = next((pair for pair in draft.instance.entry.topics if pair.name == port.name), None)
-        if rename is not None:
+        for rename in (pair for pair in draft.instance.entry.topics if pair.name == port.name):
             draft.topics[port.name] = Given(rename.text, rename.span)
             return _End(draft, port, is_out, rename.text, rename.span, storm, manager)
         name = self.base_of(draft).topic(port.name, port.interface.name, is_out=is_out)
@@ -135,20 +129,10 @@ class Topics(msgspec.Struct):
         draft, port, storm = end.draft, end.port, end.storm
         if topic != end.name:
             draft.topics[port.name] = Given(topic, end.span)
-        carrier = storm.name if storm else ""
-        self.found.append(
-            Connection(
-                draft.name,
-                port.name,
-                port.interface.name,
-                carrier,
-                TOPIC,
-                topic,
-                end.is_out,
-                storm.proxy if storm else end.manager,
-                end.span,
-            )
-        )
+        carrier, proxy = (storm.name, storm.proxy) if storm else ("", end.manager)
+        interface = port.interface.name
+        connection = Connection(draft.name, port.name, interface, carrier, TOPIC, topic, end.is_out, proxy, end.span)
+        self.found.append(connection)
         self._ends.setdefault((carrier or f":{end.manager}", topic), []).append(end)
 
     def _compare(self, topic: str, ends: list[_End]) -> None:
@@ -157,29 +141,21 @@ class Topics(msgspec.Struct):
         for end in ends:
             found = self.contents.difference(first.port, end.port)
             if found is not None:
-                self.diagnostics.append(
-                    codes.TOPIC_MISMATCH.at(
-                        end.span,
-                        topic=topic,
-                        source=end.draft.name,
-                        target=first.draft.name,
-                        difference=found.message,
-                        hint="let both import the same document, or rename one topic",
-                        related=found.sides(first.draft.name, end.draft.name),
-                    )
-                )
+                hint = "let both import the same document, or rename one topic"
+                source, target = end.draft.name, first.draft.name
+                mismatch = codes.TOPIC_MISMATCH.at(
+                    end.span, topic=topic, source=source, target=target, difference=found.message, hint=hint,
+                    related=found.sides(target, source),
+                )  # fmt: skip
+                self.diagnostics.append(mismatch)
         is_closed = self.drafts.complete and not self.drafts.linked.is_included
         if first.is_out or not is_closed or not all(c.target for c in self.found if c.topic == topic):
             return
-        self.diagnostics.append(
-            codes.NOBODY_PUBLISHES.at(
-                first.span,
-                source=first.draft.name,
-                topic=topic,
-                hint=self._other_names(first) + _too([end.draft for end in ends[1:]]),
-                related=[Related(f"{first.port.name} is subscribed to here", first.port.use.span)],
-            )
-        )
+        hint = self._other_names(first) + _too([end.draft for end in ends[1:]])
+        related = [Related(f"{first.port.name} is subscribed to here", first.port.use.span)]
+        source = first.draft.name
+        silent = codes.NOBODY_PUBLISHES.at(first.span, hint=hint, related=related, source=source, topic=topic)
+        self.diagnostics.append(silent)
 
     def _other_names(self, end: _End) -> str:
         """Where the same interface is published: under another name, or with another IceStorm."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import Ice
@@ -62,13 +62,10 @@ class Grid:
         self.communicator.destroy()
 
     def has_node(self, host: str) -> bool:
-        try:
+        with _failures(), contextlib.suppress(IceGrid.NodeNotExistException, Ice.InvocationTimeoutException):
             answer: bool = self._looks.pingNode(host)
-        except (IceGrid.NodeNotExistException, Ice.InvocationTimeoutException):
-            return False
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
-        return answer
+            return answer
+        return False
 
     def user_of(self, host: str) -> str:
         """The user as whom a node runs: its data folder is named after them."""
@@ -78,12 +75,9 @@ class Grid:
 
     def descriptor(self, application: str) -> Any:
         """What is deployed; None where nothing is."""
-        try:
+        with _failures(), contextlib.suppress(IceGrid.ApplicationNotExistException):
             return self.admin.getApplicationInfo(application).descriptor
-        except IceGrid.ApplicationNotExistException:
-            return None
-        except Ice.Exception as error:
-            raise GridFailed(in_words(error)) from error
+        return None
 
     def deploy(self, descriptor: Any, *, is_new: bool) -> None:
         """Restarts those of the servers that run whose descriptors differ from before, and leaves all others alone."""
@@ -93,8 +87,8 @@ class Grid:
             self._call(self.admin.syncApplication, descriptor)
 
     def remove(self, application: str) -> None:
-        with contextlib.suppress(IceGrid.ApplicationNotExistException):
-            self._call(self.admin.removeApplication, application)
+        with _failures(), contextlib.suppress(IceGrid.ApplicationNotExistException):
+            self.admin.removeApplication(application)
 
     def states(self, names: Iterable[str]) -> dict[str, tuple[str, int]]:
         """State and pid of each server; '' for one whose node does not answer, and one that there is not."""
@@ -106,12 +100,10 @@ class Grid:
         return {name: (states.get(name, "Active" if pid > 0 else ""), max(pid, 0)) for name, pid in pids.items()}
 
     def _answer(self, future: Any, missing: Any) -> Any:
-        try:
+        absent = IceGrid.NodeUnreachableException, IceGrid.ServerNotExistException, Ice.InvocationTimeoutException
+        with _failures(), contextlib.suppress(*absent):
             return future.result()
-        except (IceGrid.NodeUnreachableException, IceGrid.ServerNotExistException, Ice.InvocationTimeoutException):
-            return missing
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
+        return missing
 
     def start(self, name: str) -> None:
         try:
@@ -135,40 +127,39 @@ class Grid:
 
     def read(self, name: str, path: str) -> list[str]:
         """The lines of one of a process's files, on its host; none where it is not there."""
-        try:
+        lines: list[str] = []
+        with _failures(), contextlib.suppress(IceGrid.FileNotAvailableException):
             iterator = self._reads.openServerLog(name, path, -1)
-        except IceGrid.FileNotAvailableException:
-            return []
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
-        try:
-            lines: list[str] = []
-            while True:
-                is_end, more = iterator.read(1 << 16)
-                lines += more
-                if is_end:
-                    return lines
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
-        finally:
-            with contextlib.suppress(Ice.Exception):
-                iterator.destroy()
+            try:
+                is_end = False
+                while not is_end:
+                    is_end, more = iterator.read(1 << 16)
+                    lines += more
+            finally:
+                with contextlib.suppress(Ice.Exception):
+                    iterator.destroy()
+        return lines
 
     def shut_down_node(self, host: str) -> None:
         with contextlib.suppress(GridFailed):
             self._call(self.admin.shutdownNode, host)
 
     def _call(self, operation: Callable[..., Any], *arguments: Any) -> Any:
-        try:
+        with _failures():
             return operation(*arguments)
-        except IceGrid.NodeUnreachableException as error:
-            raise Unreachable(f"the IceGrid node of '{error.name}' does not answer") from error
-        except IceGrid.ApplicationNotExistException:
-            raise
-        except Ice.UserException as error:
-            raise GridFailed(in_words(error)) from error
-        except Ice.Exception as error:
-            raise Unreachable(in_words(error)) from error
+
+
+@contextlib.contextmanager
+def _failures() -> Iterator[None]:
+    """Raises GridFailed for what IceGrid refuses, and Unreachable for what does not answer."""
+    try:
+        yield
+    except IceGrid.NodeUnreachableException as error:
+        raise Unreachable(f"the IceGrid node of '{error.name}' does not answer") from error
+    except Ice.UserException as error:
+        raise GridFailed(in_words(error)) from error
+    except Ice.Exception as error:
+        raise Unreachable(in_words(error)) from error
 
 
 def reach(places: Places, registry: Registry, within: float) -> Grid:
