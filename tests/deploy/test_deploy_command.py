@@ -327,7 +327,7 @@ def test_an_address_that_does_not_resolve(robot: Path, rcyaml: Rcyaml) -> None:
     )
     result = deploy(rcyaml, "up", "--engine", "local")
     assert result.exit_code == 1
-    assert "error[RC7008]: 'base' belongs on the host 'moon' (nowhere.invalid)" in result.stderr
+    assert "error[RC7008]: 'base' runs on the host 'moon' (nowhere.invalid)" in result.stderr
 
 
 def test_only_one_changes_it_at_a_time(robot: Path, rcyaml: Rcyaml, place: Place) -> None:

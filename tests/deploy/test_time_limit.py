@@ -33,7 +33,7 @@ def test_who_is_ready_and_who_is_not(place: Place) -> None:
     result = place.up(sleeper("a"), waiting("b"), waiting("c", "a"), sleeper("d", "b"), limit=ENOUGH)
     assert codes(result) == ["RC7011"]
     (late,) = result.diagnostics
-    assert late.message == "the time limit of 3 s was over when 1 of 4 processes was ready"
+    assert late.message == "the time limit of 3 s expired when 1 of 4 processes was ready"
     why = "was not ready within 3 s: no line of its log matches 'never'"
     assert [one.message for one in late.related] == [f"'b' {why}", f"'c' {why}"]
     lines = late.more.splitlines()
@@ -59,7 +59,7 @@ def test_time_enough(place: Place) -> None:
 def test_over_before_anything_was_done(place: Place) -> None:
     result = place.up(sleeper("a"), limit=0)
     (found,) = result.diagnostics
-    assert found.message == "the time limit of 0 s was over before anything was done"
+    assert found.message == "the time limit of 0 s expired before anything was done"
     assert place.pids() == {}
 
 
@@ -118,7 +118,7 @@ def test_as_one_types_it(engine: str, place: Place, tmp_path: Path, rcyaml: Call
     result = deploy("up", "--timeout", "6s")
     assert result.exit_code == 1
     assert result.stdout.endswith("Robot: failed; what was started was stopped\n")
-    assert "error[RC7011]: the time limit of 6 s was over when 1 of 3 processes was ready" in result.stderr
+    assert "error[RC7011]: the time limit of 6 s expired when 1 of 3 processes was ready" in result.stderr
     assert "    ready: base\n    waited for: arm\n    not started: hand\n" in result.stderr
     assert "robot.ddsl.yaml:4:3" in result.stderr and "arm | no motor" in result.stderr
     states = [line.split()[1] for line in deploy("status").stdout.splitlines()[1:]]

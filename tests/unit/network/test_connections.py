@@ -100,7 +100,7 @@ def test_documentation_and_defaults_make_no_difference() -> None:
 def test_several_serve_it() -> None:
     (found,) = faults(deployed(f"components:\n{BOTH}  other: {{component: mouth}}\n"))
     assert said(found) == ("RC4202", "robot.ddsl.yaml", 3, 3)
-    assert found.message.endswith("several serve it: mouth, other")
+    assert found.message.endswith("several processes serve: mouth, other")
     assert [related.span.file for related in found.related] == [*["robot.ddsl.yaml"] * 2, "speech/speech.cdsl.yaml"]
 
 
@@ -271,7 +271,7 @@ def test_of_closed_groups_that_serve_it_the_groups_are_named() -> None:
             "  right: {components: [other], expose: {Lips: other.Mouth}}\n"
         )
     )
-    assert found.message.endswith("several serve it: left.Mouth, right.Lips")
+    assert found.message.endswith("several processes serve: left.Mouth, right.Lips")
     assert found.hint == "write `connect: {Mouth: left.Mouth}`, or another"
 
 

@@ -47,7 +47,7 @@ def test_in_a_circle_one_that_can_wait_starts_first(arrows: list[Arrow], first: 
     waves, _, (told,) = ordered("abc", needs(*arrows))
     assert first in waves[0] and (told.code, told.severity) == ("RC4401", "warning")
     assert f"'{first}' starts before" in told.message
-    circle = told.message.removeprefix("these need each other: ").partition(";")[0].split(" → ")
+    circle = told.message.removeprefix("these processes depend on each other: ").partition(";")[0].split(" → ")
     assert circle[0] == circle[-1] == first and len(circle) == len(set(circle)) + 1
 
 

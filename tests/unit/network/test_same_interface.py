@@ -91,7 +91,7 @@ def test_they_mean_the_same(was: str, now: str) -> None:
 )  # fmt: skip
 def test_they_do_not(was: str, now: str, difference: str, places: list[str]) -> None:
     (found,) = told(was, now)
-    assert found.code == "RC4203" and found.message.endswith(f"do not mean the same by Mouth: {difference}")
+    assert found.code == "RC4203" and found.message.endswith(f"define Mouth differently: {difference}")
     assert [at for _, at in found.related] == places
 
 

@@ -111,7 +111,7 @@ def test_both_ends_must_mean_the_same() -> None:
     files = deployed(STORM + BOTH, **ENDS, **{"Other.idsl.yaml": other})
     (found,) = faults({**files, "mind/mind.cdsl.yaml": component("MindComp", MIND, "Other")})
     assert said(found) == ("RC4211", "robot.ddsl.yaml", 5, 3)
-    assert found.message.endswith("by the topic Heard: 'text' of 'word' is string, and int")
+    assert found.message.endswith("define the topic Heard differently: 'text' of 'word' is string, and int")
 
 
 ARM = "deployment: Arm\n" + BOTH
