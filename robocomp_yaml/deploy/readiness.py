@@ -50,7 +50,7 @@ async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
     """Whether a process is ready now."""
     ready = spec.process.ready
     if running.state == ENDED:
-        return not ready.is_asked
+        return not ready.has_condition
     if running.state != RUNNING:
         return False
     if ready.log:
@@ -104,7 +104,7 @@ async def _until_it_ends(spec: Spec, state: State) -> str:
         running = await state(max(began, time.monotonic() - RECENT))
         if running is None or running.state in (GIVEN_UP, STOPPED, LOST):
             return (running.end if running else "") or "it was stopped meanwhile"
-        if running.state == ENDED and spec.process.ready.is_asked:
+        if running.state == ENDED and spec.process.ready.has_condition:
             # The sign may be its last line, which those who follow the log see a little later.
             await asyncio.sleep(2 * _LONGEST if spec.process.ready.log else 0)
             return running.last_exit
@@ -115,12 +115,12 @@ async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line]
         async for line in lines:
             if _is_sign(spec.process.ready.log, line.text):
                 return
-    is_asked = spec.process.ready.is_asked
-    pause = _SHORTEST if is_asked else SETTLED
+    has_condition = spec.process.ready.has_condition
+    pause = _SHORTEST if has_condition else SETTLED
     while True:
         await asyncio.sleep(pause)
         pause = min(pause * _SLOWER, _LONGEST)
-        if is_asked:
+        if has_condition:
             if await _look(engine, spec, min(_ONE_TRY, spec.process.ready.within)):
                 return
         elif running := await state(time.monotonic() - _NEW):
