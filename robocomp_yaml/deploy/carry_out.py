@@ -12,7 +12,7 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
-from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step, in_order
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, in_order
 from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_ready, why_not
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
@@ -21,7 +21,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "starting", "ready", "failed", "not started"
 
 
-class Event(msgspec.Struct, frozen=True):
+class ProcessEvent(msgspec.Struct, frozen=True):
     """Something happened to a process; `seconds` since it began to happen, `text` what to add."""
 
     name: str
@@ -30,7 +30,7 @@ class Event(msgspec.Struct, frozen=True):
     seconds: float = 0.0
 
 
-class Outcome(msgspec.Struct):
+class StartOutcome(msgspec.Struct):
     """`began` are the processes that were started, ready or not; `failed` why some are not ready; `skipped` are those
     that were not tried because of these, or because the time was over (`is_late`): then `late` are those of the failed
     that were still waited for."""
@@ -42,7 +42,7 @@ class Outcome(msgspec.Struct):
     late: list[str] = []
 
 
-Report = Callable[[Event], None]
+Report = Callable[[ProcessEvent], None]
 
 
 class Watch:
@@ -77,7 +77,7 @@ class Watch:
 async def carry_out(
     engine: Engine, plan: Plan, report: Report, *, keep_going: bool, limit: TimeLimit | None = None,
     blocked: Mapping[str, Diagnostic] | None = None,
-) -> Outcome:  # fmt: skip
+) -> StartOutcome:  # fmt: skip
     """Does what the plan says. Where a process that is started fails, nothing more is, or, with `keep_going`, only what
     depends on it is not; the latter holds also where one that ran already is not ready. When the time is over, nothing
     more is started, and what is not ready has failed. What is `blocked` is left as it is, and counts as failed."""
@@ -103,10 +103,10 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
             await asyncio.wait(users)
         began, is_reported = time.monotonic(), leaving[name].state in (RUNNING, WAITING)
         if is_reported:
-            report(Event(name, STOPPING))
+            report(ProcessEvent(name, STOPPING))
         await engine.stop(name)
         if is_reported:
-            report(Event(name, GONE, seconds=time.monotonic() - began))
+            report(ProcessEvent(name, GONE, seconds=time.monotonic() - began))
 
     for name in reversed(in_order(after)):
         users = [task for user, task in tasks.items() if name in after[user]]
@@ -126,11 +126,11 @@ class _Starts(msgspec.Struct):
     _keep_going: bool
     _limit: TimeLimit
     _blocked: Mapping[str, Diagnostic]
-    _outcome: Outcome = msgspec.field(default_factory=Outcome)
+    _outcome: StartOutcome = msgspec.field(default_factory=StartOutcome)
     _since: dict[str, float] = {}
     _tasks: dict[str, asyncio.Task[bool]] = {}
 
-    async def run(self) -> Outcome:
+    async def run(self) -> StartOutcome:
         starting = {step.name for step in self._plan.of(START, RESTART)}
         order = in_order({step.name: _after(step) for step in self._plan.of(START, RESTART, CHANGE, KEEP)})
         try:
@@ -164,10 +164,10 @@ class _Starts(msgspec.Struct):
         tried = {*self._outcome.began, *self._outcome.failed}
         self._outcome.skipped = [step.name for step in self._plan.of(START, RESTART) if step.name not in tried]
         for name in self._outcome.skipped:
-            self._report(Event(name, SKIPPED))
+            self._report(ProcessEvent(name, SKIPPED))
         return self._outcome
 
-    async def _start(self, step: Step, before: Mapping[str, asyncio.Task[bool]]) -> bool:
+    async def _start(self, step: PlanStep, before: Mapping[str, asyncio.Task[bool]]) -> bool:
         """Starts a process when all it is after are ready, or have failed where it can do without; whether it is ready
         then."""
         if step.name in self._blocked:
@@ -178,10 +178,10 @@ class _Starts(msgspec.Struct):
         optional = step.spec.process.optional if step.spec else ()
         if not all(is_ready or name in optional for name, is_ready in zip(before, ready, strict=True)):
             return False
-        self._report(Event(step.name, STARTING))
+        self._report(ProcessEvent(step.name, STARTING))
         return await self._ends_ready(step, is_new=True)
 
-    async def _ends_ready(self, step: Step, *, is_new: bool) -> bool:
+    async def _ends_ready(self, step: PlanStep, *, is_new: bool) -> bool:
         assert step.spec
         self._since[step.name] = time.monotonic()
         try:
@@ -197,10 +197,10 @@ class _Starts(msgspec.Struct):
             return False
         took = self._took(step.name)
         if is_new:
-            self._report(Event(step.name, READY, seconds=took))
+            self._report(ProcessEvent(step.name, READY, seconds=took))
         return True
 
-    async def _is_late(self, step: Step) -> None:
+    async def _is_late(self, step: PlanStep) -> None:
         """It was still waited for when the time was over."""
         assert step.spec
         why = why_not(step.spec, await self._watch.of(step.name)(time.monotonic() - RECENT))
@@ -209,14 +209,14 @@ class _Starts(msgspec.Struct):
 
     def _fail(self, name: str, found: Diagnostic) -> None:
         self._outcome.failed[name] = found
-        self._report(Event(name, FAILED, found.message, self._took(name)))
+        self._report(ProcessEvent(name, FAILED, found.message, self._took(name)))
 
     def _took(self, name: str) -> float:
         """The seconds for which it was waited for, which is over."""
         return time.monotonic() - self._since.pop(name)
 
 
-def _after(step: Step) -> tuple[str, ...]:
+def _after(step: PlanStep) -> tuple[str, ...]:
     return step.spec.process.after if step.spec else ()
 
 
@@ -230,15 +230,15 @@ async def _cancel(tasks: Iterable[asyncio.Task[Any]]) -> None:
 def undo(plan: Plan, before: Mapping[str, Running], now: Mapping[str, Running]) -> Plan:
     """The plan back to what ran before this plan was carried out, wholly or in part. What was not touched is not waited
     for either."""
-    steps: dict[str, Step] = {}
+    steps: dict[str, PlanStep] = {}
     for name, step in plan.steps.items():
         if step.action == KEEP:
             continue
         spec = before[name].spec if name in before and before[name].state in (RUNNING, WAITING) else None
         if spec is None:
             if name in now:
-                steps[name] = Step(name, STOP, "it did not run before", running=now[name])
+                steps[name] = PlanStep(name, STOP, "it did not run before", running=now[name])
         else:
             action = CHANGE if step.action == CHANGE else START
-            steps[name] = Step(name, action, "it ran before", spec=spec, running=now.get(name))
+            steps[name] = PlanStep(name, action, "it ran before", spec=spec, running=now.get(name))
     return Plan(steps)

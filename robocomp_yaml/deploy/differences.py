@@ -9,8 +9,8 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
-from robocomp_yaml.deploy.spec import Spec
-from robocomp_yaml.network.network import ConfigFile, Process, Variable
+from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.network.network import ConfigFile, EnvironmentVariable, Process
 from robocomp_yaml.source import properties
 
 
@@ -30,7 +30,7 @@ class Difference(msgspec.Struct, frozen=True):
         return f"{self.field}: {self.old} → {self.new}" if self.new else f"{self.field}: {self.old} (gone)"
 
 
-def differences(old: Spec, new: Spec) -> list[Difference]:
+def differences(old: ProcessSpec, new: ProcessSpec) -> list[Difference]:
     before, after = old.process, new.process
     return [
         *_field("host", old.address, new.address),
@@ -61,11 +61,11 @@ def _shown(key: str, value: str | None, hidden: Collection[str]) -> str:
     return "''" if value == "" else secrets.value(key, value or "", hidden)
 
 
-def _command(spec: Spec) -> str:
+def _command(spec: ProcessSpec) -> str:
     return secrets.command(spec.command, spec.process.secrets)
 
 
-def _variables(variables: tuple[Variable, ...]) -> dict[str, str]:
+def _variables(variables: tuple[EnvironmentVariable, ...]) -> dict[str, str]:
     return {variable.name: variable.shown for variable in variables}
 
 

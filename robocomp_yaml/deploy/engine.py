@@ -11,7 +11,7 @@ from typing import Protocol
 
 import msgspec
 
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Network
 
@@ -44,7 +44,7 @@ class Running(msgspec.Struct, frozen=True):
     process and all that it started."""
 
     name: str
-    spec: Spec | None
+    spec: ProcessSpec | None
     host: str
     state: str
     pid: int = 0
@@ -91,11 +91,11 @@ class Engine(Protocol):
     async def observe(self) -> dict[str, Running]:
         """All processes that it was ever given by `prepare` and did not `forget`, as they are now."""
 
-    async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
+    async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         """What would keep these from starting on their hosts, seen before anything is started: a port that another
         program has, an executable that is missing. `leaving` are processes that will be stopped before."""
 
-    async def prepare(self, specs: Sequence[Spec]) -> None:
+    async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         """Takes over what is to hold from now on, for some of the processes, all at once: writes their configurations
         (mode 0600, whole or not at all, in the network's folder on their hosts) and keeps the specs. A process that
         runs goes on undisturbed; only its `Restart` holds at once."""

@@ -27,6 +27,6 @@ def make_engine(name: str | None, network: Network) -> Engine:
 
 
 def _usual(network: Network) -> str:
-    from robocomp_yaml.deploy.local.obstacles import not_here
+    from robocomp_yaml.deploy.local.obstacles import elsewhere
 
-    return ICEGRID if network.is_distributed or not_here(network) else LOCAL
+    return ICEGRID if network.is_distributed or elsewhere(network) else LOCAL

@@ -39,7 +39,7 @@ def files(
 
 
 def _told(found: exports.Unwritable, form: str) -> Diagnostic:
-    return codes.NOT_IN_THIS_FORM.at(found.span, name=found.name, form=form, reason=found)
+    return codes.CHANGED_BY_EXPORT.at(found.span, name=found.name, form=form, reason=found)
 
 
 def in_the_way(output: str, files: Mapping[str, str]) -> list[Diagnostic]:

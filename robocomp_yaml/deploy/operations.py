@@ -10,7 +10,7 @@ from contextlib import aclosing
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.deploy.carry_out import Outcome, Report, carry_out, stop_all, undo
+from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
 from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds
@@ -30,7 +30,7 @@ class Result(msgspec.Struct):
     """What came of an `up`. `undone` is what was done on failure, '' where nothing failed."""
 
     plan: Plan
-    outcome: Outcome = msgspec.field(default_factory=Outcome)
+    outcome: StartOutcome = msgspec.field(default_factory=StartOutcome)
     diagnostics: list[Diagnostic] = []
     undone: str = ""
 
@@ -72,7 +72,9 @@ async def up(
     leaving = {step.name for step in result.plan.of(STOP, RESTART)}
     result.diagnostics = await engine.obstacles(starting, leaving) if starting else []
     if limit.is_over:
-        result.diagnostics.append(deploying.LATE.at(Span(network.path), within=limit, when="before anything was done"))
+        result.diagnostics.append(
+            deploying.EXPIRED.at(Span(network.path), within=limit, when="before anything was done")
+        )
     blocked: dict[str, Diagnostic] = {}
     if result.diagnostics and keep_going and not limit.is_over:
         found = [(spec.name, await engine.obstacles([spec], leaving)) for spec in starting]
@@ -115,7 +117,7 @@ async def _what_failed(engine: Engine, network: Network, result: Result, limit: 
     ready = [name for name in wanted if name not in outcome.failed and name not in outcome.skipped]
     groups = {"ready": ready, "waited for": outcome.late, "failed": failed, "not started": outcome.skipped}
     more = [f"{what}: {', '.join(names)}" for what, names in groups.items() if names]
-    late = deploying.LATE.at(
+    late = deploying.EXPIRED.at(
         Span(network.path), within=limit,
         when=f"when {len(ready)} of {len(wanted)} processes {'was' if len(ready) == 1 else 'were'} ready",
         related=[Related(outcome.failed[name].message, outcome.failed[name].span) for name in outcome.late],

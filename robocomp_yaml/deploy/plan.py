@@ -13,14 +13,14 @@ import msgspec
 
 from robocomp_yaml.deploy.differences import Difference, differences
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, WAITING, Running
-from robocomp_yaml.deploy.spec import Spec, spec_of
+from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
 from robocomp_yaml.digraph import inner_first, reached
 from robocomp_yaml.network.network import Network, Process
 
 START, STOP, RESTART, CHANGE, KEEP = "start", "stop", "restart", "change", "keep"
 
 
-class Step(msgspec.Struct, frozen=True):
+class PlanStep(msgspec.Struct, frozen=True):
     """What happens to one process. `spec` is what it shall run with, None where it stops; `before` is what it runs
     with now. CHANGE takes over what needs no restart."""
 
@@ -28,20 +28,20 @@ class Step(msgspec.Struct, frozen=True):
     action: str
     reason: str
     changes: tuple[Difference, ...] = ()
-    spec: Spec | None = None
+    spec: ProcessSpec | None = None
     running: Running | None = None
 
     @property
-    def before(self) -> Spec | None:
+    def before(self) -> ProcessSpec | None:
         return self.running.spec if self.running else None
 
 
 class Plan(msgspec.Struct):
     """Steps by name: those that stop for good, then the network's in its order."""
 
-    steps: dict[str, Step] = {}
+    steps: dict[str, PlanStep] = {}
 
-    def of(self, *actions: str) -> list[Step]:
+    def of(self, *actions: str) -> list[PlanStep]:
         return [step for step in self.steps.values() if step.action in actions]
 
     @property
@@ -55,12 +55,12 @@ def plan(
     """`names` are processes to which it is limited, with all that they are after, and what must follow them; `forced`
     restart in any case."""
     chosen = with_dependences(network, names) if names else {process.name for process in network.enabled()}
-    steps: dict[str, Step] = {}
+    steps: dict[str, PlanStep] = {}
     for name in running:
         process = network.processes.get(name)
         if not names and (process is None or not process.enabled):
             reason = "it is no longer part of the deployment" if process is None else "it is disabled"
-            steps[name] = Step(name, STOP, reason, running=running[name])
+            steps[name] = PlanStep(name, STOP, reason, running=running[name])
     digests: dict[str, str] = {}
     for wave in network.order:
         for name in wave:
@@ -95,34 +95,34 @@ def in_order(after: Mapping[str, Iterable[str]]) -> list[str]:
     return list(inner_first(after, lambda name: [other for other in after[name] if other in after]))
 
 
-def _restarting(process: Process, steps: Mapping[str, Step]) -> str:
+def _restarting(process: Process, steps: Mapping[str, PlanStep]) -> str:
     """One that the process must follow, as it cannot connect again by itself."""
     if process.is_ice:
         return ""
     return next((name for name in process.after if name in steps and steps[name].action == RESTART), "")
 
 
-def _step(spec: Spec, running: Running | None, forced: Collection[str], follows: str) -> Step:
+def _step(spec: ProcessSpec, running: Running | None, forced: Collection[str], follows: str) -> PlanStep:
     name = spec.name
     if running is None:
-        return Step(name, START, "it does not run yet", spec=spec)
+        return PlanStep(name, START, "it does not run yet", spec=spec)
     if running.state in (WAITING, GIVEN_UP, LOST):
         how = f": {running.last_exit}" if running.last_exit else ""
-        return Step(name, START, _STATES[running.state] + how, spec=spec, running=running)
+        return PlanStep(name, START, _STATES[running.state] + how, spec=spec, running=running)
     if running.state not in (RUNNING, ENDED):
-        return Step(name, START, "it was stopped", spec=spec, running=running)
+        return PlanStep(name, START, "it was stopped", spec=spec, running=running)
     if running.spec is None:
-        return Step(name, RESTART, "another version of rcyaml started it", spec=spec, running=running)
+        return PlanStep(name, RESTART, "another version of rcyaml started it", spec=spec, running=running)
     changes = tuple(differences(running.spec, spec))
     if name in forced:
-        return Step(name, RESTART, "you asked for it", changes, spec, running)
+        return PlanStep(name, RESTART, "you asked for it", changes, spec, running)
     if any(not change.is_live for change in changes):
-        return Step(name, RESTART, _first(changes), changes, spec, running)
+        return PlanStep(name, RESTART, _first(changes), changes, spec, running)
     if follows and running.state == RUNNING:
-        return Step(name, RESTART, f"it is after {follows}, which restarts", changes, spec, running)
+        return PlanStep(name, RESTART, f"it is after {follows}, which restarts", changes, spec, running)
     if changes:
-        return Step(name, CHANGE, _first(changes), changes, spec, running)
-    return Step(name, KEEP, "nothing changed", spec=spec, running=running)
+        return PlanStep(name, CHANGE, _first(changes), changes, spec, running)
+    return PlanStep(name, KEEP, "nothing changed", spec=spec, running=running)
 
 
 _STATES = {

@@ -18,7 +18,7 @@ from robocomp_yaml import languages, resources
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.network.network import Host, Network, Process
+from robocomp_yaml.network.network import Network, NetworkHost, Process
 
 WITHIN = 60.0
 NODE = "the IceGrid node"
@@ -35,7 +35,7 @@ VARIABLE = "RCYAML_PYTHON"
 """With this, a process says which Python runs it."""
 
 
-class Wanted(msgspec.Struct, frozen=True):
+class ProgramQuery(msgspec.Struct, frozen=True):
     """A program to ask for; `python` is the process's VARIABLE, '' where it has none of its own."""
 
     program: str
@@ -46,7 +46,7 @@ class ProbeFailed(Exception):
     """The host cannot be asked; the text says why."""
 
 
-class Found(msgspec.Struct, frozen=True):
+class ProbedProgram(msgspec.Struct, frozen=True):
     """A program on a host. `path` is '' where the host does not have it; `missing` is what it needs and the host lacks:
     libraries, the interpreter of a script, modules of a Python program. `used_by` are the processes that run it."""
 
@@ -62,15 +62,15 @@ class Found(msgspec.Struct, frozen=True):
         return bool(self.path) and not self.missing
 
 
-def programs(network: Network) -> dict[Wanted, tuple[str, ...]]:
+def programs(network: Network) -> dict[ProgramQuery, tuple[str, ...]]:
     """The programs of a network's processes, each with the names of those. One whose name has a line break in it
     cannot be asked for. Where there are several hosts, each needs IceGrid's node as well."""
-    found: dict[Wanted, tuple[str, ...]] = {}
+    found: dict[ProgramQuery, tuple[str, ...]] = {}
     for process in network.enabled():
-        wanted = Wanted(process.command[0], _python_of(process, network))
+        wanted = ProgramQuery(process.command[0], _python_of(process, network))
         if "\n" not in wanted.program:
             found[wanted] = (*found.get(wanted, ()), process.name)
-    return found | {Wanted("icegridnode"): (NODE,)} if network.is_distributed else found
+    return found | {ProgramQuery("icegridnode"): (NODE,)} if network.is_distributed else found
 
 
 def _python_of(process: Process, network: Network) -> str:
@@ -85,17 +85,19 @@ def _python_of(process: Process, network: Network) -> str:
     return ""
 
 
-def can_run(network: Network, host: str, found: Sequence[Found]) -> bool:
+def can_run(network: Network, host: str, found: Sequence[ProbedProgram]) -> bool:
     """Whether a host can run what the network has for it."""
     own = {process.name for process in network.enabled() if process.host == host} | {NODE}
     return all(one.can_run for one in found if own & set(one.used_by))
 
 
-async def ask(network: Network, hosts: Sequence[Host]) -> tuple[dict[str, list[Found]], list[Diagnostic]]:
+async def ask(
+    network: Network, hosts: Sequence[NetworkHost]
+) -> tuple[dict[str, list[ProbedProgram]], list[Diagnostic]]:
     """What each of these hosts has, by its name, and which do not answer."""
     wanted = programs(network)
     asked = await asyncio.gather(*(probe(host, wanted) for host in hosts), return_exceptions=True)
-    answers: dict[str, list[Found]] = {}
+    answers: dict[str, list[ProbedProgram]] = {}
     failed: list[Diagnostic] = []
     for host, answer in zip(hosts, asked, strict=True):
         if isinstance(answer, ProbeFailed):
@@ -107,7 +109,7 @@ async def ask(network: Network, hosts: Sequence[Host]) -> tuple[dict[str, list[F
     return answers, failed
 
 
-async def probe(host: Host, wanted: dict[Wanted, tuple[str, ...]]) -> list[Found]:
+async def probe(host: NetworkHost, wanted: dict[ProgramQuery, tuple[str, ...]]) -> list[ProbedProgram]:
     """Raises ProbeFailed."""
     script = ["sh", "-c", resources.text(SCRIPT), "ask", modules()]
     command = script if is_here(host.address) else _over_ssh(host, script)
@@ -132,12 +134,12 @@ async def probe(host: Host, wanted: dict[Wanted, tuple[str, ...]]) -> list[Found
     return [_found(one.program, used_by, line.split("\t")) for (one, used_by), line in answers]
 
 
-def _found(program: str, used_by: tuple[str, ...], fields: Sequence[str]) -> Found:
+def _found(program: str, used_by: tuple[str, ...], fields: Sequence[str]) -> ProbedProgram:
     path, digest, day, missing = fields
-    return Found(program, used_by, path, digest, day, tuple(missing.split()))
+    return ProbedProgram(program, used_by, path, digest, day, tuple(missing.split()))
 
 
-def _over_ssh(host: Host, script: Sequence[str]) -> list[str]:
+def _over_ssh(host: NetworkHost, script: Sequence[str]) -> list[str]:
     """The remote shell gets the script and what it needs in quotes; nothing in them comes from a document."""
     place = f"{host.user}@{host.address}" if host.user else host.address
     return ["ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "--", place, shlex.join(script)]

@@ -23,7 +23,7 @@ from robocomp_yaml.deploy.engine import (
     Line,
     Running,
 )  # fmt: skip
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.network.network import ALWAYS
@@ -46,7 +46,7 @@ State = Callable[[float], Awaitable[Running | None]]
 """What the engine sees of a process, looked at then (`time.monotonic`) or later."""
 
 
-async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
+async def holds(engine: Engine, spec: ProcessSpec, running: Running) -> bool:
     """Whether a process is ready now."""
     ready = spec.process.ready
     if running.state == ENDED:
@@ -62,13 +62,13 @@ async def holds(engine: Engine, spec: Spec, running: Running) -> bool:
     return await _look(engine, spec, _ONE_TRY) and bool(running.uptime >= SETTLED or ready.pings or ready.port)
 
 
-def _not_found(spec: Spec) -> str:
+def _not_found(spec: ProcessSpec) -> str:
     document = [shown_path(spec.process.span.file)] if spec.process.span.file else []
     probe = typed("rcyaml", "deploy", "probe", *document, spec.process.host)
     return f"127 says that a program was not found: `{probe}` tells which ones host '{spec.process.host}' has"
 
 
-async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: State) -> None:
+async def until_ready(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Line], state: State) -> None:
     """Waits for a process that was just started. Raises DeployFailed where it ends before, or takes too long. `lines`
     are what it writes, from its start on."""
     watch = asyncio.create_task(_until_it_ends(spec, state))
@@ -95,7 +95,7 @@ async def until_ready(engine: Engine, spec: Spec, lines: AsyncIterator[Line], st
                 await task
 
 
-async def _until_it_ends(spec: Spec, state: State) -> str:
+async def _until_it_ends(spec: ProcessSpec, state: State) -> str:
     """Until it has ended, and is not started again; says how."""
     began = time.monotonic()
     while True:
@@ -110,7 +110,7 @@ async def _until_it_ends(spec: Spec, state: State) -> str:
             return running.last_exit
 
 
-async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line], state: State) -> None:
+async def _until_it_holds(engine: Engine, spec: ProcessSpec, lines: AsyncIterator[Line], state: State) -> None:
     if spec.process.ready.log:
         async for line in lines:
             if _is_sign(spec.process.ready.log, line.text):
@@ -132,7 +132,7 @@ async def _until_it_holds(engine: Engine, spec: Spec, lines: AsyncIterator[Line]
                 pause = max(SETTLED - running.uptime, _SHORTEST)
 
 
-async def _look(engine: Engine, spec: Spec, within: float) -> bool:
+async def _look(engine: Engine, spec: ProcessSpec, within: float) -> bool:
     """One look at all but the log."""
     ready = spec.process.ready
     if ready.pings:
@@ -162,7 +162,7 @@ def _is_sign(pattern: str, text: str) -> bool:
     return not text.startswith(OWN) and re.search(pattern, text) is not None
 
 
-def why_not(spec: Spec, running: Running | None) -> str:
+def why_not(spec: ProcessSpec, running: Running | None) -> str:
     """What is missing for a process to be ready."""
     ready = spec.process.ready
     if running and running.restarts:

@@ -17,7 +17,7 @@ from robocomp_yaml.source.regular import regular
 _NOT_KEPT = ("span", "extra", "build")
 
 
-class Spec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class ProcessSpec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """`command` is the process's own with the path of its configuration put in. `digests` are those of the watched
     files, '' for one that is not there. Holds the text of the configuration: keep it where only its owner can read."""
 
@@ -40,7 +40,7 @@ class Spec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return data
 
     @classmethod
-    def of_data(cls, data: dict[str, Any]) -> Spec | None:
+    def of_data(cls, data: dict[str, Any]) -> ProcessSpec | None:
         """None where another version of rcyaml wrote the data."""
         try:
             return msgspec.convert(data, cls)
@@ -48,13 +48,13 @@ class Spec(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             return None
 
 
-def spec_of(network: Network, process: Process, digests: dict[str, str]) -> Spec:
+def spec_of(network: Network, process: Process, digests: dict[str, str]) -> ProcessSpec:
     """What the process would be started with now. `digests` remembers files that were looked at already."""
     for path in process.watched:
         if path not in digests:
             digests[path] = _digest_of(path)
     config = network.config_path(process)
-    return Spec(
+    return ProcessSpec(
         process,
         network.address(process),
         process.words(config),

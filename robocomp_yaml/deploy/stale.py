@@ -21,7 +21,7 @@ from robocomp_yaml.network.network import Network
 _SHOWN = 3  # files that are named
 
 
-class Stale(msgspec.Struct, frozen=True):
+class StaleComponent(msgspec.Struct, frozen=True):
     """A component that is to be built, and the processes that start it."""
 
     unit: Unit
@@ -29,7 +29,7 @@ class Stale(msgspec.Struct, frozen=True):
     processes: tuple[str, ...]
 
 
-def stale(network: Network, units: Iterable[Unit], names: Collection[str]) -> list[Stale]:
+def stale(network: Network, units: Iterable[Unit], names: Collection[str]) -> list[StaleComponent]:
     """Those of the components that these processes start on this machine, by the programs that are built there."""
     inputs = Inputs()
     by_program = {_real(unit.program): unit for unit in units if unit.language.build}
@@ -40,11 +40,13 @@ def stale(network: Network, units: Iterable[Unit], names: Collection[str]) -> li
             starting.setdefault(program, []).append(process.name)
     looks = ((program, stamps.look(by_program[program], inputs)) for program in starting)
     return [
-        Stale(by_program[program], look, tuple(starting[program])) for program, look in looks if not look.is_current
+        StaleComponent(by_program[program], look, tuple(starting[program]))
+        for program, look in looks
+        if not look.is_current
     ]
 
 
-def told(network: Network, found: Iterable[Stale]) -> Iterator[Diagnostic]:
+def diagnostics(network: Network, found: Iterable[StaleComponent]) -> Iterator[Diagnostic]:
     """What is wrong with programs that are there; of one that is not, the engine says so."""
     for one in found:
         if not one.look.is_there:

@@ -1,1 +1,1 @@
-"""The network that is derived from a deployment: processes on hosts, with commands, configurations, connections, order."""
+"""The network that is derived from a deployment: processes, with commands, configurations, connections and order."""

@@ -15,8 +15,8 @@ from msgspec.structs import replace
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
-from robocomp_yaml.network.base import Base
-from robocomp_yaml.network.draft import Draft, Given, listening
+from robocomp_yaml.network.configuration_base import ConfigurationBase
+from robocomp_yaml.network.draft import Draft, LocatedText, listening
 from robocomp_yaml.parameters.layers.effective import document_faults
 from robocomp_yaml.parameters.layers.merge import Place, data_of, merged
 from robocomp_yaml.parameters.layers.overlay import overlay
@@ -41,7 +41,7 @@ class Configuration(msgspec.Struct):
     """The text for one draft, None where something is wrong with it."""
 
     draft: Draft
-    base: Base
+    base: ConfigurationBase
     program: Program
     text: str | None = None
     secrets: tuple[str, ...] = ()
@@ -141,16 +141,16 @@ class Configuration(msgspec.Struct):
         key = text_at(settings.span, "parameters")
         return mapping_at(settings.span, {"parameters": (key, laid.root)})
 
-    def _endpoints(self) -> Iterator[tuple[str, Given]]:
+    def _endpoints(self) -> Iterator[tuple[str, LocatedText]]:
         draft = self.draft
         for adapter in draft.adapters:
-            yield adapter.adapter.rpartition(".")[2], Given(adapter.text, adapter.span)
+            yield adapter.adapter.rpartition(".")[2], LocatedText(adapter.text, adapter.span)
         component, given = draft.instance.component, {adapter.adapter for adapter in draft.hears}
         for port in component.subscribes if component else ():
             if f"{port.name}Topic" not in given:
-                yield f"{port.name}Topic", Given(listening(draft.host, 0), draft.span)
+                yield f"{port.name}Topic", LocatedText(listening(draft.host, 0), draft.span)
 
-    def _proxy(self, name: str, given: Given) -> tuple[Scalar, Node]:
+    def _proxy(self, name: str, given: LocatedText) -> tuple[Scalar, Node]:
         """Under the property that the configuration has for it."""
         key, node = _entry(name, given)
         own = self.base.proxy_key(name)
@@ -168,7 +168,7 @@ class Configuration(msgspec.Struct):
         if names:
             span = next(iter(names.values())).span
             made["name"] = _entry("name", mapping_at(span, {name: _entry(name, to) for name, to in names.items()}))
-            ends = {f"{name}{end}": Given("", to.span) for name, to in names.items() for end in ("", "Pub")}
+            ends = {f"{name}{end}": LocatedText("", to.span) for name, to in names.items() for end in ("", "Pub")}
             none = {name: _entry(name, given) for name, given in ends.items()}
             made["prefix"] = _entry("prefix", mapping_at(span, none))
         return made
@@ -176,7 +176,7 @@ class Configuration(msgspec.Struct):
     def _connections(self, dialect: str) -> list[Property]:
         """All that is derived as properties, in Ice's own spelling, which comes first for every generated component;
         and behind it in the file's, if that is another."""
-        draft, made = self.draft, list[tuple[str, str, Given]]()
+        draft, made = self.draft, list[tuple[str, str, LocatedText]]()
         made += [(*connections.endpoints(name), given) for name, given in self._endpoints()]
         made += [(*connections.proxy(name), given) for name, given in draft.proxies.items()]
         if draft.manager is not None:
@@ -195,6 +195,6 @@ def _quoted(text: str) -> str:
     return text if '"' in text else f'"{text}"'
 
 
-def _entry(name: str, given: Given | Mapping) -> tuple[Scalar, Node]:
+def _entry(name: str, given: LocatedText | Mapping) -> tuple[Scalar, Node]:
     node = given if isinstance(given, Mapping) else text_at(given.span, given.text)
     return text_at(node.span, name), node

@@ -14,11 +14,11 @@ from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, LinkedSt
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model.component import IGNORE
 from robocomp_yaml.model.deployment import Pair
-from robocomp_yaml.network.contents import Contents, name_of
-from robocomp_yaml.network.draft import Draft, Drafts, Given, Offer, is_broken, text_fault
+from robocomp_yaml.network.draft import Draft, Drafts, LocatedText, Offer, is_broken, text_fault
 from robocomp_yaml.network.gates import Gates
+from robocomp_yaml.network.interface_comparison import InterfaceComparison, name_of
 from robocomp_yaml.network.network import Connection
-from robocomp_yaml.network.order import Need
+from robocomp_yaml.network.order import Dependence
 from robocomp_yaml.source.ice_options import BLANKS, Refused
 from robocomp_yaml.source.ice_proxy import parse_proxy
 
@@ -77,10 +77,10 @@ class Connections(msgspec.Struct):
     """`found` are the lines of the graph, `needs` says who waits for whom."""
 
     drafts: Drafts
-    contents: Contents
+    comparison: InterfaceComparison
     gates: Gates
     found: list[Connection] = []
-    needs: list[Need] = []
+    needs: list[Dependence] = []
     diagnostics: list[Diagnostic] = []
     _providers: Providers = msgspec.field(default_factory=Providers)
 
@@ -105,13 +105,13 @@ class Connections(msgspec.Struct):
         if is_proxy(pair.text):
             self.diagnostics += _faults(draft, pair)
             proxy = pair.text.strip(BLANKS)  # they mean nothing there, and no property's value can end with a tab
-            draft.proxies[pair.name] = Given(proxy, pair.span)
+            draft.proxies[pair.name] = LocatedText(proxy, pair.span)
             self.found.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
             return
         target = named(self.drafts, draft, pair)
         if isinstance(target, Diagnostic):
             self.diagnostics.append(target)
-        if not isinstance(target, Named):
+        if not isinstance(target, ConnectTarget):
             return
         behind = target.interface
         fitting = [offer for offer in target.chosen() if offer.interface == interface or (port is None and behind)]
@@ -154,17 +154,17 @@ class Connections(msgspec.Struct):
         if offer.port is None:
             module = offer.adapter.rpartition(".")[0]
             return module in ("", *name_of(port)[:1], port.scope.module.stem)
-        return name_of(offer.port) == name_of(port) and self.contents.difference(port, offer.port) is None
+        return name_of(offer.port) == name_of(port) and self.comparison.difference(port, offer.port) is None
 
     def _connect(self, draft: Draft, name: str, interface: str, offer: Offer, span: Span, port: Port | None) -> None:
         offer = self.gates.through(offer, draft.instance)
         target = offer.owner
         if offer.endpoint is None:  # the document's endpoint is none, which has been said
             return
-        draft.proxies[name] = Given(offer.proxy, span)
+        draft.proxies[name] = LocatedText(offer.proxy, span)
         self.found.append(Connection(draft.name, name, interface, target.name, proxy=offer.proxy, span=span))
         if target is not draft:
-            self.needs.append(Need(draft.name, target.name, port.use.absent if port else "", name, span))
+            self.needs.append(Dependence(draft.name, target.name, port.use.absent if port else "", name, span))
         if draft.instance.entry.enabled and not target.instance.entry.enabled and not _may_be_absent(port):
             related = [Related("not enabled here", target.span)]
             off = codes.NOT_ENABLED.at(
@@ -203,7 +203,7 @@ class Connections(msgspec.Struct):
         if offer.port is None:
             self._unresolved(draft, port)
             return
-        found = self.contents.difference(port, offer.port)
+        found = self.comparison.difference(port, offer.port)
         if found is not None:
             self.diagnostics.append(
                 codes.MISMATCH.at(
@@ -247,7 +247,7 @@ def _faults(draft: Draft, pair: Pair) -> Iterator[Diagnostic]:
         yield text_fault(codes.BAD_PROXY, draft, pair.span, pair.text, refused, usual, text=pair.text)
         return
     for unknown in found.unknown:
-        yield text_fault(codes.PASSED_OVER, draft, pair.span, pair.text, unknown)
+        yield text_fault(codes.IGNORED_ENDPOINT, draft, pair.span, pair.text, unknown)
 
 
 def _may_be_absent(port: Port | None) -> bool:
@@ -262,7 +262,7 @@ def _is_only(offer: Offer) -> bool:
     return sum(other.interface == offer.interface for other in offer.owner.offers) == 1
 
 
-class Named(msgspec.Struct, frozen=True):
+class ConnectTarget(msgspec.Struct, frozen=True):
     """`served` are offers by the names under which they are served; `interface` is what stands behind the target's
     name, or ''."""
 
@@ -278,7 +278,7 @@ class Named(msgspec.Struct, frozen=True):
         ]
 
 
-def named(drafts: Drafts, draft: Draft, pair: Pair) -> Named | Diagnostic | None:
+def named(drafts: Drafts, draft: Draft, pair: Pair) -> ConnectTarget | Diagnostic | None:
     """What an entry of `connect:` names, or what is wrong with it; None where that has been reported."""
     linked, instance = drafts.linked, draft.instance
     targets, behind = linked.find(pair.text, instance.scope)
@@ -297,7 +297,7 @@ def named(drafts: Drafts, draft: Draft, pair: Pair) -> Named | Diagnostic | None
         if _lacks_something(drafts, target):
             return None
         served += _of_group(drafts, target, draft) if isinstance(target, LinkedGroup) else _of(drafts, target)
-    return Named(tuple(served), behind)
+    return ConnectTarget(tuple(served), behind)
 
 
 def _not_there(drafts: Drafts, draft: Draft, pair: Pair) -> Diagnostic:

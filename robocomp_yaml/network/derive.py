@@ -14,15 +14,15 @@ from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.deployment import PROGRAM, Text
 from robocomp_yaml.network import processes
-from robocomp_yaml.network.base import Base, base_of
 from robocomp_yaml.network.configuration import Configuration
+from robocomp_yaml.network.configuration_base import ConfigurationBase, base_of
 from robocomp_yaml.network.connections import Connections
-from robocomp_yaml.network.contents import Contents
 from robocomp_yaml.network.draft import Draft, Drafts, assign_ports, drafts_of, text_fault
 from robocomp_yaml.network.gates import Gates
+from robocomp_yaml.network.interface_comparison import InterfaceComparison
 from robocomp_yaml.network.network import FOLDER, Network, Process
-from robocomp_yaml.network.order import AFTER, Need, optional, ordered
-from robocomp_yaml.network.topics import Topics
+from robocomp_yaml.network.order import AFTER, Dependence, optional, ordered
+from robocomp_yaml.network.topics import TopicConnections
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, path_fault, shortened, size
 from robocomp_yaml.source.ice_endpoint import fixed_endpoint
 from robocomp_yaml.source.ice_options import LAST_PORT, Refused
@@ -38,15 +38,15 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
     gates = Gates(drafts)
     gates.place()
     assign_ports(drafts)
-    bases: dict[Draft, Base] = {}
+    bases: dict[Draft, ConfigurationBase] = {}
 
-    def base(draft: Draft) -> Base:
+    def base(draft: Draft) -> ConfigurationBase:
         if draft not in bases:
             bases[draft] = base_of(draft.instance, program.disk)
         return bases[draft]
 
-    contents = Contents()
-    connections, topics = Connections(drafts, contents, gates), Topics(drafts, contents, base)
+    comparison = InterfaceComparison()
+    connections, topics = Connections(drafts, comparison, gates), TopicConnections(drafts, comparison, base)
     connections.resolve()
     gates.connect()
     topics.resolve()
@@ -73,21 +73,21 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
     return network, diagnostics
 
 
-def _said(drafts: Drafts, gates: Gates) -> Iterable[Need]:
+def _said(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
     """What the document says by `after:`. A group is ready when those can reach it that are outside."""
     for draft in drafts.drafts.values():
         texts = draft.instance.entry.after
         for text in texts:
             for gate in gates.before(draft.instance, text.text):
-                yield Need(draft.name, gate.name, "", AFTER, text.span)
+                yield Dependence(draft.name, gate.name, "", AFTER, text.span)
         for target in draft.instance.after:
             name = target.name if isinstance(target, LinkedStorm) else (target.process or target).name
             span = next((text.span for text in texts if text.text == target.name), draft.span)
             if name != draft.name:
-                yield Need(draft.name, name, "", AFTER, span)
+                yield Dependence(draft.name, name, "", AFTER, span)
 
 
-def _put_in_order(network: Network, needs: Sequence[Need]) -> list[Diagnostic]:
+def _put_in_order(network: Network, needs: Sequence[Dependence]) -> list[Diagnostic]:
     waves, after, diagnostics = ordered((process.name for process in network.enabled()), needs)
     network.order = waves
     can_be_absent = optional(needs)

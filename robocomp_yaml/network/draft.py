@@ -15,7 +15,7 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.network.network import LOOPBACK, Endpoint, Host, is_loopback
+from robocomp_yaml.network.network import LOOPBACK, Endpoint, NetworkHost, is_loopback
 from robocomp_yaml.network.port_numbers import COMMON_BEHAVIOR, RESERVED, default_port, next_free
 from robocomp_yaml.source.ice_endpoint import IceEndpoint, parse_endpoint, spelled_host
 from robocomp_yaml.source.ice_options import BLANKS, Refused
@@ -28,7 +28,7 @@ STORM_PORT = 9999
 _ANY_TEXT = "what is for a program that is none of Ice, and may be any text, stands under `args:` or `env:`"
 
 
-def listening(host: Host, number: int) -> str:
+def listening(host: NetworkHost, number: int) -> str:
     """Where an adapter listens: on a machine that others reach, on all its interfaces. `localhost` may also mean ::1,
     which a machine without IPv6 cannot listen on."""
     if not is_loopback(host.address):
@@ -79,7 +79,7 @@ class Offer(msgspec.Struct, eq=False):
         return Endpoint(self.adapter, self.interface.lower(), found.port, self.text, found.protocol, module, self.span)
 
 
-class Given(msgspec.Struct, frozen=True):
+class LocatedText(msgspec.Struct, frozen=True):
     """A text that a configuration gets, and the place in the deployment that it comes from."""
 
     text: str
@@ -93,13 +93,13 @@ class Draft(msgspec.Struct, eq=False):
     configuration gets."""
 
     instance: LinkedInstance
-    host: Host
+    host: NetworkHost
     aliases: list[LinkedInstance] = []
     offers: list[Offer] = []
     hears: list[Offer] = []
-    proxies: dict[str, Given] = {}
-    topics: dict[str, Given] = {}
-    manager: Given | None = None
+    proxies: dict[str, LocatedText] = {}
+    topics: dict[str, LocatedText] = {}
+    manager: LocatedText | None = None
 
     @property
     def name(self) -> str:
@@ -118,7 +118,7 @@ class StormDraft(msgspec.Struct, eq=False):
     """An IceStorm, with the ports of its topic manager and of its publishers."""
 
     linked: LinkedStorm
-    host: Host
+    host: NetworkHost
     manager: int = 0
     publish: int = 0
 
@@ -152,7 +152,7 @@ class Drafts(msgspec.Struct):
     what is missing may be there."""
 
     linked: LinkedDeployment
-    hosts: dict[str, Host] = {}
+    hosts: dict[str, NetworkHost] = {}
     drafts: dict[LinkedInstance, Draft] = {}
     storms: dict[LinkedStorm, StormDraft] = {}
     complete: bool = True
@@ -188,14 +188,14 @@ def is_broken(group: LinkedGroup) -> bool:
     return group.broken or len(group.serves) < len(group.group.exposed)
 
 
-def _host(host: model.Host) -> Host:
-    return Host(host.name, host.address.text, host.user, host.address.span)
+def _host(host: model.Host) -> NetworkHost:
+    return NetworkHost(host.name, host.address.text, host.user, host.address.span)
 
 
-def _placed(hosts: dict[str, Host], host: model.Host | None) -> Host:
+def _placed(hosts: dict[str, NetworkHost], host: model.Host | None) -> NetworkHost:
     if host is not None:
         return hosts.setdefault(host.name, _host(host))
-    return hosts.setdefault(LOOPBACK, Host(LOOPBACK))
+    return hosts.setdefault(LOOPBACK, NetworkHost(LOOPBACK))
 
 
 def _offers(draft: Draft) -> Iterator[Offer]:

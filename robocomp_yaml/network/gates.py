@@ -14,9 +14,9 @@ from robocomp_yaml import resources
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, Served
 from robocomp_yaml.model import deployment as model
-from robocomp_yaml.network.draft import Draft, Drafts, Given, Offer
+from robocomp_yaml.network.draft import Draft, Drafts, LocatedText, Offer
 from robocomp_yaml.network.network import Connection
-from robocomp_yaml.network.order import Need
+from robocomp_yaml.network.order import Dependence
 
 PROGRAM = "templates/gate/gate.py"
 _TABLE = "SERVED = ()\n"
@@ -27,7 +27,7 @@ class Gates(msgspec.Struct):
 
     drafts: Drafts
     found: list[Connection] = []
-    needs: list[Need] = []
+    needs: list[Dependence] = []
     _of: dict[LinkedGroup, Draft] = {}
 
     def place(self) -> None:
@@ -92,10 +92,10 @@ class Gates(msgspec.Struct):
                 if offer.endpoint is None:
                     continue
                 target, proxy, span = offer.owner.name, offer.proxy, _place(served)
-                gate.proxies[served.name] = Given(proxy, span)
+                gate.proxies[served.name] = LocatedText(proxy, span)
                 connection = Connection(gate.name, served.name, offer.interface, target, proxy=proxy, span=span)
                 self.found.append(connection)
-                self.needs.append(Need(gate.name, target, "", served.name, span))
+                self.needs.append(Dependence(gate.name, target, "", served.name, span))
 
     def _behind(self, group: LinkedGroup) -> Iterator[tuple[Served, Offer]]:
         for served in _ruled(group):

@@ -26,7 +26,7 @@ def is_loopback(address: str) -> bool:
     return address in (LOOPBACK, "::1", "ip6-localhost") or address.startswith("127.")
 
 
-class Host(Located, frozen=True):
+class NetworkHost(Located, frozen=True):
     """A machine. `address` is a name or an IP address, LOOPBACK if the document has no hosts. `user` is the user for
     ssh, '' for the operator's own name."""
 
@@ -36,7 +36,7 @@ class Host(Located, frozen=True):
     span: Span = Span("")
 
 
-class Variable(msgspec.Struct, frozen=True):
+class EnvironmentVariable(msgspec.Struct, frozen=True):
     """A variable of a process's environment: `value`, or the value of the operator's variable `source`, or the text of
     `file` on the process's host. The latter two are read when the process starts, and never written or printed. `file`
     is absolute, or begins with `~/`, the home of the user that runs the process. A line end at its end is ignored."""
@@ -84,7 +84,7 @@ class Readiness(msgspec.Struct, frozen=True):
         return bool(self.pings or self.port or self.command or self.log)
 
 
-class Restart(msgspec.Struct, frozen=True):
+class RestartRule(msgspec.Struct, frozen=True):
     """What happens when a process ends by itself. `policy` is NEVER, ON_FAILURE or ALWAYS. The first restart waits
     `delay` seconds, each further one twice as long, at most `longest`. After `tries` restarts within `window` seconds
     the process is given up."""
@@ -120,13 +120,13 @@ class Process(Located, frozen=True, forbid_unknown_fields=True):
     command: tuple[str, ...]
     cwd: str
     kind: str = COMPONENT
-    env: tuple[Variable, ...] = ()
+    env: tuple[EnvironmentVariable, ...] = ()
     config: ConfigFile | None = None
     endpoints: tuple[Endpoint, ...] = ()
     after: tuple[str, ...] = ()
     optional: tuple[str, ...] = ()
     ready: Readiness = Readiness()
-    restart: Restart = Restart()
+    restart: RestartRule = RestartRule()
     watched: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
@@ -173,7 +173,7 @@ class Network(msgspec.Struct):
     name: str
     path: str
     folder: str
-    hosts: dict[str, Host] = {}
+    hosts: dict[str, NetworkHost] = {}
     processes: dict[str, Process] = {}
     connections: list[Connection] = []
     order: list[tuple[str, ...]] = []

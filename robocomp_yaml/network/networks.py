@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.network.network import Network
 
 
-class Derived(msgspec.Struct, frozen=True):
+class DerivedNetworks(msgspec.Struct, frozen=True):
     """Every deployment's network by its real path, and the diagnostics of all. `judged` are the deployments to check:
     one that another deployment includes is checked as a part of the other."""
 
@@ -23,9 +23,9 @@ class Derived(msgspec.Struct, frozen=True):
     judged: tuple[str, ...] = ()
 
 
-def networks_of(program: Program) -> Derived:
+def networks_of(program: Program) -> DerivedNetworks:
     if not program.deployments:  # most programs have none
-        return Derived()
+        return DerivedNetworks()
     from robocomp_yaml.network.derive import derive
 
     networks: dict[str, Network] = {}
@@ -36,4 +36,4 @@ def networks_of(program: Program) -> Derived:
         if not linked.is_included:
             diagnostics += reported
             judged.append(real)
-    return Derived(networks, tuple(diagnostics), tuple(judged))
+    return DerivedNetworks(networks, tuple(diagnostics), tuple(judged))

@@ -15,7 +15,7 @@ from robocomp_yaml.model.component import FAIL, IGNORE, WAIT
 AFTER = "after"
 
 
-class Need(msgspec.Struct, frozen=True):
+class Dependence(msgspec.Struct, frozen=True):
     """A dependence: `source` starts after `target`. `absent` is what `source` does while `target` is absent (IGNORE,
     WAIT or FAIL), '' if that is unknown. `port` is its proxy, or AFTER for a dependence from `after:`."""
 
@@ -27,7 +27,7 @@ class Need(msgspec.Struct, frozen=True):
 
 
 def ordered(
-    names: Iterable[str], needs: Iterable[Need]
+    names: Iterable[str], needs: Iterable[Dependence]
 ) -> tuple[list[tuple[str, ...]], dict[str, tuple[str, ...]], list[Diagnostic]]:
     """The waves, what each process starts after, and diagnostics. If processes depend on each other in a circle, one
     that can wait for another starts first."""
@@ -46,7 +46,7 @@ def ordered(
         diagnostics += reported
 
 
-def optional(needs: Iterable[Need]) -> dict[str, set[str]]:
+def optional(needs: Iterable[Dependence]) -> dict[str, set[str]]:
     """For each process, the processes that it can work without: all its dependences on them have `absent: ignore`."""
     found: dict[str, set[str]] = {}
     needed = []
@@ -62,8 +62,8 @@ def optional(needs: Iterable[Need]) -> dict[str, set[str]]:
 
 
 def _without_circles(
-    needs: list[Need], after: Mapping[str, Iterable[str]], position: Mapping[str, int]
-) -> tuple[list[Need], list[Diagnostic]]:
+    needs: list[Dependence], after: Mapping[str, Iterable[str]], position: Mapping[str, int]
+) -> tuple[list[Dependence], list[Diagnostic]]:
     """The dependences without one of each set of connected circles, the least important one; with diagnostics."""
     cost: dict[tuple[str, str], int] = {}
     for need in needs:
@@ -81,12 +81,12 @@ def _without_circles(
     return [need for need in needs if (need.source, need.target) not in dropped], diagnostics
 
 
-def _cost(need: Need) -> int:
+def _cost(need: Dependence) -> int:
     """How important a dependence is: with IGNORE and WAIT, a process can start before the other."""
     return {IGNORE: 0, WAIT: 1, "": 2, FAIL: 3}[need.absent] if need.port != AFTER else 4
 
 
-def _reported(drop: Need, circle: list[str]) -> Diagnostic:
+def _reported(drop: Dependence, circle: list[str]) -> Diagnostic:
     around = " → ".join(circle)
     if drop.absent in (IGNORE, WAIT):
         does = "waits for it" if drop.absent == WAIT else "works without it until it is ready"

@@ -16,15 +16,15 @@ from robocomp_yaml.network.network import (
     ICESTORM,
     PROGRAM,
     ConfigFile,
+    EnvironmentVariable,
     Process,
     Readiness,
-    Restart,
-    Variable,
+    RestartRule,
 )
 from robocomp_yaml.parameters.hidden import declared
 from robocomp_yaml.source.properties import entry_line
 
-_DEFAULTS = Restart()
+_DEFAULTS = RestartRule()
 
 
 def of_draft(
@@ -64,11 +64,11 @@ def of_draft(
     )
 
 
-def _variable(given: model.Variable, document: str) -> Variable:
+def _variable(given: model.Variable, document: str) -> EnvironmentVariable:
     file = given.file
     if file and not file.startswith("~/"):
         file = os.path.abspath(os.path.join(os.path.dirname(document), file))
-    return Variable(given.name, given.value, given.source, file)
+    return EnvironmentVariable(given.name, given.value, given.source, file)
 
 
 def program_of(draft: Draft) -> str:
@@ -127,11 +127,11 @@ def _ready(draft: Draft) -> Readiness:
     return Readiness(within, port=ports[0] if ports else None)
 
 
-def _restart(given: model.Restart | None) -> Restart:
+def _restart(given: model.Restart | None) -> RestartRule:
     if given is None:
         return _DEFAULTS
     delay = _DEFAULTS.delay if given.delay is None else given.delay
-    return Restart(
+    return RestartRule(
         given.policy,
         delay,
         max(delay, _DEFAULTS.longest),

@@ -24,7 +24,7 @@ class NamedEnd(msgspec.Struct, frozen=True):
     is_out: bool
 
 
-class _Visit(msgspec.Struct, frozen=True):
+class _Lookup(msgspec.Struct, frozen=True):
     """The lookup of an end in `scope` under `name`. If a scope to which its own name leads has no other end, the lookup
     returns to `home`, where the name is `spelled`, and continues outwards."""
 
@@ -38,7 +38,7 @@ class _Visit(msgspec.Struct, frozen=True):
 def full_names(ends: Sequence[NamedEnd], scopes: Collection[str], outermost: str = "") -> list[str]:
     """The name of each end's topic in its IceStorm, which serves the scope `outermost` and all scopes in it."""
     names = [""] * len(ends)
-    waiting: dict[tuple[str, str], list[_Visit]] = {}
+    waiting: dict[tuple[str, str], list[_Lookup]] = {}
     for index, end in enumerate(ends):
         visit = _first(index, end, scopes, outermost)
         waiting.setdefault((visit.scope, visit.name), []).append(visit)
@@ -56,7 +56,7 @@ def full_names(ends: Sequence[NamedEnd], scopes: Collection[str], outermost: str
     return names
 
 
-def _first(index: int, end: NamedEnd, scopes: Collection[str], outermost: str) -> _Visit:
+def _first(index: int, end: NamedEnd, scopes: Collection[str], outermost: str) -> _Lookup:
     """The scope in which the lookup of a name begins: an include that the name begins with, or outside all includes."""
     outside = end.name.lstrip("/")
     is_absolute = outside not in ("", end.name)
@@ -65,11 +65,11 @@ def _first(index: int, end: NamedEnd, scopes: Collection[str], outermost: str) -
     while True:
         first, slash, rest = name.partition("/")
         if not (slash and rest and f"{scope}{first}." in scopes):
-            return _Visit(index, scope, name, home, spelled)
+            return _Lookup(index, scope, name, home, spelled)
         scope, name = f"{scope}{first}.", rest
 
 
-def _following(visit: _Visit) -> _Visit:
+def _following(visit: _Lookup) -> _Lookup:
     if len(visit.scope) > len(visit.home):
         return replace(visit, scope=visit.home, name=visit.spelled)
     outer = visit.scope[: visit.scope.rstrip(".").rfind(".") + 1]

@@ -11,17 +11,17 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedStorm
 from robocomp_yaml.link.program import Port
-from robocomp_yaml.network.base import Base
-from robocomp_yaml.network.contents import Contents
-from robocomp_yaml.network.draft import Draft, Drafts, Given, StormDraft
+from robocomp_yaml.network.configuration_base import ConfigurationBase
+from robocomp_yaml.network.draft import Draft, Drafts, LocatedText, StormDraft
+from robocomp_yaml.network.interface_comparison import InterfaceComparison
 from robocomp_yaml.network.network import TOPIC, Connection
-from robocomp_yaml.network.order import Need
+from robocomp_yaml.network.order import Dependence
 from robocomp_yaml.network.topic_names import NamedEnd, full_names
 
 _MANY = 6
 
 
-class _End(msgspec.Struct, frozen=True):
+class _TopicEnd(msgspec.Struct, frozen=True):
     """A port at one end of the topic that its document calls `name`; `storm` is None, and `manager` given, where the
     IceStorm is none of ours."""
 
@@ -38,29 +38,29 @@ class _End(msgspec.Struct, frozen=True):
         return NamedEnd(self.draft.name, self.draft.instance.scope, self.name, self.is_out)
 
 
-class Topics(msgspec.Struct):
+class TopicConnections(msgspec.Struct):
     """As `Connections`: `found` are the lines of the graph, `needs` says who waits for whom."""
 
     drafts: Drafts
-    contents: Contents
-    base_of: Callable[[Draft], Base]
+    comparison: InterfaceComparison
+    base_of: Callable[[Draft], ConfigurationBase]
     found: list[Connection] = []
-    needs: list[Need] = []
+    needs: list[Dependence] = []
     diagnostics: list[Diagnostic] = []
-    _ends: dict[tuple[str, str], list[_End]] = {}
+    _ends: dict[tuple[str, str], list[_TopicEnd]] = {}
     _several: list[list[LinkedStorm]] = []
     _without: list[Draft] = []
 
     def resolve(self) -> None:
-        every: list[_End] = []
+        every: list[_TopicEnd] = []
         for draft in self.drafts.drafts.values():
             component = draft.instance.component
             if component is None or not (component.publishes or component.subscribes):
                 continue
             storm, manager = self._storm(draft)
             if storm is not None:
-                draft.manager = Given(storm.proxy, draft.span)
-                self.needs.append(Need(draft.name, storm.name, "", "TopicManager", draft.span))
+                draft.manager = LocatedText(storm.proxy, draft.span)
+                self.needs.append(Dependence(draft.name, storm.name, "", "TopicManager", draft.span))
             elif not manager:
                 continue
             every += [self._end(draft, port, storm, manager, is_out=True) for port in component.publishes]
@@ -85,7 +85,7 @@ class Topics(msgspec.Struct):
             self._several.append(nearest)
             hint, storms = "leave one of them: it serves all hosts", ", ".join(storm.name for storm in nearest)
             related = [Related(f"'{storm.name}'", storm.storm.span) for storm in nearest]
-            several = codes.TWO_STORMS.at(draft.span, hint=hint, related=related, source=draft.name, storms=storms)
+            several = codes.SEVERAL_STORMS.at(draft.span, hint=hint, related=related, source=draft.name, storms=storms)
             self.diagnostics.append(several)
         elif not nearest and not manager and not self.drafts.linked.is_included and self.drafts.complete:
             self._without.append(draft)
@@ -106,14 +106,14 @@ class Topics(msgspec.Struct):
             related=[Related(f"{port.name} stands here", port.use.span)],
         )
 
-    def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> _End:
+    def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> _TopicEnd:
         for rename in (pair for pair in draft.instance.entry.topics if pair.name == port.name):
-            draft.topics[port.name] = Given(rename.text, rename.span)
-            return _End(draft, port, is_out, rename.text, rename.span, storm, manager)
+            draft.topics[port.name] = LocatedText(rename.text, rename.span)
+            return _TopicEnd(draft, port, is_out, rename.text, rename.span, storm, manager)
         name = self.base_of(draft).topic(port.name, port.interface.name, is_out=is_out)
-        return _End(draft, port, is_out, name, draft.span, storm, manager)
+        return _TopicEnd(draft, port, is_out, name, draft.span, storm, manager)
 
-    def _topics(self, every: list[_End]) -> list[str]:
+    def _topics(self, every: list[_TopicEnd]) -> list[str]:
         """The full names of their topics. An IceStorm that is none of ours has others besides us, who know them by the
         names that they have in the documents."""
         topics = [end.name for end in every]
@@ -125,21 +125,21 @@ class Topics(msgspec.Struct):
                 topics[index] = name
         return topics
 
-    def _meet(self, end: _End, topic: str) -> None:
+    def _meet(self, end: _TopicEnd, topic: str) -> None:
         draft, port, storm = end.draft, end.port, end.storm
         if topic != end.name:
-            draft.topics[port.name] = Given(topic, end.span)
+            draft.topics[port.name] = LocatedText(topic, end.span)
         carrier, proxy = (storm.name, storm.proxy) if storm else ("", end.manager)
         interface = port.interface.name
         connection = Connection(draft.name, port.name, interface, carrier, TOPIC, topic, end.is_out, proxy, end.span)
         self.found.append(connection)
         self._ends.setdefault((carrier or f":{end.manager}", topic), []).append(end)
 
-    def _compare(self, topic: str, ends: list[_End]) -> None:
+    def _compare(self, topic: str, ends: list[_TopicEnd]) -> None:
         """Every end of a topic must mean the same interface; what is subscribed should be published."""
         first = next((end for end in ends if end.is_out), ends[0])
         for end in ends:
-            found = self.contents.difference(first.port, end.port)
+            found = self.comparison.difference(first.port, end.port)
             if found is not None:
                 hint = "let both import the same document, or rename one topic"
                 source, target = end.draft.name, first.draft.name
@@ -154,10 +154,10 @@ class Topics(msgspec.Struct):
         hint = self._other_names(first) + _too([end.draft for end in ends[1:]])
         related = [Related(f"{first.port.name} is subscribed to here", first.port.use.span)]
         source = first.draft.name
-        silent = codes.NOBODY_PUBLISHES.at(first.span, hint=hint, related=related, source=source, topic=topic)
+        silent = codes.NOT_PUBLISHED.at(first.span, hint=hint, related=related, source=source, topic=topic)
         self.diagnostics.append(silent)
 
-    def _other_names(self, end: _End) -> str:
+    def _other_names(self, end: _TopicEnd) -> str:
         """Where the same interface is published: under another name, or with another IceStorm."""
         names, storms = set(), set()
         for (_, topic), ends in self._ends.items():

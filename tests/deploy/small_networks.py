@@ -12,16 +12,16 @@ from typing import Any
 
 from processes import until
 from robocomp_yaml.deploy import operations
-from robocomp_yaml.deploy.carry_out import Event
+from robocomp_yaml.deploy.carry_out import ProcessEvent
 from robocomp_yaml.deploy.engine import Line, Running
 from robocomp_yaml.deploy.local import procfs, record
 from robocomp_yaml.deploy.local.engine import LocalEngine
 from robocomp_yaml.deploy.operations import Result, Status
 from robocomp_yaml.deploy.time_limit import TimeLimit
-from robocomp_yaml.network.network import ConfigFile, Host, Network, Process, Readiness
+from robocomp_yaml.network.network import ConfigFile, Network, NetworkHost, Process, Readiness
 
 LISTEN = "import socket,sys,time; s = socket.create_server(('127.0.0.1', int(sys.argv[1]))); time.sleep(600)"
-HERE = Host("localhost")
+HERE = NetworkHost("localhost")
 
 
 def sleeper(name: str, *after: str, **more: Any) -> Process:
@@ -49,7 +49,7 @@ class Place:
     """A folder with the deployment `Robot`, whose processes a test gives anew with each call."""
 
     root: Path
-    events: list[Event] = field(default_factory=list)
+    events: list[ProcessEvent] = field(default_factory=list)
 
     @property
     def folder(self) -> str:

@@ -9,7 +9,7 @@ from robocomp_yaml.deploy.carry_out import GONE, READY, STARTING, STOPPING
 from robocomp_yaml.deploy.engine import RUNNING
 from robocomp_yaml.deploy.operations import KEEP_GOING
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP
-from robocomp_yaml.network.network import Process, Readiness, Restart, Variable
+from robocomp_yaml.network.network import EnvironmentVariable, Process, Readiness, RestartRule
 from small_networks import Place, config_of, listener, readable_by_others, shell, sleeper
 
 
@@ -73,7 +73,7 @@ def test_one_changed_configuration_restarts_one(place: Place) -> None:
 def test_what_is_no_ice_follows_what_it_needs(place: Place) -> None:
     def network(value: str) -> tuple[Process, ...]:
         return (
-            sleeper("a", env=(Variable("X", value),)), sleeper("plain", "a"), replace(sleeper("ice", "a"), is_ice=True)
+            sleeper("a", env=(EnvironmentVariable("X", value),)), sleeper("plain", "a"), replace(sleeper("ice", "a"), is_ice=True)
         )  # fmt: skip
 
     place.up(*network("1"))
@@ -85,10 +85,10 @@ def test_what_is_no_ice_follows_what_it_needs(place: Place) -> None:
 def test_what_holds_without_a_restart_changes_in_place(place: Place) -> None:
     place.up(sleeper("a"))
     pids = place.pids()
-    result = place.up(sleeper("a", restart=Restart(tries=9)))
+    result = place.up(sleeper("a", restart=RestartRule(tries=9)))
     assert actions(result) == {"a": CHANGE}
     assert place.pids() == pids
-    assert place.up(sleeper("a", restart=Restart(tries=9))).plan.is_empty
+    assert place.up(sleeper("a", restart=RestartRule(tries=9))).plan.is_empty
 
 
 def test_a_changed_file_restarts(place: Place) -> None:

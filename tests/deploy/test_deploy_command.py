@@ -354,14 +354,14 @@ def test_a_host_is_asked_over_ssh(robot: Path, rcyaml: Rcyaml, monkeypatch: pyte
 
 
 def test_several_hosts_need_icegrid_too(robot: Path, rcyaml: Rcyaml, monkeypatch: pytest.MonkeyPatch) -> None:
-    from robocomp_yaml.deploy.probe import NODE, Wanted
+    from robocomp_yaml.deploy.probe import NODE, ProgramQuery
 
     hosts = "hosts: {one: 127.0.0.1, two: 127.0.0.2}\ncomponents:\n"
     entries = "  a: {program: sh, host: one}\n  b: {program: sh, host: two}\n"
     write_tree(robot, {"robot.ddsl.yaml": f"deployment: Robot\n{hosts}{entries}"})
     result = deploy(rcyaml, "probe", "one", "--format", "json")
     assert [one["program"] for one in json.loads(result.stdout)["hosts"]["one"]] == ["sh", "icegridnode"]
-    monkeypatch.setattr("robocomp_yaml.deploy.probe.programs", lambda network: {Wanted("no-node"): (NODE,)})
+    monkeypatch.setattr("robocomp_yaml.deploy.probe.programs", lambda network: {ProgramQuery("no-node"): (NODE,)})
     assert deploy(rcyaml, "probe", "one").exit_code == 1
 
 

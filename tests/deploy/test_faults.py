@@ -21,11 +21,11 @@ from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import SKIPPED
 from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING
 from robocomp_yaml.deploy.local import channel, procfs
-from robocomp_yaml.network.network import NEVER, Endpoint, Process, Readiness, Restart, Variable
+from robocomp_yaml.network.network import NEVER, Endpoint, EnvironmentVariable, Process, Readiness, RestartRule
 from small_networks import Place, config_of, is_alive, listener, shell, sleeper
 
 FAILS = "echo about to fail; exit 3"
-ONCE = Restart(policy=NEVER)
+ONCE = RestartRule(policy=NEVER)
 DEEP = "(setsid sh -c 'sleep 600 & sleep 600' &) ; sleep 600 & wait"
 
 
@@ -83,7 +83,7 @@ def test_one_that_runs_but_is_not_ready_is_told_by_each_up(place: Place, free_po
     result = place.up(never, sleeper("b"))
     assert result.plan.is_empty and codes(result) == ["RC7003"]
     assert place.pids() == pids and pids["a"]
-    result = place.up(never, sleeper("b", env=(Variable("X", "1"),)))
+    result = place.up(never, sleeper("b", env=(EnvironmentVariable("X", "1"),)))
     assert codes(result) == ["RC7003"] and result.outcome.began == ["b"]
     assert place.observe()["b"].state == RUNNING
 
@@ -97,7 +97,7 @@ def test_a_port_that_another_program_has(place: Place, free_port: Ports) -> None
     assert f"(pid {os.getpid()})" in result.diagnostics[0].message
     assert place.pids() == {}  # nothing at all was started
     assert not place.up(sleeper("b"), served).diagnostics
-    changed = replace(served, env=(Variable("X", "1"),))
+    changed = replace(served, env=(EnvironmentVariable("X", "1"),))
     assert not place.up(sleeper("b"), changed).diagnostics  # its own port is not in its own way
 
 
@@ -158,7 +158,7 @@ def test_one_that_crashes_is_started_again(place: Place) -> None:
 
 
 def test_a_crash_loop_is_given_up(place: Place) -> None:
-    short = Restart(delay=0.01, longest=0.02, tries=3)
+    short = RestartRule(delay=0.01, longest=0.02, tries=3)
     result = place.up(shell("a", FAILS, restart=short))
     assert codes(result) == ["RC7004"]
     assert result.diagnostics[0].message == "'a' ended before it was ready: exit code 3, after 3 restarts"
@@ -181,7 +181,7 @@ def test_one_that_was_given_up_starts_with_the_next_up(place: Place) -> None:
 def test_a_program_that_vanishes_between_two_runs(place: Place) -> None:
     program = place.root / "program"
     program.symlink_to("/bin/sleep")
-    place.up(replace(sleeper("a", restart=Restart(delay=0.01, tries=2)), command=(str(program), "600")))
+    place.up(replace(sleeper("a", restart=RestartRule(delay=0.01, tries=2)), command=(str(program), "600")))
     program.unlink()
     os.kill(place.pids()["a"], signal.SIGKILL)
     assert place.wait_for_state("a", GIVEN_UP).last_exit == f"there is no file '{program}'"
@@ -283,7 +283,7 @@ def test_a_signal_to_the_supervisor_takes_all_down(place: Place) -> None:
 def test_a_secret_is_nowhere(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
     secret = "correct-horse-battery"
     monkeypatch.setenv("ROBOT_TOKEN", secret)
-    token = Variable("TOKEN", source="ROBOT_TOKEN")
+    token = EnvironmentVariable("TOKEN", source="ROBOT_TOKEN")
     said = shell("a", 'printf "%s" "$TOKEN" | wc -c; exec sleep 600', env=(token,))
     place.up(said)
     until(lambda: str(len(secret)) in [line.strip() for line in place.log("a")], "it has got it")
@@ -294,7 +294,7 @@ def test_a_secret_is_nowhere(place: Place, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_a_variable_that_is_not_set(place: Place) -> None:
-    result = place.up(sleeper("a", env=(Variable("TOKEN", source="RCYAML_TEST_NOT_SET"),)))
+    result = place.up(sleeper("a", env=(EnvironmentVariable("TOKEN", source="RCYAML_TEST_NOT_SET"),)))
     assert codes(result) == ["RC7006"] and place.pids() == {}
 
 

@@ -16,7 +16,15 @@ import pytest
 from conftest import write_tree
 from processes import Running, until
 from robocomp_yaml.emit.exports import export
-from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Host, Network, Process, Restart, Variable
+from robocomp_yaml.network.network import (
+    LOOPBACK,
+    PROGRAM,
+    EnvironmentVariable,
+    Network,
+    NetworkHost,
+    Process,
+    RestartRule,
+)
 from small_networks import config_of, shell, sleeper
 
 MANAGER = shutil.which("systemd", path="/usr/lib/systemd:/lib/systemd")
@@ -77,7 +85,7 @@ def systemctl() -> Iterator[Systemctl]:
 
 def install(systemctl: Systemctl, *processes: Process) -> None:
     """As docs/exports.md says: units to where the manager looks for them, and config/ to where they look for it."""
-    network = Network("Robot", "/robot.ddsl.yaml", "/f", {LOOPBACK: Host(LOOPBACK)})
+    network = Network("Robot", "/robot.ddsl.yaml", "/f", {LOOPBACK: NetworkHost(LOOPBACK)})
     network.processes = {process.name: process for process in processes}
     settings = systemctl.home / ".config"  # type: ignore[attr-defined]
     for path, text in export(network, "systemd").items():
@@ -91,7 +99,7 @@ def test_the_units_run(systemctl: Systemctl, tmp_path: Path) -> None:
     folder.mkdir()
     odd = Process(
         "odd", LOOPBACK, ("python3", "-c", SCRIPT, *ODD), str(folder), PROGRAM, is_ice=False,
-        env=(Variable("TITLE", 'a $title 50% "q" \\x'), Variable("TOKEN", source="ROBOT_TOKEN")),
+        env=(EnvironmentVariable("TITLE", 'a $title 50% "q" \\x'), EnvironmentVariable("TOKEN", source="ROBOT_TOKEN")),
     )  # fmt: skip
     logged = f"echo $0 >> {tmp_path}/order; exec sleep 600"
     config = config_of("configured", "x = $HOME 100%\n")
@@ -121,7 +129,7 @@ def test_the_units_run(systemctl: Systemctl, tmp_path: Path) -> None:
 
 
 def test_what_crashes_comes_back_and_not_for_ever(systemctl: Systemctl, tmp_path: Path) -> None:
-    loop = shell("loop", f"echo again >> {tmp_path}/crashes; exit 3", restart=Restart(delay=0.01, tries=3))
+    loop = shell("loop", f"echo again >> {tmp_path}/crashes; exit 3", restart=RestartRule(delay=0.01, tries=3))
     install(systemctl, loop, sleeper("steady"))
     systemctl("start", "Robot.target")
     until(lambda: systemctl("is-active", "Robot-steady.service") == "active\n", "it runs")

@@ -13,7 +13,7 @@ from conftest import write_tree
 from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import SKIPPED
 from robocomp_yaml.deploy.engine import RUNNING
-from robocomp_yaml.network.network import NEVER, Process, Readiness, Restart, Variable
+from robocomp_yaml.network.network import NEVER, EnvironmentVariable, Process, Readiness, RestartRule
 from small_networks import Place, shell, sleeper
 
 IN_VAIN = Readiness(log="never", within=600)
@@ -44,7 +44,7 @@ def test_who_is_ready_and_who_is_not(place: Place) -> None:
 
 
 def test_what_failed_before_is_told_apart(place: Place) -> None:
-    fails = shell("b", "echo no power; exit 3", restart=Restart(policy=NEVER))
+    fails = shell("b", "echo no power; exit 3", restart=RestartRule(policy=NEVER))
     result = place.up(sleeper("a"), fails, waiting("c"), limit=ENOUGH, on_failure=operations.KEEP_GOING)
     assert codes(result) == ["RC7011", "RC7004"]
     late, failed = result.diagnostics
@@ -66,7 +66,7 @@ def test_over_before_anything_was_done(place: Place) -> None:
 def test_back_to_what_ran_before(place: Place) -> None:
     place.up(sleeper("a"), sleeper("b", "a"))
     before = place.pids()
-    changed = sleeper("b", "a", env=(Variable("X", "1"),))
+    changed = sleeper("b", "a", env=(EnvironmentVariable("X", "1"),))
     result = place.up(sleeper("a"), changed, waiting("c", "b"), limit=ENOUGH, on_failure=operations.ROLL_BACK)
     assert codes(result) == ["RC7011"]
     after = place.observe()

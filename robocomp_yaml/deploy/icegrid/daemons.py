@@ -18,9 +18,9 @@ import msgspec
 from robocomp_yaml import resources
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.icegrid import settings
-from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 from robocomp_yaml.deploy.local.procfs import MARK
-from robocomp_yaml.network.network import LOOPBACK, Host
+from robocomp_yaml.network.network import LOOPBACK, NetworkHost
 from robocomp_yaml.source.properties import entry_line
 
 
@@ -28,17 +28,17 @@ def as_text(properties: Mapping[str, str]) -> str:
     return "".join(entry_line(key, value) + "\n" for key, value in properties.items())
 
 
-def start_registry(places: Places, registry: Registry) -> None:
+def start_registry(files: GridFiles, registry: Registry) -> None:
     """Starts the registry, and what starts it again after a crash. Raises OSError."""
-    own = places.registry_folder
+    own = files.registry_folder
     for path in (own, f"{own}/data"):
         os.makedirs(path, mode=0o700, exist_ok=True)
-    text = as_text(settings.of_registry(places, registry))
-    own_folder.write(places.folder, "state/icegrid/registry/settings", text)
-    own_folder.write(places.folder, "state/icegrid/registry/guard", resources.text("templates/icegrid/guard"))
+    text = as_text(settings.of_registry(files, registry))
+    own_folder.write(files.folder, "state/icegrid/registry/settings", text)
+    own_folder.write(files.folder, "state/icegrid/registry/guard", resources.text("templates/icegrid/guard"))
     command = ["bash", f"{own}/guard", own, "icegridregistry", f"--Ice.Config={own}/settings"]
     started = subprocess.Popen(
-        command, env={**os.environ, MARK: f"{places.folder}:"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+        command, env={**os.environ, MARK: f"{files.folder}:"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL, start_new_session=True, cwd="/",
     )  # fmt: skip
     started.returncode = 0  # it stays when this process ends, and nobody waits for it
@@ -76,45 +76,45 @@ def last_words(folder: str) -> str:
         return ""
 
 
-def write_script(places: Places, host: Host, registry: Registry) -> str:
+def write_script(files: GridFiles, host: NetworkHost, registry: Registry) -> str:
     """The path of the script that starts the host's node."""
     address = "127.0.0.1" if host.address == LOOPBACK else host.address
     facts = {
-        "folder": places.folder,
+        "folder": files.folder,
         "host": host.name,
-        "certificate": _text(places.certificate),
-        "key": _text(places.key),
-        "settings": as_text(settings.of_node(places, host.name, address, registry)),
+        "certificate": _text(files.certificate),
+        "key": _text(files.key),
+        "settings": as_text(settings.of_node(files, host.name, address, registry)),
         "run": resources.text("templates/icegrid/run"),
         "guard": resources.text("templates/icegrid/guard"),
     }
     head = "".join(f"{name}={shlex.quote(text.rstrip())}\n" for name, text in facts.items())
     path = f"state/icegrid/hosts/{host.name}.sh"
-    own_folder.write(places.folder, path, head + resources.text("templates/icegrid/node"))
-    return f"{places.folder}/{path}"
+    own_folder.write(files.folder, path, head + resources.text("templates/icegrid/node"))
+    return f"{files.folder}/{path}"
 
 
-class Start(msgspec.Struct, frozen=True):
+class NodeStart(msgspec.Struct, frozen=True):
     """What became of starting a node: `reason` why it failed, else ''; and whether it ran already."""
 
     reason: str = ""
     was_there: bool = False
 
 
-def outcome(code: int | None, output: str, errors: str) -> Start:
+def outcome(code: int | None, output: str, errors: str) -> NodeStart:
     """What a node's script has said."""
     reason = (errors.strip() or "the script that starts it failed") if code else ""
-    return Start(reason, output.rstrip().endswith("already"))
+    return NodeStart(reason, output.rstrip().endswith("already"))
 
 
-def start_node_here(script: str) -> Start:
+def start_node_here(script: str) -> NodeStart:
     """Starts a node on this machine."""
     with open(script, "rb") as file:
         done = subprocess.run(["bash", "-s"], stdin=file, capture_output=True, text=True, check=False, cwd="/")
     return outcome(done.returncode, done.stdout, done.stderr)
 
 
-def by_hand(script: str, host: Host) -> str:
+def by_hand(script: str, host: NetworkHost) -> str:
     """The command that starts a node on another host."""
     where = f"{host.user}@{host.address}" if host.user else host.address
     return f"ssh {where} bash -s < {shlex.quote(script)}"

@@ -19,9 +19,9 @@ from typing import Any
 import IceGrid
 
 from robocomp_yaml.deploy.engine import STOP_WITHIN
-from robocomp_yaml.deploy.icegrid.places import KEEPER, Places
+from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
 from robocomp_yaml.deploy.local.procfs import MARK
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.network.network import ICESTORM, Process
 from robocomp_yaml.source import properties
 
@@ -46,11 +46,11 @@ _SERVICE = "IceBox.Service."
 _AFTER_KILL = 10  # seconds that IceGrid itself waits, after what `run` waits
 
 
-def server(places: Places, spec: Spec, user: str, number: int, *, is_here: bool) -> Any:
+def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_here: bool) -> Any:
     """The descriptor of a process; its configuration travels in it to another host. `number` is that of its rule."""
     process = spec.process
     is_storm = process.kind == ICESTORM and process.config is not None
-    words = [process.name, places.folder, *(f"f{path}" for path in process.folders)]
+    words = [process.name, files.folder, *(f"f{path}" for path in process.folders)]
     environment = [f"RCYAML_STOP_WITHIN={STOP_WITHIN:g}", f"RCYAML_RESTART={restart_rule(process, number)}"]
     for place, variable in enumerate(process.env):
         if variable.source:
@@ -71,7 +71,7 @@ def server(places: Places, spec: Spec, user: str, number: int, *, is_here: bool)
     facts = _facts(
         process.name, "setpriv", ["--pdeathsig", "KILL", "--", "${node.data}/../run", *map(_literal, words)],
         pwd=_literal(process.cwd), envs=environment, user=user, activation="manual",
-        logs=[_literal(places.log(process.name)), _literal(places.status(process.name))],
+        logs=[_literal(files.log(process.name)), _literal(files.status(process.name))],
         deactivationTimeout=f"{STOP_WITHIN + _AFTER_KILL:g}",
         propertySet=_property_set(_QUIET),
     )  # fmt: skip
@@ -81,22 +81,22 @@ def server(places: Places, spec: Spec, user: str, number: int, *, is_here: bool)
     return IceGrid.ServerDescriptor(**facts)
 
 
-def keeper(places: Places, user: str) -> Any:
+def keeper(files: GridFiles, user: str) -> Any:
     """The server that brings processes back when their node has come back; IceGrid itself restarts it."""
-    words = (places.folder, sys.executable, "-m", _KEEPER_MODULE, places.folder)
+    words = (files.folder, sys.executable, "-m", _KEEPER_MODULE, files.folder)
     facts = _facts(
         KEEPER, "setpriv",
         ["--pdeathsig", "KILL", "--", "bash", "-c", _KEEPER_SCRIPT, "bash", *map(_literal, words)],
         pwd="/", user=user, activation="always", deactivationTimeout="5", propertySet=_property_set(_QUIET),
-        envs=[f"PYTHONPATH={package_path()}", f"{MARK}={places.folder}:"], logs=[],
+        envs=[f"PYTHONPATH={package_path()}", f"{MARK}={files.folder}:"], logs=[],
     )  # fmt: skip
     return IceGrid.ServerDescriptor(**facts)
 
 
-def ender(places: Places, names: Iterable[str], user: str) -> Any:
+def ender(files: GridFiles, names: Iterable[str], user: str) -> Any:
     """A server that ends these processes on its host, which IceGrid no longer knows."""
     facts = _facts(
-        f"{KEEPER}.ender", "bash", ["-c", *map(_literal, (_ENDER_SCRIPT, "bash", places.folder, *names))],
+        f"{KEEPER}.ender", "bash", ["-c", *map(_literal, (_ENDER_SCRIPT, "bash", files.folder, *names))],
         pwd="/", user=user, activation="manual", deactivationTimeout="5", propertySet=_property_set(_QUIET), envs=[],
         logs=[],
     )  # fmt: skip

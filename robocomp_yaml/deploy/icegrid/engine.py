@@ -19,19 +19,19 @@ from msgspec.structs import replace
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, STOP_WITHIN, STOPPED, DeployFailed, Line, Running
 from robocomp_yaml.deploy.icegrid import start_up
-from robocomp_yaml.deploy.icegrid.places import Places
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
-from robocomp_yaml.deploy.local.log_reader import LogReader, Reader, merged
-from robocomp_yaml.deploy.local.obstacles import Cleared, is_here, obstacles
+from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
+from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_here, obstacles
 from robocomp_yaml.deploy.readiness import listens
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying, grids
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import NEVER, PROGRAM, Network, Restart
+from robocomp_yaml.network.network import NEVER, PROGRAM, Network, RestartRule
 
 if TYPE_CHECKING:
-    from robocomp_yaml.deploy.icegrid.grid import Grid
+    from robocomp_yaml.deploy.icegrid.grid import GridSession
 
 T = TypeVar("T")
 
@@ -50,19 +50,19 @@ class IceGridEngine:
     def __init__(self) -> None:
         self.notes: list[Diagnostic] = []
         self._network = Network("", "", "")
-        self._places = Places("")
-        self._grid: Grid | None = None
-        self._specs: dict[str, Spec | None] = {}
+        self._files = GridFiles("")
+        self._grid: GridSession | None = None
+        self._specs: dict[str, ProcessSpec | None] = {}
         self._wanted: set[str] = set()
         self._kept: set[str] = set()  # those of the wanted that are written down
         self._nodes: asyncio.Task[None] | None = None  # brings them up; what needs none need not wait
         self._no_node: dict[str, Diagnostic] = {}  # by the host
-        self._cleared = Cleared()
+        self._cleared = CheckedSpecs()
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
 
     async def open(self, network: Network, *, create: bool) -> bool:
-        self._network, self._places = network, Places(network.folder)
+        self._network, self._files = network, GridFiles(network.folder)
         if missing := _missing():
             raise DeployFailed(grids.NO_REGISTRY.at(Span(network.path), reason=missing))
         self._grid = await self._call("", "reached", self._reach, create)
@@ -71,30 +71,30 @@ class IceGridEngine:
         if create:
             self._nodes = asyncio.create_task(self._call("", "reached", self._ensure_nodes, self._grid))
             await asyncio.sleep(0)  # so that it begins
-        self._specs = self._places.specs()
-        self._kept = self._wanted = self._places.wanted()
+        self._specs = self._files.specs()
+        self._kept = self._wanted = self._files.wanted()
         return True
 
-    def _reach(self, create: bool) -> Grid | None:
-        grid = start_up.reached(self._places, self._network)
+    def _reach(self, create: bool) -> GridSession | None:
+        grid = start_up.reached(self._files, self._network)
         if grid and create:
             grid.close()
-        return start_up.created(self._places, self._network) if create else grid
+        return start_up.created(self._files, self._network) if create else grid
 
-    def _ensure_nodes(self, grid: Grid) -> None:
+    def _ensure_nodes(self, grid: GridSession) -> None:
         used = {process.host for process in self._network.enabled()}
         hosts = [host for host in self._network.hosts.values() if host.name in used]
         try:
-            self._no_node = start_up.ensure_nodes(grid, self._places, self._network, hosts)
+            self._no_node = start_up.ensure_nodes(grid, self._files, self._network, hosts)
         except BaseException:
-            if self._places.wanted():
+            if self._files.wanted():
                 grid.close()
             else:
                 start_up.ended(grid, self._network.name)
             raise
         self._end_left(grid)
 
-    def _end_left(self, grid: Grid) -> None:
+    def _end_left(self, grid: GridSession) -> None:
         """The keeper does so too: where there is none, or it was faster, nothing is lost."""
         from robocomp_yaml.deploy.icegrid import leftovers
         from robocomp_yaml.deploy.icegrid.grid import GridFailed
@@ -110,7 +110,7 @@ class IceGridEngine:
         hosts = {name: process.host for name, process in self._network.processes.items()}
         return await self._beside("", "observed", observe, self._reached(), dict(self._specs), hosts)
 
-    async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
+    async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         """On this machine all that can be known; of other hosts, whether they have a node, and the ports."""
 
         running = await self.observe() if self._grid else {}
@@ -126,18 +126,18 @@ class IceGridEngine:
         far = [spec for spec in specs if not is_here(spec.address) and spec.process.host not in lost]
         found += await taken(far, running)
         return [*lost.values(), *found] + [
-            deploying.REFUSED.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
+            deploying.CANNOT.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
             for spec in specs
             if _is_too_long(spec)
         ]
 
-    async def prepare(self, specs: Sequence[Spec]) -> None:
+    async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         await self._beside("", "deployed", self._prepare, specs)
 
-    def _prepare(self, specs: Sequence[Spec]) -> None:
+    def _prepare(self, specs: Sequence[ProcessSpec]) -> None:
         from robocomp_yaml.deploy.icegrid import descriptors, leftovers
 
-        grid, number = self._reached(), self._places.next_rule()
+        grid, number = self._reached(), self._files.next_rule()
         before = grid.descriptor(self._network.name)
         deployed = {one.id for node in before.nodes.values() for one in node.servers} if before else set()
         states = {spec.name: ("", 0) for spec in specs}
@@ -146,19 +146,19 @@ class IceGridEngine:
         starting = [spec for spec in specs if spec not in running]
         for spec in specs:
             if spec.process.config and is_here(spec.address):
-                own_folder.write(self._places.folder, spec.process.config.path, spec.process.config.text)
+                own_folder.write(self._files.folder, spec.process.config.path, spec.process.config.text)
         for spec in starting:
-            leftovers.drop(self._places, spec.process.host, spec.name)
+            leftovers.drop(self._files, spec.process.host, spec.name)
             old = self._specs.get(spec.name)
             if old and old.process.host != spec.process.host and not states[spec.name][0]:
-                leftovers.note(self._places, old.process.host, spec.name)
+                leftovers.note(self._files, old.process.host, spec.name)
         with self._lock:
             self._specs.update({spec.name: spec for spec in specs})
-            self._places.keep_specs(self._specs)
+            self._files.keep_specs(self._specs)
             users = {host: grid.user_of(host) for host in {spec.process.host for spec in starting}}
             servers = [
                 (spec.process.host, descriptors.server(
-                    self._places, spec, users[spec.process.host], number, is_here=is_here(spec.address)
+                    self._files, spec, users[spec.process.host], number, is_here=is_here(spec.address)
                 ))
                 for spec in starting
             ]  # fmt: skip
@@ -167,11 +167,11 @@ class IceGridEngine:
         for spec in running:
             self._pass_rule(grid, spec, number)
 
-    def _pass_rule(self, grid: Grid, spec: Spec, number: int) -> None:
+    def _pass_rule(self, grid: GridSession, spec: ProcessSpec, number: int) -> None:
         """Tells `run` how it is to restart a process that goes on."""
         from robocomp_yaml.deploy.icegrid.descriptors import restart_rule
 
-        path = self._places.rule(spec.name)
+        path = self._files.rule(spec.name)
         script = 'mkdir -p -- "${2%/*}" && printf "%s\\n" "$1" >"$2.new" && mv -- "$2.new" "$2"'
         command = ("bash", "-c", script, "bash", restart_rule(spec.process, number), path)
         self._run(grid, spec, command, _RULE_WITHIN)
@@ -187,7 +187,7 @@ class IceGridEngine:
                 (host, one) for host, node in before.nodes.items() for one in node.servers if one.id not in replaced
             ]
         elif keeper_host := self._host_here():
-            servers.append((keeper_host, descriptors.keeper(self._places, grid.user_of(keeper_host))))
+            servers.append((keeper_host, descriptors.keeper(self._files, grid.user_of(keeper_host))))
         grid.deploy(descriptors.application(self._network.name, servers), is_new=before is None)
 
     def _host_here(self) -> str:
@@ -213,7 +213,7 @@ class IceGridEngine:
         await asyncio.sleep(0)  # until all that begin at once have said what they want
         with self._lock:
             if self._kept != self._wanted:
-                self._places.keep_wanted(self._wanted)
+                self._files.keep_wanted(self._wanted)
                 self._kept = self._wanted
 
     async def forget(self, names: Iterable[str]) -> None:
@@ -229,23 +229,23 @@ class IceGridEngine:
             states = self._reached().states(gone)
             for name, spec in gone.items():
                 if spec and not states[name][0]:
-                    leftovers.note(self._places, spec.process.host, name)
+                    leftovers.note(self._files, spec.process.host, name)
             self._deploy(gone, [])
             self._kept = self._wanted = self._wanted - names
-            self._places.keep_wanted(self._wanted)
-            self._places.keep_specs(self._specs)
+            self._files.keep_wanted(self._wanted)
+            self._files.keep_specs(self._specs)
         for name, spec in gone.items():
-            own_folder.remove(self._places.folder, f"state/icegrid/status/{name}")
+            own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
             if spec and spec.process.config:
-                own_folder.remove(self._places.folder, spec.process.config.path)
+                own_folder.remove(self._files.folder, spec.process.config.path)
 
     async def lines(self, names: Sequence[str], last: int, follow: bool) -> AsyncGenerator[Line, None]:
         from robocomp_yaml.deploy.icegrid.grid import GridReader
 
-        def reader(name: str) -> Reader:
+        def reader(name: str) -> LineReader:
             if grid and name in far:
                 return GridReader(grid, name)
-            return LogReader(self._places.folder, name)
+            return LogReader(self._files.folder, name)
 
         specs, grid = {name: self._specs.get(name) for name in names}, self._grid
         far = {name for name, spec in specs.items() if grid and spec and not is_here(spec.address)}
@@ -259,24 +259,24 @@ class IceGridEngine:
         assert spec
         return await self._beside(name, "asked", self._run, self._reached(), spec, tuple(command), within)
 
-    def _run(self, grid: Grid, spec: Spec, command: tuple[str, ...], within: float) -> int:
+    def _run(self, grid: GridSession, spec: ProcessSpec, command: tuple[str, ...], within: float) -> int:
         """The exit code of a command that runs beside a process, on its host: as a server of its own."""
         from robocomp_yaml.deploy.icegrid import descriptors
         from robocomp_yaml.deploy.icegrid.grid import GridFailed
-        from robocomp_yaml.deploy.icegrid.status import told
+        from robocomp_yaml.deploy.icegrid.status import run_status
 
         host, here = spec.process.host, is_here(spec.address)
         name = f"{spec.name}.ready"
-        process = replace(spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=Restart(NEVER))
+        process = replace(spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=RestartRule(NEVER))
         own = replace(spec, process=process, command=command)
-        server = descriptors.server(self._places, own, grid.user_of(host), 0, is_here=here)
+        server = descriptors.server(self._files, own, grid.user_of(host), 0, is_here=here)
         with self._lock:
             self._deploy([name], [(host, server)])
         try:
             if not grid.run(name, within):
                 grid.stop(name)
                 return _TIMED_OUT
-            last = told(grid, name, here=here)
+            last = run_status(grid, name, here=here)
             code = last.last_exit.removeprefix(_CODE) if last else ""
             return int(code) if code.isdigit() else _UNKNOWN
         except GridFailed:
@@ -285,8 +285,8 @@ class IceGridEngine:
             with self._lock:
                 self._deploy([name], [])
             if here:
-                own_folder.remove(self._places.folder, f"state/icegrid/status/{name}")
-                own_folder.remove(self._places.folder, f"logs/{name}.log")
+                own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
+                own_folder.remove(self._files.folder, f"logs/{name}.log")
 
     async def close(self, *, end: bool = False) -> None:
         grid, self._grid = self._grid, None
@@ -296,7 +296,7 @@ class IceGridEngine:
             await self._beside("", "left", grid.close)
         self._calls.shutdown(wait=False)
 
-    def _reached(self) -> Grid:
+    def _reached(self) -> GridSession:
         assert self._grid, "open it first"
         return self._grid
 
@@ -314,14 +314,14 @@ class IceGridEngine:
             return await asyncio.get_running_loop().run_in_executor(self._calls, work, *arguments)
         except GridFailed as error:
             where, name = self._network.span_of(about), about or self._network.name
-            raise DeployFailed(deploying.REFUSED.at(where, name=name, what=what, reason=error)) from error
+            raise DeployFailed(deploying.CANNOT.at(where, name=name, what=what, reason=error)) from error
         except OSError as error:
             path = error.filename or self._network.folder
             reason = (error.strerror or str(error)).lower()
             raise DeployFailed(deploying.FOLDER.at(Span(self._network.path), path=path, reason=reason)) from error
 
 
-def _is_too_long(spec: Spec) -> bool:
+def _is_too_long(spec: ProcessSpec) -> bool:
     from robocomp_yaml.deploy.icegrid.descriptors import LONGEST_CONFIG, encoded
 
     config = spec.process.config
@@ -343,7 +343,7 @@ def _missing() -> str:
 _WITHIN = 1.0  # seconds for an answer
 
 
-async def taken(specs: Sequence[Spec], running: Mapping[str, Running]) -> list[Diagnostic]:
+async def taken(specs: Sequence[ProcessSpec], running: Mapping[str, Running]) -> list[Diagnostic]:
     """`specs` are to be started; what runs of the deployment itself is in nobody's way."""
     own = {
         (one.spec.address, endpoint.port)

@@ -13,7 +13,7 @@ import IceGrid
 
 from robocomp_yaml.deploy.engine import Line
 from robocomp_yaml.deploy.icegrid import settings
-from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 from robocomp_yaml.deploy.local.log_reader import line_of
 from robocomp_yaml.deploy.time_limit import until
 
@@ -29,14 +29,14 @@ class Unreachable(GridFailed):
     """The registry, or the node that is asked for, does not answer."""
 
 
-class Grid:
+class GridSession:
     """A session. Its methods may be called from several threads; they raise GridFailed."""
 
-    def __init__(self, places: Places, registry: Registry) -> None:
-        self.places = places
+    def __init__(self, files: GridFiles, registry: Registry) -> None:
+        self.files = files
         data = Ice.InitializationData()
         data.properties = Ice.createProperties()
-        for key, value in settings.of_client(places).items():
+        for key, value in settings.of_client(files).items():
             data.properties.setProperty(key, value)
         data.logger = _Silent()
         self.communicator = Ice.initialize(data)
@@ -162,12 +162,12 @@ def _failures() -> Iterator[None]:
         raise Unreachable(in_words(error)) from error
 
 
-def reach(places: Places, registry: Registry, within: float) -> Grid:
+def reach(files: GridFiles, registry: Registry, within: float) -> GridSession:
     """A session, tried for so many seconds. Raises Unreachable."""
     until = time.monotonic() + within
     while True:
         try:
-            return Grid(places, registry)
+            return GridSession(files, registry)
         except Unreachable:
             if time.monotonic() > until:
                 raise
@@ -183,7 +183,7 @@ def in_words(error: Exception) -> str:
 class GridReader:
     """The log of a process on another host. What is written while its node does not answer is read later."""
 
-    def __init__(self, grid: Grid, name: str) -> None:
+    def __init__(self, grid: GridSession, name: str) -> None:
         self._grid, self._name = grid, name
         self._seen = self._lines()
 
@@ -199,7 +199,7 @@ class GridReader:
 
     def _lines(self) -> list[str]:
         try:
-            return [line for line in self._grid.read(self._name, self._grid.places.log(self._name)) if line]
+            return [line for line in self._grid.read(self._name, self._grid.files.log(self._name)) if line]
         except GridFailed:
             return []
 

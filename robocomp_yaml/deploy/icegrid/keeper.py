@@ -18,8 +18,8 @@ import Ice
 import IceGrid
 
 from robocomp_yaml.deploy.icegrid import leftovers
-from robocomp_yaml.deploy.icegrid.grid import Grid, GridFailed, Unreachable
-from robocomp_yaml.deploy.icegrid.places import Places
+from robocomp_yaml.deploy.icegrid.grid import GridFailed, GridSession, Unreachable
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.icegrid.status import is_over
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.plan import in_order
@@ -29,7 +29,7 @@ _PERIOD = 2.0  # seconds between two looks without an event
 _SHORTEST, _LONGEST = 0.1, 10.0  # seconds between two tries to start a process
 
 
-class Nodes(IceGrid.NodeObserver):  # type: ignore[misc]
+class NodeWatcher(IceGrid.NodeObserver):  # type: ignore[misc]
     """Notes that something changed."""
 
     def __init__(self, changed: threading.Event) -> None:
@@ -56,18 +56,18 @@ class Keeper:
     """`over` is set when the keeper is to end."""
 
     def __init__(self, folder: str) -> None:
-        self.places = Places(folder)
+        self.files = GridFiles(folder)
         self.over = threading.Event()
         self._changed = threading.Event()
         self._tries: dict[str, tuple[float, float]] = {}
 
     def run(self) -> None:
         while not self.over.is_set():
-            registry = self.places.registry()
+            registry = self.files.registry()
             if registry is None:
                 return
             try:
-                grid = Grid(self.places, registry)
+                grid = GridSession(self.files, registry)
             except Unreachable:
                 self.over.wait(0.2)
                 continue
@@ -83,10 +83,10 @@ class Keeper:
         self.over.set()
         self._changed.set()
 
-    def _watch(self, grid: Grid) -> None:
+    def _watch(self, grid: GridSession) -> None:
         """Until the keeper is to end. Raises GridFailed or Ice.Exception when the registry is gone."""
         adapter = grid.communicator.createObjectAdapter("")
-        observer = adapter.addWithUUID(Nodes(self._changed)).ice_getIdentity()
+        observer = adapter.addWithUUID(NodeWatcher(self._changed)).ice_getIdentity()
         adapter.activate()
         connection = grid.session.ice_getCachedConnection()
         connection.setAdapter(adapter)
@@ -104,9 +104,9 @@ class Keeper:
         now = time.monotonic()
         return max(0.0, min([_PERIOD, *(at - now for at, _ in self._tries.values())]))
 
-    def _bring_back(self, grid: Grid) -> None:
-        wanted = self.places.wanted()
-        specs = {name: spec for name, spec in self.places.specs().items() if spec and name in wanted}
+    def _bring_back(self, grid: GridSession) -> None:
+        wanted = self.files.wanted()
+        specs = {name: spec for name, spec in self.files.specs().items() if spec and name in wanted}
         states = grid.states(specs)
         now = time.monotonic()
         for name in in_order({name: spec.process.after for name, spec in specs.items()}):
@@ -117,7 +117,7 @@ class Keeper:
             if at > now or is_over(grid, name, here=is_here(specs[name].address)):
                 continue
             self._tries[name] = (now + min(2 * delay, _LONGEST), min(2 * delay, _LONGEST))
-            if name not in self.places.wanted():
+            if name not in self.files.wanted():
                 continue  # it was stopped meanwhile
             try:
                 grid.start(name)

@@ -11,37 +11,37 @@ import os
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.icegrid import descriptors
-from robocomp_yaml.deploy.icegrid.grid import Grid
-from robocomp_yaml.deploy.icegrid.places import KEEPER, Places
+from robocomp_yaml.deploy.icegrid.grid import GridSession
+from robocomp_yaml.deploy.icegrid.grid_files import KEEPER, GridFiles
 
 _FOLDER = "state/icegrid/left"
 _APPLICATION = f"{KEEPER}.left"
 _WITHIN = 5.0
 
 
-def note(places: Places, host: str, name: str) -> None:
-    own_folder.write(places.folder, f"{_FOLDER}/{host}/{name}", "")
+def note(files: GridFiles, host: str, name: str) -> None:
+    own_folder.write(files.folder, f"{_FOLDER}/{host}/{name}", "")
 
 
-def drop(places: Places, host: str, name: str) -> None:
+def drop(files: GridFiles, host: str, name: str) -> None:
     """It is to run on that host again."""
-    own_folder.remove(places.folder, f"{_FOLDER}/{host}/{name}")
+    own_folder.remove(files.folder, f"{_FOLDER}/{host}/{name}")
 
 
-def end_all(grid: Grid) -> None:
+def end_all(grid: GridSession) -> None:
     """Ends what is noted of hosts that answer. Raises GridFailed."""
-    folder = f"{grid.places.folder}/{_FOLDER}"
+    folder = f"{grid.files.folder}/{_FOLDER}"
     for host in _listed(folder):
         names = _listed(f"{folder}/{host}")
         if names and grid.has_node(host):
             _end(grid, host, names)
             for name in names:
-                drop(grid.places, host, name)
+                drop(grid.files, host, name)
 
 
-def _end(grid: Grid, host: str, names: list[str]) -> None:
+def _end(grid: GridSession, host: str, names: list[str]) -> None:
     """With a server that only does this, in an application of its own, which no command touches."""
-    server = descriptors.ender(grid.places, names, grid.user_of(host))
+    server = descriptors.ender(grid.files, names, grid.user_of(host))
     grid.remove(_APPLICATION)
     grid.deploy(descriptors.application(_APPLICATION, [(host, server)]), is_new=True)
     try:

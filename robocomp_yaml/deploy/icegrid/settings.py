@@ -11,7 +11,7 @@ import os
 import subprocess
 import tempfile
 
-from robocomp_yaml.deploy.icegrid.places import Places, Registry
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry
 
 INSTANCE = "rcyaml"
 # Always: hosts have clocks that are wrong, or set while all runs. Only `openssl ca` can be told since when.
@@ -41,21 +41,21 @@ _SESSION_TIMEOUT = "10"  # seconds after which a host that says nothing counts a
 _PATIENCE = {"Ice.ACM.Timeout": "4", "Ice.Override.ConnectTimeout": "3000"}
 
 
-def make_key(places: Places) -> None:
+def make_key(files: GridFiles) -> None:
     """The deployment's key and certificate, made once. Raises OSError where openssl is not there or fails."""
-    if os.path.exists(places.key) and os.path.exists(places.certificate):
+    if os.path.exists(files.key) and os.path.exists(files.certificate):
         return
-    os.makedirs(places.root, mode=0o700, exist_ok=True)
+    os.makedirs(files.root, mode=0o700, exist_ok=True)
     mask = os.umask(0o077)
     try:
-        with tempfile.TemporaryDirectory(dir=places.root) as folder:
+        with tempfile.TemporaryDirectory(dir=files.root) as folder:
             for name, text in (("settings", _AUTHORITY), ("database", "")):
                 with open(f"{folder}/{name}", "w", encoding="utf-8") as file:
                     file.write(text)
             _openssl(folder, "req", "-new", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
-                     "-subj", "/CN=rcyaml", "-keyout", places.key, "-out", "request")  # fmt: skip
-            _openssl(folder, "ca", "-batch", "-selfsign", "-notext", "-config", "settings", "-keyfile", places.key,
-                     "-in", "request", "-out", places.certificate)  # fmt: skip
+                     "-subj", "/CN=rcyaml", "-keyout", files.key, "-out", "request")  # fmt: skip
+            _openssl(folder, "ca", "-batch", "-selfsign", "-notext", "-config", "settings", "-keyfile", files.key,
+                     "-in", "request", "-out", files.certificate)  # fmt: skip
     finally:
         os.umask(mask)
 
@@ -79,10 +79,10 @@ def secured(key: str, certificate: str) -> dict[str, str]:
     }
 
 
-def of_registry(places: Places, registry: Registry) -> dict[str, str]:
+def of_registry(files: GridFiles, registry: Registry) -> dict[str, str]:
     own = f"ssl -h {registry.address}"
     return {
-        **secured(places.key, places.certificate),
+        **secured(files.key, files.certificate),
         **_PATIENCE,
         "IceGrid.Registry.Client.ThreadPool.SizeMax": "64",
         "IceGrid.InstanceName": INSTANCE,
@@ -93,13 +93,13 @@ def of_registry(places: Places, registry: Registry) -> dict[str, str]:
         # The certificate is what gives access.
         "IceGrid.Registry.AdminPermissionsVerifier": f"{INSTANCE}/NullPermissionsVerifier",
         "IceGrid.Registry.NodeSessionTimeout": _SESSION_TIMEOUT,
-        "IceGrid.Registry.LMDB.Path": f"{places.registry_folder}/data",
+        "IceGrid.Registry.LMDB.Path": f"{files.registry_folder}/data",
         "IceGrid.Registry.LMDB.MapSize": "100",
     }
 
 
-def of_node(places: Places, host: str, address: str, registry: Registry) -> dict[str, str]:
-    own = f"{places.root}/nodes/{host}"
+def of_node(files: GridFiles, host: str, address: str, registry: Registry) -> dict[str, str]:
+    own = f"{files.root}/nodes/{host}"
     return {
         **secured(f"{own}/key.pem", f"{own}/certificate.pem"),
         **_PATIENCE,
@@ -113,9 +113,9 @@ def of_node(places: Places, host: str, address: str, registry: Registry) -> dict
     }
 
 
-def of_client(places: Places) -> dict[str, str]:
+def of_client(files: GridFiles) -> dict[str, str]:
     return {
-        **secured(places.key, places.certificate),
+        **secured(files.key, files.certificate),
         **_PATIENCE,
         "Ice.Default.InvocationTimeout": "30000",
         "Ice.RetryIntervals": "-1",

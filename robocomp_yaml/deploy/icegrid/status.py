@@ -16,17 +16,17 @@ from robocomp_yaml.deploy.engine import (
     WAITING,
     Running,
 )
-from robocomp_yaml.deploy.icegrid.grid import Grid
-from robocomp_yaml.deploy.icegrid.places import Places
+from robocomp_yaml.deploy.icegrid.grid import GridSession
+from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.obstacles import is_here
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 
 _ALIVE = ("Active", "Activating", "Deactivating")
 _FINAL = (GIVEN_UP, ENDED)
 
 
-class Told(msgspec.Struct, frozen=True):
+class RunStatus(msgspec.Struct, frozen=True):
     """What `run` tells: `runner` is its own pid, `since` milliseconds since its host started, `at` the microseconds of
     its clock."""
 
@@ -39,17 +39,17 @@ class Told(msgspec.Struct, frozen=True):
     last_exit: str
 
 
-def of_text(text: str) -> Told | None:
+def of_text(text: str) -> RunStatus | None:
     parts = text.strip().split("|", 6)
     try:
-        return Told(parts[0], *map(int, parts[1:6]), parts[6])  # type: ignore[call-arg, arg-type]
+        return RunStatus(parts[0], *map(int, parts[1:6]), parts[6])  # type: ignore[call-arg, arg-type]
     except (IndexError, ValueError):
         return None
 
 
-def told(grid: Grid, name: str, *, here: bool) -> Told | None:
+def run_status(grid: GridSession, name: str, *, here: bool) -> RunStatus | None:
     """None where `run` has not said anything yet."""
-    path = grid.places.status(name)
+    path = grid.files.status(name)
     if not here:
         return of_text("\n".join(grid.read(name, path)))
     try:
@@ -59,20 +59,20 @@ def told(grid: Grid, name: str, *, here: bool) -> Told | None:
         return None
 
 
-def is_over(grid: Grid, name: str, *, here: bool) -> bool:
+def is_over(grid: GridSession, name: str, *, here: bool) -> bool:
     """Whether a process whose server is gone ended for good, by its policy."""
-    last = told(grid, name, here=here)
+    last = run_status(grid, name, here=here)
     return last is not None and last.state in _FINAL
 
 
-def observe(grid: Grid, specs: Mapping[str, Spec | None], hosts: Mapping[str, str]) -> dict[str, Running]:
+def observe(grid: GridSession, specs: Mapping[str, ProcessSpec | None], hosts: Mapping[str, str]) -> dict[str, Running]:
     """All processes as they are now; `hosts` are the names of those whose spec cannot be read. Of those whose `run` is
     alive on this machine, IceGrid need not be asked."""
-    wanted = grid.places.wanted()
+    wanted = grid.files.wanted()
     here = {spec.address: is_here(spec.address) for spec in specs.values() if spec}
-    near = {name: told(grid, name, here=True) for name, spec in specs.items() if spec and here[spec.address]}
+    near = {name: run_status(grid, name, here=True) for name, spec in specs.items() if spec and here[spec.address]}
     alive = procfs.table() if near else {}
-    runners = {name: last.runner for name, last in near.items() if last and _runs(grid.places, name, last, alive)}
+    runners = {name: last.runner for name, last in near.items() if last and _runs(grid.files, name, last, alive)}
     states = {name: ("Active", runner) for name, runner in runners.items()}
     states |= grid.states(name for name in specs if name not in runners)
     found: dict[str, Running] = {}
@@ -83,20 +83,20 @@ def observe(grid: Grid, specs: Mapping[str, Spec | None], hosts: Mapping[str, st
             found[name] = Running(name, spec, host, LOST if name in wanted else STOPPED)
             continue
         # What was asked for after it told something may have told more meanwhile.
-        last = near[name] if name in runners else told(grid, name, here=name in near)
+        last = near[name] if name in runners else run_status(grid, name, here=name in near)
         found[name] = _seen(name, spec, host, state, runner, last, name in wanted, alive if name in near else None)
     return found
 
 
-def _runs(places: Places, name: str, last: Told, alive: Mapping[int, procfs.Entry]) -> bool:
+def _runs(files: GridFiles, name: str, last: RunStatus, alive: Mapping[int, procfs.ProcessEntry]) -> bool:
     """Whether the `run` that tells so has a process now; another program may have its number since."""
     is_told = last.state in (RUNNING, WAITING) and last.runner in alive
-    return is_told and procfs.command(last.runner)[2:4] == [name, places.folder]
+    return is_told and procfs.command(last.runner)[2:4] == [name, files.folder]
 
 
 def _seen(
-    name: str, spec: Spec | None, host: str, state: str, runner: int, last: Told | None, is_wanted: bool,
-    alive: dict[int, procfs.Entry] | None,
+    name: str, spec: ProcessSpec | None, host: str, state: str, runner: int, last: RunStatus | None, is_wanted: bool,
+    alive: dict[int, procfs.ProcessEntry] | None,
 ) -> Running:  # fmt: skip
     if state in _ALIVE and (last is None or last.runner != runner or last.state not in (RUNNING, WAITING)):
         return Running(name, spec, host, RUNNING, runner)  # it has just been started
@@ -113,7 +113,7 @@ def _seen(
     )  # fmt: skip
 
 
-def _seconds_since(last: Told, is_near: bool) -> float:
+def _seconds_since(last: RunStatus, is_near: bool) -> float:
     """By a clock that nobody sets, where it is that of this machine."""
     if is_near:
         return max(0.0, time.clock_gettime(time.CLOCK_BOOTTIME) - last.since / 1000)

@@ -25,7 +25,7 @@ _CHUNK = 1 << 16
 Spec = dict[str, Any]  # a `deploy.spec.Spec` as data: the supervisor imports as little as it can
 
 
-class Child:
+class ChildProcess:
     """`spec` is what it was started with, or will be. `root` is the pid of its last run, as long as something of that
     may be left. Times are the loop's, which no change of the clock moves."""
 

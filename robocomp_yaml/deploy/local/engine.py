@@ -17,18 +17,18 @@ from robocomp_yaml.deploy.local.client import Client, RequestFailed, SupervisorG
 from robocomp_yaml.deploy.local.kernel import die_with
 from robocomp_yaml.deploy.local.log_reader import LogReader, merged
 from robocomp_yaml.deploy.local.obstacles import (
-    Cleared,
+    CheckedSpecs,
+    elsewhere,
     environment_of,
-    not_here,
     obstacles,
     whole_environment_of,
 )
 from robocomp_yaml.deploy.local.service import PROTOCOL
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.network import FOLDER, Host, Network
+from robocomp_yaml.network.network import FOLDER, Network, NetworkHost
 
 
 class LocalEngine:
@@ -40,12 +40,12 @@ class LocalEngine:
         self.notes: list[Diagnostic] = []
         self._client: Client | None = None
         self._network = Network("", "", "")
-        self._specs: dict[str, Spec] = {}
-        self._cleared = Cleared()
+        self._specs: dict[str, ProcessSpec] = {}
+        self._cleared = CheckedSpecs()
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network = network
-        if found := not_here(network):
+        if found := elsewhere(network):
             raise DeployFailed(found)
         try:
             connection = client.reach(network.folder)
@@ -71,7 +71,7 @@ class LocalEngine:
         found = [_running(entry) for entry in answer["processes"]]
         return {running.name: running for running in found}
 
-    async def obstacles(self, specs: Sequence[Spec], leaving: Collection[str]) -> list[Diagnostic]:
+    async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
         own: set[int] = set()
         if self._client:
             for entry in (await self._ask("", "observe"))["processes"]:
@@ -81,7 +81,7 @@ class LocalEngine:
             self._cleared.note(specs)
         return found
 
-    async def prepare(self, specs: Sequence[Spec]) -> None:
+    async def prepare(self, specs: Sequence[ProcessSpec]) -> None:
         for spec in specs:
             config = spec.process.config
             try:
@@ -148,7 +148,7 @@ class LocalEngine:
             return await self._client.ask(do, **facts)
         except RequestFailed as error:
             where = self._network.span_of(about)
-            raise DeployFailed(deploying.REFUSED.at(where, name=about, what=_DONE.get(do, do), reason=error)) from error
+            raise DeployFailed(deploying.CANNOT.at(where, name=about, what=_DONE.get(do, do), reason=error)) from error
         except SupervisorGone as error:
             killed = deploying.SUPERVISOR_KILLED.at(Span(self._network.path))
             raise DeployFailed(killed.as_severity(ERROR)) from error
@@ -163,7 +163,9 @@ _DONE = {"start": "started", "stop": "stopped"}
 def _running(entry: dict[str, Any]) -> Running:
     process = entry["spec"]["process"]
     kept = ("state", "pid", "uptime", "restarts", "last_exit", "memory", "cpu")
-    return Running(process["name"], Spec.of_data(entry["spec"]), process["host"], **{key: entry[key] for key in kept})
+    return Running(
+        process["name"], ProcessSpec.of_data(entry["spec"]), process["host"], **{key: entry[key] for key in kept}
+    )
 
 
 def stand_in(path: str) -> Network | None:
@@ -181,7 +183,7 @@ def stand_in(path: str) -> Network | None:
             for name, running in (await engine.observe()).items():
                 if running.spec:
                     network.processes[name] = running.spec.process
-                    network.hosts[running.spec.process.host] = Host(running.spec.process.host)
+                    network.hosts[running.spec.process.host] = NetworkHost(running.spec.process.host)
         await engine.close()
 
     asyncio.run(look())

@@ -16,7 +16,7 @@ _BLOCK = 1 << 16
 _STAMP = len("2026-11-21T10:02:03.123Z")
 
 
-class Reader(Protocol):
+class LineReader(Protocol):
     """What reads one process's log from where it was when this was made."""
 
     def last(self, count: int) -> list[Line]: ...
@@ -75,7 +75,7 @@ class LogReader:
 
 
 async def merged(
-    readers: Sequence[Reader], last: int, follow: bool, *, is_far: bool = False
+    readers: Sequence[LineReader], last: int, follow: bool, *, is_far: bool = False
 ) -> AsyncGenerator[Line, None]:
     """The lines of all, by time; those of one process always in their own order, whatever the clock did."""
 

@@ -11,7 +11,7 @@ from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.folder import document_in
 from robocomp_yaml.deploy.local import procfs, program
-from robocomp_yaml.deploy.spec import Spec
+from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.terminal import typed
@@ -36,7 +36,7 @@ def whole_environment_of(process: Process) -> dict[str, str]:
     return environment_of(process) | program.variables((one.name, one.file) for one in process.env if one.file)
 
 
-def obstacles(specs: Sequence[Spec], own: Collection[int]) -> list[Diagnostic]:
+def obstacles(specs: Sequence[ProcessSpec], own: Collection[int]) -> list[Diagnostic]:
     """`own` are running processes that count as gone."""
     ports = {e.port for spec in specs for e in spec.process.endpoints if e.protocol != "udp"}
     taken = {
@@ -47,32 +47,32 @@ def obstacles(specs: Sequence[Spec], own: Collection[int]) -> list[Diagnostic]:
     return [found for spec in specs for found in (*_of_program(spec), *_of_ports(spec, taken))]
 
 
-class Cleared:
+class CheckedSpecs:
     """What has just been found to have no obstacles: who starts it at once need not look again."""
 
     def __init__(self) -> None:
-        self._specs: dict[str, Spec] = {}
+        self._specs: dict[str, ProcessSpec] = {}
         self._until = 0.0
 
-    def note(self, specs: Iterable[Spec]) -> None:
+    def note(self, specs: Iterable[ProcessSpec]) -> None:
         # What waits for others is looked at again: a port that was free may be theirs by then.
         self._specs = {spec.name: spec for spec in specs if not (spec.process.after and spec.process.endpoints)}
         self._until = time.monotonic() + _JUST
 
-    def require(self, spec: Spec) -> None:
+    def require(self, spec: ProcessSpec) -> None:
         """Raises DeployFailed for one that is none of these, or is asked for again, and has an obstacle."""
         is_one = self._specs.pop(spec.name, None) is spec and time.monotonic() < self._until
         if not is_one and (found := obstacles([spec], ())):
             raise DeployFailed(found[0])
 
 
-def not_here(network: Network) -> Diagnostic | None:
+def elsewhere(network: Network) -> Diagnostic | None:
     """The first process that belongs on another machine."""
     for process in network.enabled():
         host = network.hosts[process.host]
         if not is_here(host.address):
             where = host.span if host.span.file else process.span
-            return deploying.NOT_HERE.at(where, name=process.name, host=host.name, address=host.address)
+            return deploying.OTHER_MACHINE.at(where, name=process.name, host=host.name, address=host.address)
     return None
 
 
@@ -89,7 +89,7 @@ def is_here(address: str) -> bool:
     return True
 
 
-def _of_ports(spec: Spec, taken: dict[int, list[int]]) -> Iterator[Diagnostic]:
+def _of_ports(spec: ProcessSpec, taken: dict[int, list[int]]) -> Iterator[Diagnostic]:
     """One for each program that is in the way, at the first port that it has."""
     told: set[int] = set()
     for endpoint in spec.process.endpoints:
@@ -119,7 +119,7 @@ def _owner(pid: int) -> tuple[str, str]:
     return who, f"take that deployment down (`{down}`)"
 
 
-def _of_program(spec: Spec) -> Iterator[Diagnostic]:
+def _of_program(spec: ProcessSpec) -> Iterator[Diagnostic]:
     process = spec.process
     for variable in process.env:
         if variable.source and variable.source not in os.environ:
@@ -128,10 +128,10 @@ def _of_program(spec: Spec) -> Iterator[Diagnostic]:
             )
     if reason := _why_not(spec):
         hint = "" if os.path.lexists(spec.command[0]) else process.build
-        yield deploying.REFUSED.at(process.span, hint=hint, name=spec.name, what="started", reason=reason)
+        yield deploying.CANNOT.at(process.span, hint=hint, name=spec.name, what="started", reason=reason)
 
 
-def _why_not(spec: Spec) -> str:
+def _why_not(spec: ProcessSpec) -> str:
     folder = spec.process.cwd or "/"
     if not os.path.isdir(folder):
         return f"its folder '{folder}' does not exist"

@@ -22,7 +22,7 @@ _LISTEN = "0A"
 _MOMENT = 0.02  # seconds
 
 
-class Entry(NamedTuple):
+class ProcessEntry(NamedTuple):
     """A process: `start` is in clock ticks since boot, so that (pid, start) is never used twice."""
 
     pid: int
@@ -38,19 +38,19 @@ def pids() -> Iterator[int]:
     return (int(name) for name in os.listdir("/proc") if name.isdigit())
 
 
-def entry(pid: int) -> Entry | None:
+def entry(pid: int) -> ProcessEntry | None:
     text = _read(f"/proc/{pid}/stat")
     if not text:
         return None
     # The name, in parentheses, may hold anything.
     fields = text[text.rindex(b")") + 2 :].split()
-    return Entry(
+    return ProcessEntry(
         pid, int(fields[1]), int(fields[2]), int(fields[3]), int(fields[19]),
         (int(fields[11]) + int(fields[12])) / _TICKS, fields[0] in (b"Z", b"X"),
     )  # fmt: skip
 
 
-def table() -> dict[int, Entry]:
+def table() -> dict[int, ProcessEntry]:
     """All processes that are alive."""
     found = (entry(pid) for pid in pids())
     return {one.pid: one for one in found if one and not one.is_dead}
@@ -70,7 +70,7 @@ def marked(folder: str) -> list[int]:
     return [pid for pid in pids() if mark_of(pid).rpartition(":")[0] == folder]
 
 
-def families(roots: Mapping[int, str], adopter: int, alive: Mapping[int, Entry]) -> dict[int, set[int]]:
+def families(roots: Mapping[int, str], adopter: int, alive: Mapping[int, ProcessEntry]) -> dict[int, set[int]]:
     """Of each root, those alive that came from it: itself, its session, what lost its parent, so that it is now a child
     of `adopter`, but carries the root's mark; and all that came from these. `roots` gives the mark of each."""
     by_mark = {mark: root for root, mark in roots.items()}
@@ -92,7 +92,7 @@ def families(roots: Mapping[int, str], adopter: int, alive: Mapping[int, Entry])
     return found
 
 
-def _root_of(one: Entry, roots: Collection[int], by_mark: Mapping[str, int], adopter: int) -> int:
+def _root_of(one: ProcessEntry, roots: Collection[int], by_mark: Mapping[str, int], adopter: int) -> int:
     """The root that a process shows by itself; 0 where only its parent can."""
     if one.pid in roots:
         return one.pid
@@ -109,7 +109,7 @@ class Families:
         self._roots = roots
         self._taken = -_MOMENT
         self._found: dict[int, set[int]] = {}
-        self.alive: dict[int, Entry] = {}
+        self.alive: dict[int, ProcessEntry] = {}
 
     def now(self) -> dict[int, set[int]]:
         self.alive = table()
@@ -125,7 +125,7 @@ class Families:
         return self._found.get(root, set())
 
 
-def descendants(of: Collection[int], alive: dict[int, Entry]) -> set[int]:
+def descendants(of: Collection[int], alive: dict[int, ProcessEntry]) -> set[int]:
     """These processes and all that came from them."""
     children: dict[int, list[int]] = {}
     for one in alive.values():

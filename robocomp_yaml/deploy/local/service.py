@@ -14,7 +14,7 @@ from collections.abc import Awaitable
 from typing import Any
 
 from robocomp_yaml.deploy.local import channel, procfs, record
-from robocomp_yaml.deploy.local.child import Child
+from robocomp_yaml.deploy.local.child import ChildProcess
 from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
 
@@ -35,7 +35,7 @@ def serve(folder: str) -> None:
 class _Service:
     def __init__(self, folder: str) -> None:
         self.folder = folder
-        self.children: dict[str, Child] = {}
+        self.children: dict[str, ChildProcess] = {}
         self._files = OpenFiles()
         self._limit = int(os.environ.get("RCYAML_LOG_LIMIT") or LIMIT)
         self._over = asyncio.Event()
@@ -124,7 +124,7 @@ class _Service:
                 self.children[name].spec = spec
             else:
                 log = LogFile(f"{self.folder}/logs/{name}.log", self._limit)
-                self.children[name] = Child(spec, f"{self.folder}:{name}", log, self._families, self._files)
+                self.children[name] = ChildProcess(spec, f"{self.folder}:{name}", log, self._families, self._files)
         return {}
 
     async def do_start(self, request: Request) -> Request:
@@ -138,7 +138,7 @@ class _Service:
             await self._stop(child, request["within"])
         return {}
 
-    async def _stop(self, child: Child, within: float) -> None:
+    async def _stop(self, child: ChildProcess, within: float) -> None:
         async with child.lock:
             await child.stop(within)
 

@@ -1,4 +1,4 @@
-"""RC4xxx: deployments, their documents and what these name."""
+"""RC4xxx: documents of deployments, and the names in them."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from ruamel.yaml import YAML
 from robocomp_yaml.deploy.local.program import LONGEST
 from robocomp_yaml.deploy.local.program import variables as from_files
 from robocomp_yaml.emit.exports import Unwritable, export, noted
-from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Host, Network, Process, Variable
+from robocomp_yaml.network.network import LOOPBACK, PROGRAM, EnvironmentVariable, Network, NetworkHost, Process
 
 SHOWN = "import os; print(ascii(os.fsencode(os.environ['TOKEN'])), os.environ.get('OTHER'))"
 ENDS = [(b"a b\n", b"a b"), (b"a\r\n", b"a"), (b"\n\n", b"\n"), (b"", b""), (b"a\r", b"a\r"), (b"$x `y` %s \\n '\"", None),
@@ -24,8 +24,8 @@ ENDS = [(b"a b\n", b"a b"), (b"a\r\n", b"a"), (b"\n\n", b"\n"), (b"", b""), (b"a
 
 
 def network_of(path: str, **more: Any) -> Network:
-    network = Network("One", "/one.ddsl.yaml", "/f", {LOOPBACK: Host(LOOPBACK)})
-    env = (Variable("TOKEN", file=path), Variable("OTHER", "plain"))
+    network = Network("One", "/one.ddsl.yaml", "/f", {LOOPBACK: NetworkHost(LOOPBACK)})
+    env = (EnvironmentVariable("TOKEN", file=path), EnvironmentVariable("OTHER", "plain"))
     network.processes["p"] = Process(
         "p", LOOPBACK, (sys.executable, "-c", SHOWN), "/", PROGRAM, env=env, is_ice=False, **more
     )  # fmt: skip

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from robocomp_yaml.deploy.local import procfs
-from robocomp_yaml.deploy.local.procfs import Entry, descendants, families
+from robocomp_yaml.deploy.local.procfs import ProcessEntry, descendants, families
 
 ME = 100
 
 
-def entry(pid: int, parent: int, session: int) -> Entry:
-    return Entry(pid, parent, pid, session, 0, 0.0, False)
+def entry(pid: int, parent: int, session: int) -> ProcessEntry:
+    return ProcessEntry(pid, parent, pid, session, 0, 0.0, False)
 
 
 def test_each_belongs_to_one(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ import msgspec
 
 from engine_in_memory import network, process
 from robocomp_yaml.deploy.exported import hidden
-from robocomp_yaml.network.network import ConfigFile, Readiness, Variable
+from robocomp_yaml.network.network import ConfigFile, EnvironmentVariable, Readiness
 
 CANARY = "canary-hunter2"
 
@@ -14,7 +14,11 @@ CANARY = "canary-hunter2"
 def test_no_secret_is_left_and_all_else_is() -> None:
     one = process(
         "camera",
-        env=(Variable("TOKEN", CANARY), Variable("LANG", "es"), Variable("WIFI", CANARY)),
+        env=(
+            EnvironmentVariable("TOKEN", CANARY),
+            EnvironmentVariable("LANG", "es"),
+            EnvironmentVariable("WIFI", CANARY),
+        ),
         config=ConfigFile(
             "config/camera", f"# of it\nport=7\napi.password={CANARY}\nwifi={CANARY}\nlock={CANARY}\n", ("lock",)
         ),

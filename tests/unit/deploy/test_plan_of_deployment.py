@@ -12,34 +12,34 @@ from msgspec.structs import replace
 from robocomp_yaml.deploy.carry_out import undo
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, in_order, plan, with_dependents
-from robocomp_yaml.deploy.spec import Spec, spec_of
+from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
 from robocomp_yaml.network.network import (
     ALWAYS,
     ConfigFile,
     Endpoint,
-    Host,
+    EnvironmentVariable,
     Network,
+    NetworkHost,
     Process,
     Readiness,
-    Restart,
-    Variable,
+    RestartRule,
 )
 
 A = Process(
-    "a", "here", ("run", "{config}", "x"), "/", config=ConfigFile("config/a", "x=1\n"), env=(Variable("V", "1"),),
+    "a", "here", ("run", "{config}", "x"), "/", config=ConfigFile("config/a", "x=1\n"), env=(EnvironmentVariable("V", "1"),),
     endpoints=(Endpoint("Laser", "laser", 10003, "tcp -p 10003"),), ready=Readiness(pings=("laser:tcp -p 10003",)),
 )  # fmt: skip
 B = replace(A, name="b", after=("a",))
 
 
 def network(*processes: Process) -> Network:
-    found = Network("N", "/n.ddsl.yaml", "/folder", {"here": Host("here", "10.0.0.1")})
+    found = Network("N", "/n.ddsl.yaml", "/folder", {"here": NetworkHost("here", "10.0.0.1")})
     found.processes = {process.name: process for process in processes}
     found.order = [tuple(process.name for process in processes if process.enabled)]
     return found
 
 
-def spec(process: Process) -> Spec:
+def spec(process: Process) -> ProcessSpec:
     return spec_of(network(process), process, {})
 
 
@@ -66,15 +66,15 @@ def test_a_process_of_another_version_restarts() -> None:
         (replace(A, command=("run", "fast")), RESTART, "command: run /folder/config/a x → run fast"),
         (replace(A, cwd="/tmp"), RESTART, "cwd: / → /tmp"),
         (replace(A, env=()), RESTART, "env V: 1 (gone)"),
-        (replace(A, env=(Variable("V", ""),)), RESTART, "env V: 1 → ''"),
-        (replace(A, env=(Variable("V", source="W"),)), RESTART, "env V: 1 → {env: W}"),
+        (replace(A, env=(EnvironmentVariable("V", ""),)), RESTART, "env V: 1 → ''"),
+        (replace(A, env=(EnvironmentVariable("V", source="W"),)), RESTART, "env V: 1 → {env: W}"),
         (replace(A, config=None), RESTART, "command: run /folder/config/a x → run  x; config x: 1 (gone)"),
         (replace(A, config=ConfigFile("config/a", "# said\nx=1\n")), RESTART, "config changed"),
         (replace(A, ready=Readiness()), CHANGE, "ready.pings: laser:tcp -p 10003 (gone)"),
         (replace(A, ready=replace(A.ready, within=20)), CHANGE, "ready.within: 10 s → 20 s"),
         (replace(A, ready=replace(A.ready, log="up")), CHANGE, "ready.log: up (new)"),
         (
-            replace(A, restart=Restart(ALWAYS, delay=1)),
+            replace(A, restart=RestartRule(ALWAYS, delay=1)),
             CHANGE,
             "restart.policy: on-failure → always; restart.delay: 0.1 s → 1 s",
         ),
@@ -97,7 +97,7 @@ def test_a_changed_process(changed: Process, action: str, said: str) -> None:
 
 def test_a_moved_host_restarts() -> None:
     moved = network(A)
-    moved.hosts["here"] = Host("here", "10.0.0.2")
+    moved.hosts["here"] = NetworkHost("here", "10.0.0.2")
     step = plan(moved, {"a": running(A)}).steps["a"]
     assert (step.action, step.reason) == (RESTART, "host: 10.0.0.1 → 10.0.0.2")
 
@@ -125,14 +125,14 @@ def test_what_was_done_is_undone() -> None:
 
 def test_a_spec_survives_as_data() -> None:
     one = spec(replace(B, watched=("/etc/passwd", "/no/such"), groups=("g",), folders=("/f",)))
-    assert Spec.of_data(json.loads(json.dumps(one.as_data()))) == one
+    assert ProcessSpec.of_data(json.loads(json.dumps(one.as_data()))) == one
     assert one.digests[0][1] and one.digests[1] == ("/no/such", "")
 
 
 def test_data_of_another_version_is_rejected() -> None:
     data = spec(A).as_data()
     data["process"]["colour"] = "red"
-    assert Spec.of_data(data) is None
+    assert ProcessSpec.of_data(data) is None
 
 
 @given(st.dictionaries(st.integers(0, 12), st.lists(st.integers(0, 12), max_size=4)))

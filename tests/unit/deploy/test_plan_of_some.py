@@ -21,7 +21,7 @@ from robocomp_yaml.deploy.plan import (
     with_dependences,
     with_dependents,
 )
-from robocomp_yaml.network.network import Restart
+from robocomp_yaml.network.network import RestartRule
 
 MOTORS, BASE, ARM = process("motors"), process("base", "motors"), process("arm", "base")
 CAMERA = process("camera")
@@ -110,7 +110,7 @@ def test_a_forced_one_says_who_wanted_it_and_what_changed_besides() -> None:
 
 
 def test_the_reason_is_the_change_that_needs_a_restart_and_how_many_there_are_besides() -> None:
-    changed = replace(MOTORS, restart=Restart(tries=9), aliases=("m",), cwd="/tmp")
+    changed = replace(MOTORS, restart=RestartRule(tries=9), aliases=("m",), cwd="/tmp")
     step = plan(network(changed), {"motors": running(MOTORS)}).steps["motors"]
     assert (step.action, step.reason) == (RESTART, "cwd: / → /tmp, and 2 more")
     step = plan(network(replace(MOTORS, aliases=("m",))), {"motors": running(MOTORS)}).steps["motors"]

@@ -7,15 +7,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.network.order import AFTER, Need, optional, ordered
+from robocomp_yaml.network.order import AFTER, Dependence, optional, ordered
 
 Arrow = tuple[str, str, str]
 
 
-def needs(*arrows: Arrow) -> list[Need]:
+def needs(*arrows: Arrow) -> list[Dependence]:
     """`("a", "b", "wait")`: a needs b; `after` is what the document says."""
     return [
-        Need(source, target, "" if how == AFTER else how, AFTER if how == AFTER else "Proxy", Span("x", number + 1))
+        Dependence(
+            source, target, "" if how == AFTER else how, AFTER if how == AFTER else "Proxy", Span("x", number + 1)
+        )
         for number, (source, target, how) in enumerate(arrows)
     ]
 

@@ -15,8 +15,8 @@ import msgspec
 
 from robocomp_yaml.deploy import folder as own_folder
 from robocomp_yaml.deploy.local.obstacles import is_here
-from robocomp_yaml.deploy.spec import Spec
-from robocomp_yaml.network.network import Host, is_loopback
+from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.network.network import NetworkHost, is_loopback
 
 KEEPER = "rcyaml.keeper"
 """The id of the server that brings processes back after a node's death. No process can have it as a name."""
@@ -34,7 +34,7 @@ class Registry(msgspec.Struct, frozen=True):
     port: int
 
 
-class Places(msgspec.Struct, frozen=True):
+class GridFiles(msgspec.Struct, frozen=True):
     """The files of one deployment's engine, by the deployment's folder."""
 
     folder: str
@@ -93,11 +93,11 @@ class Places(msgspec.Struct, frozen=True):
     def keep_nodes(self, nodes: Mapping[str, bool]) -> None:
         self._write(_NODES, dict(nodes))
 
-    def specs(self) -> dict[str, Spec | None]:
+    def specs(self) -> dict[str, ProcessSpec | None]:
         """What the processes were given; None where another version of rcyaml wrote it."""
-        return {name: Spec.of_data(data) for name, data in self._read(_SPECS, {}).items()}
+        return {name: ProcessSpec.of_data(data) for name, data in self._read(_SPECS, {}).items()}
 
-    def keep_specs(self, specs: dict[str, Spec | None]) -> None:
+    def keep_specs(self, specs: dict[str, ProcessSpec | None]) -> None:
         kept = self._read(_SPECS, {})
         self._write(_SPECS, {name: spec.as_data() if spec else kept.get(name) for name, spec in specs.items()})
 
@@ -114,7 +114,7 @@ class Places(msgspec.Struct, frozen=True):
         own_folder.write(self.folder, path, json.dumps(data))
 
 
-def registry_address(hosts: Iterable[Host]) -> str:
+def registry_address(hosts: Iterable[NetworkHost]) -> str:
     """The address of this machine at which all these hosts reach it: a loopback address where all are this machine,
     else that of its own entry, else the one from which it reaches the first of the others."""
     others = [host.address for host in hosts if not is_here(host.address)]

@@ -16,7 +16,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar
 _DIALECT_B = ("Endpoints.", "Proxies.", "Period.", "Agent.")
 
 
-class Base(msgspec.Struct):
+class ConfigurationBase(msgspec.Struct):
     """`values` is None for a flat config: then `flat` is its text, and `properties` are its properties as Ice reads
     them. Without a base, both are None."""
 
@@ -61,14 +61,14 @@ class Base(msgspec.Struct):
         return key if isinstance(key, Scalar) else None
 
 
-def base_of(instance: LinkedInstance, disk: Disk) -> Base:
+def base_of(instance: LinkedInstance, disk: Disk) -> ConfigurationBase:
     if instance.values is not None:
-        return Base(instance.values)
+        return ConfigurationBase(instance.values)
     raw = disk.read(instance.flat)[0] if instance.flat and disk.has_file(instance.flat) else None
     if raw is None:
-        return Base()
+        return ConfigurationBase()
     text = raw.decode("utf-8", "replace")
-    return Base(None, text, properties.read(text).values)
+    return ConfigurationBase(None, text, properties.read(text).values)
 
 
 def _text(node: Node | None) -> str:
