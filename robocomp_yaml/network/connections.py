@@ -1,4 +1,4 @@
-"""Who serves what each component requires: as `connect:` says, else the one that serves an equal interface."""
+"""Connections of what each component requires: as `connect:` says, else to the process with an equal interface."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from robocomp_yaml.source.ice_proxy import parse_proxy
 
 
 class Providers(msgspec.Struct):
-    """Offers by interface; `_within` has them by interface and by what holds them, an include or a closed group, so
-    that a large deployment of many alike is searched as fast as a small one."""
+    """Offers by interface. `_within` has them by interface and by the include or closed group that contains them, so
+    that a large deployment of many equal components is searched as fast as a small one."""
 
     _every: dict[str, list[Offer]] = {}
     _within: dict[tuple[str, str], list[Offer]] = {}
 
     def add(self, draft: Draft) -> None:
-        """Takes in what a component implements, and what a program has an endpoint for."""
+        """Adds what a component implements, and what a program has an endpoint for."""
         around = _around(draft.instance)
         for offer in draft.offers:
             if offer.port or offer.given:
@@ -40,7 +40,8 @@ class Providers(msgspec.Struct):
                     self._within.setdefault((offer.interface, holder), []).append(offer)
 
     def rings(self, draft: Draft, interface: str) -> Iterator[list[Offer]]:
-        """What could be connected to a draft: what shares most with it first. None of what closed groups hide."""
+        """The candidates for a draft, except those that closed groups hide. The first list shares the most includes
+        and closed groups with the draft, the last list none."""
         shared: dict[Offer, int] = {}
         for holder in _around(draft.instance):
             for offer in self._within.get((interface, holder), ()):
@@ -51,14 +52,15 @@ class Providers(msgspec.Struct):
 
 
 def _around(instance: LinkedInstance) -> list[str]:
-    """The includes and closed groups that hold an instance."""
+    """The includes and closed groups that contain an instance."""
     steps = instance.scope.split(".")[:-1]
     includes = [".".join(steps[:n]) for n in range(1, len(steps) + 1)]
     return includes + [f"group {group.name}" for group in instance.groups if group.is_closed]
 
 
 def _reaches(draft: Draft, offer: Offer) -> bool:
-    """Whether an offer is another one's, and every closed group around it that the draft is outside of exposes it."""
+    """Whether an offer is of another process, and is exposed by every closed group that contains it, but not the
+    draft."""
     source, target = draft.instance, offer.owner.instance
     return offer.owner is not draft and all(
         any(
@@ -74,7 +76,7 @@ _MANY = 6
 
 
 class Connections(msgspec.Struct):
-    """`found` are the lines of the graph, `needs` says who waits for whom."""
+    """Connects what is required. `found` are the connections, `needs` the dependences that follow."""
 
     drafts: Drafts
     comparison: InterfaceComparison
@@ -89,22 +91,22 @@ class Connections(msgspec.Struct):
             if not self.gates.is_gate(draft):
                 self._providers.add(draft)
         for draft in self.drafts.drafts.values():
-            component, given = draft.instance.component, {pair.name: pair for pair in draft.instance.entry.connect}
+            component, explicit = draft.instance.component, {pair.name: pair for pair in draft.instance.entry.connect}
             for port in component.requires if component else ():
-                pair = given.get(port.name)
+                pair = explicit.get(port.name)
                 if pair is not None:
-                    self._given(draft, pair, port)
+                    self._explicit(draft, pair, port)
                 else:
-                    self._look_for(draft, port)
-            for pair in given.values() if component is None else ():
-                self._given(draft, pair, None)
+                    self._implicit(draft, port)
+            for pair in explicit.values() if component is None else ():
+                self._explicit(draft, pair, None)
 
-    def _given(self, draft: Draft, pair: Pair, port: Port | None) -> None:
-        """`port` is None for a program, of which nothing but the proxy's name is known."""
+    def _explicit(self, draft: Draft, pair: Pair, port: Port | None) -> None:
+        """Connects as `connect:` says. `port` is None for a program, of which only the proxy's name is known."""
         interface = port.interface.name if port else pair.name
         if is_proxy(pair.text):
             self.diagnostics += _faults(draft, pair)
-            proxy = pair.text.strip(BLANKS)  # they mean nothing there, and no property's value can end with a tab
+            proxy = pair.text.strip(BLANKS)  # Ice ignores them, and the value of a property cannot end with a tab
             draft.proxies[pair.name] = LocatedText(proxy, pair.span)
             self.found.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
             return
@@ -132,8 +134,8 @@ class Connections(msgspec.Struct):
             )
             self.diagnostics.append(not_served)
 
-    def _look_for(self, draft: Draft, port: Port) -> None:
-        """Connects a port that nothing is said of: the nearest that serve an equal interface decide."""
+    def _implicit(self, draft: Draft, port: Port) -> None:
+        """Connects a port without an entry in `connect:` to the nearest process that serves an equal interface."""
         other: Offer | None = None
         for ring in self._providers.rings(draft, port.interface.name):
             equal = [offer for offer in ring if self._is_equal(port, offer)]
@@ -159,7 +161,7 @@ class Connections(msgspec.Struct):
     def _connect(self, draft: Draft, name: str, interface: str, offer: Offer, span: Span, port: Port | None) -> None:
         offer = self.gates.through(offer, draft.instance)
         target = offer.owner
-        if offer.endpoint is None:  # the document's endpoint is none, which has been said
+        if offer.endpoint is None:  # the endpoint is not valid, which has been reported
             return
         draft.proxies[name] = LocatedText(offer.proxy, span)
         self.found.append(Connection(draft.name, name, interface, target.name, proxy=offer.proxy, span=span))
@@ -175,24 +177,24 @@ class Connections(msgspec.Struct):
     def _ambiguous(
         self, draft: Draft, name: str, interface: str, offers: list[Offer], span: Span, port: Port | None = None
     ) -> None:
-        shown = [self._called(offer, draft) for offer in offers]
-        more = f" and {len(shown) - _MANY} more" if len(shown) > _MANY else ""
-        places = {offer.span: word for word, offer in reversed(list(zip(shown, offers[:_MANY], strict=False)))}
-        related = [Related(f"'{word}' serves it", span) for span, word in reversed(places.items())]
+        names = [self._name(offer, draft) for offer in offers]
+        more = f" and {len(names) - _MANY} more" if len(names) > _MANY else ""
+        by_span = {offer.span: name for name, offer in reversed(list(zip(names, offers[:_MANY], strict=False)))}
+        related = [Related(f"'{name}' serves it", span) for span, name in reversed(by_span.items())]
         self.diagnostics.append(
             codes.AMBIGUOUS.at(
                 span,
                 source=draft.name,
                 port=name,
                 interface=interface,
-                candidates=", ".join(shown[:_MANY]) + more,
-                hint=f"write `connect: {{{name}: {shown[0]}}}`, or another",
+                candidates=", ".join(names[:_MANY]) + more,
+                hint=f"write `connect: {{{name}: {names[0]}}}`, or another one",
                 related=related + _required(port),
             )
         )
 
-    def _called(self, offer: Offer, draft: Draft) -> str:
-        """As `connect:` may name it: a member of a closed group by the group."""
+    def _name(self, offer: Offer, draft: Draft) -> str:
+        """The name of an offer in `connect:`; a member of a closed group is named by the group."""
         for group in self.drafts.linked.closed_around(offer.owner.instance, draft.instance)[:1]:
             for served in group.serves:
                 if self.drafts.of(served.instance) is offer.owner and served.adapter == offer.adapter:
@@ -222,28 +224,28 @@ class Connections(msgspec.Struct):
         self.found.append(Connection(draft.name, port.name, name, "", span=draft.span))
         if linked.is_included or not self.drafts.complete:
             return
-        told = codes.UNRESOLVED.at(
+        unresolved = codes.UNRESOLVED.at(
             draft.span,
             source=draft.name,
             interface=name,
             related=_required(port),
-            hint=f"add a component that implements {name}, or say where it is: "
+            hint=f"add a component that implements {name}, or name its proxy: "
             f'`connect: {{{port.name}: "{name.lower()}:tcp -h HOST -p PORT"}}`',
         )
-        self.diagnostics.append(told.as_severity(WARNING) if _may_be_absent(port) else told)
+        self.diagnostics.append(unresolved.as_severity(WARNING) if _may_be_absent(port) else unresolved)
 
 
 def is_proxy(text: str) -> bool:
-    """Whether `connect:` names something outside, by its proxy."""
+    """Whether a text of `connect:` is the proxy of an external server."""
     return text[:1] in "\"'" or any(char in text for char in f":@{BLANKS}")
 
 
 def _faults(draft: Draft, pair: Pair) -> Iterator[Diagnostic]:
-    """What Ice would refuse, and what it would pass over."""
+    """What Ice would reject, and what it would ignore."""
     try:
         found = parse_proxy(pair.text)
     except Refused as refused:
-        usual = f'a proxy is spelled as Ice has it: `"{pair.name.lower()}:tcp -h HOST -p PORT"`'
+        usual = f'write it in the syntax of Ice: `"{pair.name.lower()}:tcp -h HOST -p PORT"`'
         yield text_fault(codes.BAD_PROXY, draft, pair.span, pair.text, refused, usual, text=pair.text)
         return
     for unknown in found.unknown:
@@ -263,14 +265,14 @@ def _is_only(offer: Offer) -> bool:
 
 
 class ConnectTarget(msgspec.Struct, frozen=True):
-    """`served` are offers by the names under which they are served; `interface` is what stands behind the target's
-    name, or ''."""
+    """What `connect:` names. `served` are offers by the names under which they are served. `interface` is the interface
+    after the target's name, or ''."""
 
     served: tuple[tuple[str, Offer], ...]
     interface: str
 
     def chosen(self) -> list[Offer]:
-        """Those that are meant: all, where no interface is named."""
+        """The offers of the named interface; all offers if no interface is named."""
         return [
             offer
             for name, offer in self.served
@@ -279,11 +281,11 @@ class ConnectTarget(msgspec.Struct, frozen=True):
 
 
 def named(drafts: Drafts, draft: Draft, pair: Pair) -> ConnectTarget | Diagnostic | None:
-    """What an entry of `connect:` names, or what is wrong with it; None where that has been reported."""
+    """What an entry of `connect:` names, or the diagnostic of what is wrong; None if that has been reported."""
     linked, instance = drafts.linked, draft.instance
     targets, behind = linked.find(pair.text, instance.scope)
     if not targets:
-        return None if instance.broken else _not_there(drafts, draft, pair)
+        return None if instance.broken else _unknown(drafts, draft, pair)
     served: list[tuple[str, Offer]] = []
     for target in targets:
         around = linked.closed_around(target, instance)
@@ -294,23 +296,23 @@ def named(drafts: Drafts, draft: Draft, pair: Pair) -> ConnectTarget | Diagnosti
             group = around[0].name
             hint = f"connect to '{group}', which serves what it exposes"
             return codes.CLOSED_GROUP.at(pair.span, target=pair.text, group=group, hint=hint)
-        if _lacks_something(drafts, target):
+        if _is_incomplete(drafts, target):
             return None
         served += _of_group(drafts, target, draft) if isinstance(target, LinkedGroup) else _of(drafts, target)
     return ConnectTarget(tuple(served), behind)
 
 
-def _not_there(drafts: Drafts, draft: Draft, pair: Pair) -> Diagnostic:
+def _unknown(drafts: Drafts, draft: Draft, pair: Pair) -> Diagnostic:
     proxy = f'"{pair.name.lower()}:tcp -h HOST -p PORT"'
     names = drafts.linked.names.get(draft.instance.scope, {})
-    hint = did_you_mean(pair.text, names, otherwise=f"what is outside is named by its proxy, in quotes: {proxy}")
+    hint = did_you_mean(pair.text, names, otherwise=f"name an external server by its proxy, in quotes: {proxy}")
     return codes.NO_TARGET.at(pair.span, name=pair.text, hint=hint)
 
 
-def _lacks_something(drafts: Drafts, target: Target) -> bool:
-    """Whether something that the target may serve could not be read."""
+def _is_incomplete(drafts: Drafts, target: Target) -> bool:
+    """Whether something that the target serves could not be read."""
     if isinstance(target, LinkedGroup):
-        return is_broken(target) or any(_lacks_something(drafts, member) for member in target.members)
+        return is_broken(target) or any(_is_incomplete(drafts, member) for member in target.members)
     if isinstance(target, LinkedInstance):
         is_read = drafts.of(target) is not None and not target.broken
         return not is_read or bool(target.component and target.component.broken)
@@ -318,7 +320,8 @@ def _lacks_something(drafts: Drafts, target: Target) -> bool:
 
 
 def _of(drafts: Drafts, instance: LinkedInstance) -> Iterator[tuple[str, Offer]]:
-    """What an entry serves; a second name of a process, what stands under it, else what the process does."""
+    """What an entry serves. A second name of a process serves its own endpoints, or without any what the process
+    serves."""
     owner = drafts.of(instance)
     own = {pair.name for pair in instance.entry.endpoints} if instance.process else set()
     for offer in owner.offers if owner else ():
@@ -327,7 +330,7 @@ def _of(drafts: Drafts, instance: LinkedInstance) -> Iterator[tuple[str, Offer]]
 
 
 def _of_group(drafts: Drafts, group: LinkedGroup, draft: Draft) -> Iterator[tuple[str, Offer]]:
-    """What a group serves to those outside of it, under names of its own; to its own members, everything."""
+    """What a group serves: to processes outside what it exposes, under its own names; to its members, everything."""
     is_outside = group.is_closed and draft.instance not in group.members
     names = {(one.instance.process or one.instance, one.adapter): one.name for one in group.serves}
     owners = dict.fromkeys(owner for member in group.members if (owner := drafts.of(member)))

@@ -1,4 +1,4 @@
-"""From a linked deployment to its network: ports, connections, topics, configurations and order, in this order."""
+"""From a linked deployment to its network: TCP ports, connections, topics, configurations and order, in this order."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ from robocomp_yaml.source.ice_options import LAST_PORT, Refused
 
 
 def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Diagnostic]]:
-    """The network of a deployment, as far as it can be told, and all that is wrong with it. Flat configuration
-    files are read from the program's disk."""
+    """The network of a deployment, as far as it can be derived, and its diagnostics. Flat configs are read from the
+    program's disk."""
     deployment = linked.deployment
     folder = os.path.abspath(os.path.join(os.path.dirname(deployment.path), FOLDER, deployment.name))
     drafts = drafts_of(linked)
     network = Network(deployment.name, os.path.abspath(deployment.path), folder, drafts.hosts, extra=deployment.extra)
     gates = Gates(drafts)
-    gates.place()
+    gates.add()
     assign_ports(drafts)
     bases: dict[Draft, ConfigurationBase] = {}
 
@@ -52,11 +52,11 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
     topics.resolve()
     network.connections = [*connections.found, *gates.found, *topics.found]
     diagnostics = [*endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
-    needs = [*_said(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
+    needs = [*_explicit(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
-    wanted = {need.target for need in needs if need.source in enabled}
+    needed = {need.target for need in needs if need.source in enabled}
     for storm in drafts.storms.values():
-        network.processes[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in wanted)
+        network.processes[storm.name] = processes.of_storm(storm, folder, enabled=storm.name in needed)
     known: dict[str, tuple[str, ...]] = {}
     for draft in drafts.drafts.values():
         if gates.is_gate(draft):
@@ -73,8 +73,8 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
     return network, diagnostics
 
 
-def _said(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
-    """What the document says by `after:`. A group is ready when those can reach it that are outside."""
+def _explicit(drafts: Drafts, gates: Gates) -> Iterable[Dependence]:
+    """The dependences of `after:`. A group is ready when processes outside can reach it, that is, with its gates."""
     for draft in drafts.drafts.values():
         texts = draft.instance.entry.after
         for text in texts:
@@ -108,7 +108,7 @@ def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
                 facts = {"name": offer.adapter, "text": offer.given}
                 yield text_fault(codes.BAD_ENDPOINT, offer.owner, offer.span, offer.given, refused, usual, **facts)
         elif offer.number > LAST_PORT:
-            hint = "begin with a lower one, or use fewer instances"
+            hint = "begin with a lower port, or use fewer instances"
             yield codes.PORT_TOO_HIGH.at(offer.span, name=offer.owner.name, port=offer.number, hint=hint)
 
 
@@ -122,7 +122,7 @@ def length_faults(linked: LinkedDeployment, drafts: Drafts, network: Network) ->
             yield _too_long("host", host.name, host.name, host.span)
     for process in network.processes.values():
         for name in (process.name, *process.aliases):
-            unit = f"{deployment.name}-{name}.service"  # the longest of its files
+            unit = f"{deployment.name}-{name}.service"  # the longest name of its files
             if is_too_long(unit):
                 yield _too_long("entry", name, unit, process.span)
     for draft in drafts.drafts.values():
@@ -147,8 +147,8 @@ def _too_long(what: str, name: str, file: str, span: Span) -> Diagnostic:
 def _paths(draft: Draft, process: Process) -> Iterator[Diagnostic]:
     entry = draft.instance.entry
     program = entry.target if entry.kind == PROGRAM else entry.executable
-    given: list[tuple[Text | None, str]] = [(program, process.command[0]), (entry.cwd, process.cwd)]
-    for text, path in given:
+    paths: list[tuple[Text | None, str]] = [(program, process.command[0]), (entry.cwd, process.cwd)]
+    for text, path in paths:
         fault = path_fault(path)
         if text is not None and fault:
             yield codes.PATH_TOO_LONG.at(text.span, path=shortened(text.text), problem=fault)

@@ -1,4 +1,5 @@
-"""What a network is derived from step by step: each instance and each IceStorm, with what they serve and are given."""
+"""Drafts of processes, from which a network is derived step by step: each instance and each IceStorm on its host, with
+what it serves, its TCP ports, and what its configuration gets."""
 
 from __future__ import annotations
 
@@ -23,14 +24,15 @@ from robocomp_yaml.source.ice_options import BLANKS, Refused
 MANAGER, PUBLISH = "TopicManager", "Publish"
 STORM_INSTANCE = "IceStorm"
 STORM_PORT = 9999
-"""Of an IceStorm in an include with a name, which may be there several times, it is a default as all others."""
+"""The port of a topic manager without a port of its own. In an include with a name, which can be included several
+times, a default port replaces it."""
 
-_ANY_TEXT = "what is for a program that is none of Ice, and may be any text, stands under `args:` or `env:`"
+_ANY_TEXT = "for any other text to a program that does not use Ice, use `args:` or `env:`"
 
 
 def listening(host: NetworkHost, number: int) -> str:
-    """Where an adapter listens: on a machine that others reach, on all its interfaces. `localhost` may also mean ::1,
-    which a machine without IPv6 cannot listen on."""
+    """The endpoint of an adapter: on a host that others reach, on all network interfaces. An endpoint never contains
+    `localhost`, which can mean ::1: a machine without IPv6 cannot listen on that."""
     if not is_loopback(host.address):
         return f"tcp -p {number}"
     address = "127.0.0.1" if host.address == LOOPBACK else host.address
@@ -38,9 +40,9 @@ def listening(host: NetworkHost, number: int) -> str:
 
 
 class Offer(msgspec.Struct, eq=False):
-    """An interface that a draft serves on the adapter `adapter`. `port` is the entry of the component's `implements`;
-    None where only a name is known: of a program's endpoint, and of CommonBehavior. `given` is the endpoint as the
-    document spells it; else `number` is its port, 0 as long as it has none."""
+    """An interface that a draft serves on the adapter `adapter`. `port` is the entry of the component's `implements`,
+    None for an endpoint of a program and for CommonBehavior, of which only the name is known. `given` is the endpoint
+    in the document; without one, `number` is its TCP port, 0 until it is assigned."""
 
     owner: Draft
     adapter: str
@@ -52,12 +54,12 @@ class Offer(msgspec.Struct, eq=False):
 
     @property
     def full_name(self) -> str:
-        """As `connect:` may name it."""
+        """As `connect:` can name it."""
         return f"{self.owner.name}.{self.adapter}"
 
     @property
     def endpoint(self) -> IceEndpoint | None:
-        """None where the document's spelling is none."""
+        """None if the endpoint in the document is not valid."""
         return parse_endpoint(self.given) if self.given else IceEndpoint(self.number)
 
     @property
@@ -72,31 +74,33 @@ class Offer(msgspec.Struct, eq=False):
         return f"{self.interface.lower()}:{endpoint.reached_at(self.owner.host.address)}"
 
     def resolved(self) -> Endpoint:
-        found = self.endpoint or IceEndpoint(0)
+        endpoint = self.endpoint or IceEndpoint(0)
         module = self.port.scope.module.name if self.port else ""
         if self.port is None and self.interface == COMMON_BEHAVIOR:
             module = f"RoboComp{COMMON_BEHAVIOR}"
-        return Endpoint(self.adapter, self.interface.lower(), found.port, self.text, found.protocol, module, self.span)
+        return Endpoint(
+            self.adapter, self.interface.lower(), endpoint.port, self.text, endpoint.protocol, module, self.span
+        )
 
 
 class LocatedText(msgspec.Struct, frozen=True):
-    """A text that a configuration gets, and the place in the deployment that it comes from."""
+    """A text for a configuration, and the location in the deployment that it comes from."""
 
     text: str
     span: Span
 
 
 class Draft(msgspec.Struct, eq=False):
-    """An instance on its way to become a process. `aliases` are the entries that are a second name of it. `hears` are
-    the adapters for events of topics that the document gives ports to; nobody else needs to know them. `proxies` by
-    proxy name, `topics` (full names by the port's name) and `manager` (the proxy of its IceStorm) are what its
-    configuration gets."""
+    """An instance that becomes a process. `aliases` are the entries that are second names of it. `subscribers` are the
+    adapters that receive events of topics, if the document sets their ports; no other process needs these. For its
+    configuration it has `proxies` (by the proxy's name), `topics` (full names by the port's name), and `manager` (the
+    proxy of its IceStorm)."""
 
     instance: LinkedInstance
     host: NetworkHost
     aliases: list[LinkedInstance] = []
     offers: list[Offer] = []
-    hears: list[Offer] = []
+    subscribers: list[Offer] = []
     proxies: dict[str, LocatedText] = {}
     topics: dict[str, LocatedText] = {}
     manager: LocatedText | None = None
@@ -111,11 +115,11 @@ class Draft(msgspec.Struct, eq=False):
 
     @property
     def adapters(self) -> list[Offer]:
-        return [*self.offers, *self.hears]
+        return [*self.offers, *self.subscribers]
 
 
 class StormDraft(msgspec.Struct, eq=False):
-    """An IceStorm, with the ports of its topic manager and of its publishers."""
+    """An IceStorm, with the TCP ports of its topic manager and of its publishers."""
 
     linked: LinkedStorm
     host: NetworkHost
@@ -148,8 +152,8 @@ class StormDraft(msgspec.Struct, eq=False):
 
 
 class Drafts(msgspec.Struct):
-    """Instances and IceStorms in the documents' order. `complete` is False where something could not be read, so that
-    what is missing may be there."""
+    """Instances and IceStorms in the documents' order. `complete` is False if something could not be read: then what
+    is missing may be in it."""
 
     linked: LinkedDeployment
     hosts: dict[str, NetworkHost] = {}
@@ -158,11 +162,12 @@ class Drafts(msgspec.Struct):
     complete: bool = True
 
     def of(self, instance: LinkedInstance) -> Draft | None:
-        """The draft of the process that an instance is, or is a second name of."""
+        """The draft of an instance's process, also for a second name. None if it has no draft."""
         return self.drafts.get(instance.process or instance)
 
 
 def drafts_of(linked: LinkedDeployment) -> Drafts:
+    """Drafts of all processes of a deployment, still without ports and connections."""
     result = Drafts(linked, {name: _host(host) for name, host in linked.hosts.items()})
     result.complete = not (linked.broken or any(map(is_broken, linked.groups.values())))
     for storm in linked.storms.values():
@@ -173,7 +178,7 @@ def drafts_of(linked: LinkedDeployment) -> Drafts:
         result.complete &= is_known and not instance.broken
         if is_known and instance.entry.kind != model.PROCESS:
             draft = result.drafts[instance] = Draft(instance, _placed(result.hosts, instance.host))
-            draft.offers, draft.hears = list(_offers(draft)), list(_hears(draft))
+            draft.offers, draft.subscribers = list(_offers(draft)), list(_subscribers(draft))
             result.complete &= instance.component is None or not instance.component.broken
     for instance in linked.instances.values():
         owner = result.drafts.get(instance.process) if instance.process else None
@@ -184,7 +189,7 @@ def drafts_of(linked: LinkedDeployment) -> Drafts:
 
 
 def is_broken(group: LinkedGroup) -> bool:
-    """Whether something about a group has been reported, so that what it serves is not known."""
+    """Whether an error in a group has been reported, so that what it serves is unknown."""
     return group.broken or len(group.serves) < len(group.group.exposed)
 
 
@@ -212,7 +217,7 @@ def _offers(draft: Draft) -> Iterator[Offer]:
         yield Offer(draft, name, interface, pair.span if pair else draft.span, port, given=pair.text if pair else "")
 
 
-def _hears(draft: Draft) -> Iterator[Offer]:
+def _subscribers(draft: Draft) -> Iterator[Offer]:
     entry, component = draft.instance.entry, draft.instance.component
     given = {pair.name: pair for pair in entry.endpoints}
     fixed = {number.name: number for number in entry.ports}
@@ -224,7 +229,7 @@ def _hears(draft: Draft) -> Iterator[Offer]:
 
 
 def _endpoints(owner: Draft, instance: LinkedInstance) -> Iterator[Offer]:
-    """What an entry says that a program serves; the name may be qualified by a module."""
+    """What a program serves by the `endpoints:` of an entry; a module can qualify the name."""
     for pair in instance.entry.endpoints:
         yield Offer(owner, pair.name, pair.name.rpartition(".")[2], pair.span, given=pair.text)
 
@@ -232,8 +237,8 @@ def _endpoints(owner: Draft, instance: LinkedInstance) -> Iterator[Offer]:
 def text_fault(
     code: Code, draft: Draft, span: Span, written: str, refused: Refused, otherwise: str = "", **facts: Any
 ) -> Diagnostic:
-    """What Ice would refuse in a text of the document, where it is; `otherwise` is the hint where no word is meant. The
-    text of an instance is not as the document has it: `{i}` is filled in."""
+    """What Ice would reject in a text of the document, with its location. `otherwise` is the hint without a suggestion.
+    The location in the text of an instance is unknown, because `{i}` in it has been replaced."""
     where = span if draft.instance.number is not None else span.inside(written, refused.start, refused.end)
     hint = did_you_mean(written[refused.start : refused.end], refused.meant, otherwise=otherwise)
     if draft.instance.component is None:
@@ -242,8 +247,9 @@ def text_fault(
 
 
 def assign_ports(drafts: Drafts) -> None:
-    """Fills in all numbers. Those that are not given are a hash of the instance's and the adapter's name; of two that
-    meet on a host, the later name moves on: so they depend on names alone, not on the order of the document."""
+    """Assigns a TCP port to everything that is served. A port that the document does not set is a hash of the names of
+    the instance and the adapter. If two are equal on one host, the later name gets the next free port, so that ports
+    depend on names, not on the order of the document."""
     taken: dict[str, set[int]] = {host.address: set(RESERVED) for host in drafts.hosts.values()}
     for storm in drafts.storms.values():
         storm.manager = storm.linked.storm.port or (0 if storm.linked.scope else STORM_PORT)
@@ -254,20 +260,20 @@ def assign_ports(drafts: Drafts) -> None:
             _fix(draft, offer)
             if offer.endpoint is not None and (offer.given or offer.number):
                 taken[draft.host.address].add(offer.endpoint.port)
-    for name, place in sorted(_unassigned(drafts), key=lambda pair: pair[0]):
-        ports = taken[place.host.address if isinstance(place, StormDraft) else place.owner.host.address]
+    for name, served in sorted(_unassigned(drafts), key=lambda pair: pair[0]):
+        ports = taken[served.host.address if isinstance(served, StormDraft) else served.owner.host.address]
         number = next_free(default_port(*name), ports)
         ports.add(number)
-        if isinstance(place, Offer):
-            place.number = number
+        if isinstance(served, Offer):
+            served.number = number
         elif name[1] == MANAGER:
-            place.manager = number
+            served.manager = number
         else:
-            place.publish = number
+            served.publish = number
 
 
 def _unassigned(drafts: Drafts) -> Iterator[tuple[tuple[str, str], Offer | StormDraft]]:
-    """What has no port yet, by the names that its default is made of."""
+    """Everything without a port, with the names from which its default is computed."""
     for draft in drafts.drafts.values():
         for offer in draft.offers:
             if not offer.given and not offer.number:
@@ -279,9 +285,9 @@ def _unassigned(drafts: Drafts) -> Iterator[tuple[tuple[str, str], Offer | Storm
 
 
 def _fix(draft: Draft, offer: Offer) -> None:
-    """The number that the document gives. `port:` is that of the first interface; instances count all up."""
+    """Sets the port that the document sets. `port:` is for the first interface; instances count all ports up."""
     entry = draft.instance.entry
-    name = offer.adapter.removesuffix("Topic") if offer in draft.hears else offer.adapter
+    name = offer.adapter.removesuffix("Topic") if offer in draft.subscribers else offer.adapter
     fixed = next((number for number in entry.ports if number.name == name), None)
     if fixed is None and entry.port is not None and offer is draft.offers[0] and not offer.given:
         fixed = entry.port
@@ -291,6 +297,6 @@ def _fix(draft: Draft, offer: Offer) -> None:
 
 
 def _step(instance: LinkedInstance) -> int:
-    """How far the ports of an instance are from those of the first."""
+    """The difference between the ports of an instance and those of the first instance."""
     entry = instance.entry
     return (instance.number or 0) * (len(entry.ports) + (1 if entry.port is not None else 0))

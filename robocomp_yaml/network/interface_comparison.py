@@ -1,7 +1,7 @@
-"""Interfaces compared by content: two documents with an equal interface are as good as one.
+"""Interfaces compared by content, whatever their documents.
 
-What travels counts, and what it means: names, order and types of parameters and members, enumerators with their
-values, exceptions, and units where both sides give one. Documentation and defaults do not.
+Compared are names, order and types of parameters and members, enumerators with their values, exceptions, and units that
+both sides have. Documentation and defaults are ignored.
 """
 
 from __future__ import annotations
@@ -28,27 +28,24 @@ from robocomp_yaml.model.interface import (
 
 
 class InterfaceDifference(msgspec.Struct, frozen=True):
-    """`message` tells the first side from the second; the places are those of the two interfaces' own documents."""
+    """`message` names the first side before the second. The spans are in the documents of the two interfaces."""
 
     message: str
     first: Span
     second: Span
 
     def sides(self, first: str, second: str) -> list[Related]:
-        """What processes of these names know."""
-        return [
-            Related(f"as '{first}' knows it", self.first),
-            Related(f"as '{second}' knows it", self.second),
-        ]
+        """The two definitions, with the names of the processes that use them."""
+        return [Related(f"as '{first}' knows it", self.first), Related(f"as '{second}' knows it", self.second)]
 
 
 class InterfaceComparison(msgspec.Struct):
-    """Compares interfaces, each pair once."""
+    """Compares interfaces, and caches the result of each pair."""
 
     _known: dict[tuple[LinkedModule, str, LinkedModule, str], InterfaceDifference | None] = {}
 
     def difference(self, first: Port, second: Port) -> InterfaceDifference | None:
-        """The first difference of two interfaces; None for equal ones."""
+        """The first difference of two interfaces, None if they are equal."""
         if first.scope is second.scope and first.interface is second.interface:
             return None
         key = (first.scope, first.interface.name, second.scope, second.interface.name)
@@ -59,12 +56,12 @@ class InterfaceComparison(msgspec.Struct):
 
 
 def name_of(port: Port) -> tuple[str, str]:
-    """What an interface is called: its module and its own name."""
+    """The module and the name of a port's interface."""
     return port.scope.module.name, port.interface.name
 
 
 class _ModulePair(msgspec.Struct):
-    """Two modules, each of whose definitions are compared; `seen` are the pairs of types that were."""
+    """Two modules whose definitions are compared. `seen` are the pairs of types that have been compared."""
 
     first: LinkedModule
     second: LinkedModule
@@ -73,16 +70,18 @@ class _ModulePair(msgspec.Struct):
     def interfaces(self, first: Interface, second: Interface) -> Iterator[InterfaceDifference]:
         names = self.first.module.name, self.second.module.name
         if names[0] != names[1]:
-            yield InterfaceDifference(f"its module is {names[0]}, and {names[1]}", first.span, second.span)
-        there = {method.name: method for method in second.methods}
+            yield InterfaceDifference(
+                f"its module is {names[0]} in one, and {names[1]} in the other", first.span, second.span
+            )
+        others = {method.name: method for method in second.methods}
         for method in first.methods:
-            if method.name in there:
-                yield from self.methods(method, there[method.name])
+            if method.name in others:
+                yield from self.methods(method, others[method.name])
             else:
                 yield InterfaceDifference(f"'{method.name}' is in one only", method.span, second.span)
-        here = {method.name for method in first.methods}
+        names_of_first = {method.name for method in first.methods}
         for method in second.methods:
-            if method.name not in here:
+            if method.name not in names_of_first:
                 yield InterfaceDifference(f"'{method.name}' is in one only", first.span, method.span)
 
     def methods(self, first: Method, second: Method) -> Iterator[InterfaceDifference]:
@@ -90,7 +89,7 @@ class _ModulePair(msgspec.Struct):
         if first.idempotent != second.idempotent:
             yield InterfaceDifference(f"{what} is idempotent in one only", first.span, second.span)
         yield from self.members(what, first.inputs, second.inputs, first.span, second.span)
-        yield from self.members(f"what {what} gives `out`", first.outputs, second.outputs, first.span, second.span)
+        yield from self.members(f"`out` of {what}", first.outputs, second.outputs, first.span, second.span)
         if first.returns is None or second.returns is None:
             if first.returns is not second.returns:
                 yield InterfaceDifference(f"{what} returns something in one only", first.span, second.span)
@@ -122,14 +121,18 @@ class _ModulePair(msgspec.Struct):
     def types(self, what: str, first: TypeRef, second: TypeRef) -> Iterator[InterfaceDifference]:
         if first.is_basic or second.is_basic:
             if first.text != second.text:
-                yield InterfaceDifference(f"{what} is {first.text}, and {second.text}", first.span, second.span)
+                yield InterfaceDifference(
+                    f"{what} is {first.text} in one, and {second.text} in the other", first.span, second.span
+                )
             return
         found, other = self.first.find(first), self.second.find(second)
-        if found is None or other is None:  # it has been said that the type is not there
+        if found is None or other is None:  # an unknown type, which has been reported
             return
         names = _qualified(*found), _qualified(*other)
         if names[0] != names[1]:
-            yield InterfaceDifference(f"{what} is {names[0]}, and {names[1]}", first.span, second.span)
+            yield InterfaceDifference(
+                f"{what} is {names[0]} in one, and {names[1]} in the other", first.span, second.span
+            )
         elif found[1] is not other[1] and names not in self.seen:
             self.seen.add(names)
             yield from _ModulePair(found[0], other[0], self.seen).definitions(names[0], found[1], other[1])
@@ -142,7 +145,7 @@ class _ModulePair(msgspec.Struct):
                 yield from self.members(name, first.members, second.members, first.span, second.span)
             case Enum(), Enum():
                 if _values(first) != _values(second):
-                    yield InterfaceDifference(f"the enumerators of {name} are not the same", first.span, second.span)
+                    yield InterfaceDifference(f"the enumerators of {name} differ", first.span, second.span)
             case Sequence(), Sequence():
                 yield from self.types(f"an entry of {name}", first.element, second.element)
             case Map(), Map():
@@ -150,7 +153,7 @@ class _ModulePair(msgspec.Struct):
                 yield from self.types(f"a value of {name}", first.value, second.value)
             case _:
                 if type(first) is not type(second):
-                    yield InterfaceDifference(f"{name} is of two kinds", first.span, second.span)
+                    yield InterfaceDifference(f"{name} has two kinds of definition", first.span, second.span)
 
 
 def _qualified(scope: LinkedModule, definition: Definition) -> str:
@@ -158,7 +161,7 @@ def _qualified(scope: LinkedModule, definition: Definition) -> str:
 
 
 def _values(enum: Enum) -> list[tuple[str, int]]:
-    """Every enumerator with its value, given or counted."""
+    """Every enumerator with its value, explicit or counted."""
     found, value = [], -1
     for enumerator in enum.enumerators:
         value = value + 1 if enumerator.value is None else enumerator.value
@@ -168,4 +171,4 @@ def _values(enum: Enum) -> list[tuple[str, int]]:
 
 def _units(what: str, first: str, second: str, here: Span, there: Span) -> Iterator[InterfaceDifference]:
     if first and second and first != second:
-        yield InterfaceDifference(f"{what} is in {first}, and in {second}", here, there)
+        yield InterfaceDifference(f"{what} is in {first} in one, and in {second} in the other", here, there)

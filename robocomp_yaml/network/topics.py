@@ -1,4 +1,4 @@
-"""Topics: their names after renames and prefixes, the IceStorm that carries each, and who is at the other end."""
+"""Topics: their names after renames and prefixes, the IceStorm that carries each, and who publishes and subscribes."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ _MANY = 6
 
 
 class _TopicEnd(msgspec.Struct, frozen=True):
-    """A port at one end of the topic that its document calls `name`; `storm` is None, and `manager` given, where the
-    IceStorm is none of ours."""
+    """A port that publishes or subscribes to a topic, which its document calls `name`. For an external IceStorm,
+    `storm` is None, and `manager` is the proxy of its topic manager."""
 
     draft: Draft
     port: Port
@@ -39,7 +39,7 @@ class _TopicEnd(msgspec.Struct, frozen=True):
 
 
 class TopicConnections(msgspec.Struct):
-    """As `Connections`: `found` are the lines of the graph, `needs` says who waits for whom."""
+    """Connects publishers and subscribers. `found` are the connections, `needs` the dependences that follow."""
 
     drafts: Drafts
     comparison: InterfaceComparison
@@ -73,17 +73,17 @@ class TopicConnections(msgspec.Struct):
             self.diagnostics.append(self._no_storm())
 
     def _storm(self, draft: Draft) -> tuple[StormDraft | None, str]:
-        """The IceStorm of the deployment, else the proxy of one outside that the configuration names."""
+        """The IceStorm of the deployment, else the proxy of an external one, which the configuration names."""
         near = self.drafts.linked.storms_for(draft.instance)
         nearest = [storm for storm in near if storm.scope == near[0].scope]
-        here = [storm for storm in nearest if self.drafts.storms[storm].host is draft.host]
-        chosen = nearest if len(nearest) == 1 else here
+        of_host = [storm for storm in nearest if self.drafts.storms[storm].host is draft.host]
+        chosen = nearest if len(nearest) == 1 else of_host
         if len(chosen) == 1:
             return self.drafts.storms[chosen[0]], ""
         manager = self.base_of(draft).manager
         if nearest and nearest not in self._several:
             self._several.append(nearest)
-            hint, storms = "leave one of them: it serves all hosts", ", ".join(storm.name for storm in nearest)
+            hint, storms = "keep only one of them: it serves all hosts", ", ".join(storm.name for storm in nearest)
             related = [Related(f"'{storm.name}'", storm.storm.span) for storm in nearest]
             several = codes.SEVERAL_STORMS.at(draft.span, hint=hint, related=related, source=draft.name, storms=storms)
             self.diagnostics.append(several)
@@ -92,7 +92,7 @@ class TopicConnections(msgspec.Struct):
         return None, manager
 
     def _no_storm(self) -> Diagnostic:
-        """One for all: they lack the same."""
+        """One diagnostic for all components without an IceStorm."""
         first, *others = self._without
         component = first.instance.component
         assert component is not None
@@ -103,7 +103,7 @@ class TopicConnections(msgspec.Struct):
             does="publishes" if port in component.publishes else "subscribes to",
             topic=port.name,
             hint="add an IceStorm: `services: {storm: {icestorm: {}}}`" + _too(others),
-            related=[Related(f"{port.name} stands here", port.use.span)],
+            related=[Related(f"{port.name} is here", port.use.span)],
         )
 
     def _end(self, draft: Draft, port: Port, storm: StormDraft | None, manager: str, *, is_out: bool) -> _TopicEnd:
@@ -114,8 +114,8 @@ class TopicConnections(msgspec.Struct):
         return _TopicEnd(draft, port, is_out, name, draft.span, storm, manager)
 
     def _topics(self, every: list[_TopicEnd]) -> list[str]:
-        """The full names of their topics. An IceStorm that is none of ours has others besides us, who know them by the
-        names that they have in the documents."""
+        """The full names of the ends' topics. With an external IceStorm, the names stay as in the documents, because
+        other programs use them, too."""
         topics = [end.name for end in every]
         for storm in self.drafts.storms.values():
             carried = [index for index, end in enumerate(every) if end.storm is storm]
@@ -136,7 +136,7 @@ class TopicConnections(msgspec.Struct):
         self._ends.setdefault((carrier or f":{end.manager}", topic), []).append(end)
 
     def _compare(self, topic: str, ends: list[_TopicEnd]) -> None:
-        """Every end of a topic must mean the same interface; what is subscribed should be published."""
+        """All ends of a topic must have the same interface, and a topic with subscribers should have a publisher."""
         first = next((end for end in ends if end.is_out), ends[0])
         for end in ends:
             found = self.comparison.difference(first.port, end.port)
@@ -152,13 +152,14 @@ class TopicConnections(msgspec.Struct):
         if first.is_out or not is_closed or not all(c.target for c in self.found if c.topic == topic):
             return
         hint = self._other_names(first) + _too([end.draft for end in ends[1:]])
-        related = [Related(f"{first.port.name} is subscribed to here", first.port.use.span)]
+        related = [Related(f"subscribes to {first.port.name} here", first.port.use.span)]
         source = first.draft.name
         silent = codes.NOT_PUBLISHED.at(first.span, hint=hint, related=related, source=source, topic=topic)
         self.diagnostics.append(silent)
 
     def _other_names(self, end: _TopicEnd) -> str:
-        """Where the same interface is published: under another name, or with another IceStorm."""
+        """The hint for a topic that is not published: its interface is published under another name, or through another
+        IceStorm."""
         names, storms = set(), set()
         for (_, topic), ends in self._ends.items():
             for other in ends:
@@ -171,14 +172,16 @@ class TopicConnections(msgspec.Struct):
             first = min(names)
             is_inside = end.storm is not None and end.draft.instance.scope != end.storm.linked.scope
             written = f"/{first}" if is_inside else first
-            return f"it is published as {', '.join(sorted(names))}: `topics: {{{end.port.name}: {written}}}`"
+            return f"the interface is published as {', '.join(sorted(names))}: `topics: {{{end.port.name}: {written}}}`"
         if storms:
-            return f"it is published with the IceStorm {', '.join(sorted(storms))}: where there is one only, all meet"
+            return (
+                f"the interface is published through the IceStorm {', '.join(sorted(storms))}: use one IceStorm for all"
+            )
         return "add the component that publishes it"
 
 
 def _too(others: list[Draft]) -> str:
-    """What lacks the same is told once, with all that do."""
+    """The end of a hint that names further components with the same fault."""
     if not others:
         return ""
     shown = [f"'{other.name}'" for other in others[:_MANY]]

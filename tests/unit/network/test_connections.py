@@ -73,12 +73,12 @@ def test_an_equal_interface_of_another_document() -> None:
 @pytest.mark.parametrize(
     ("was", "now", "difference", "place"),
     [
-        ("returns: bool", "returns: int", "what 'moveTo' returns is bool, and int", (6, 57)),
+        ("returns: bool", "returns: int", "what 'moveTo' returns is bool in one, and int in the other", (6, 57)),
         ("pose: Pose", "to: Pose", "'moveTo' has 'pose' where the other has 'to'", (6, 35)),
         ("y: float", "z: float", "RoboCompFace.Pose has 'y' where the other has 'z'", (3, 47)),
-        ("unit: mm", "unit: m", "'x' of RoboCompFace.Pose is in mm, and in m", (3, 19)),
+        ("unit: mm", "unit: m", "'x' of RoboCompFace.Pose is in mm in one, and in m in the other", (3, 19)),
         ("moveTo", "move", "'moveTo' is in one only", (6, 21)),
-        ("module: RoboCompFace", "module: RoboCompFaces", "its module is RoboCompFace, and RoboCompFaces", (6, 3)),
+        ("module: RoboCompFace", "module: RoboCompFaces", "its module is RoboCompFace in one, and RoboCompFaces in the other", (6, 3)),
     ],
 )
 def test_the_same_name_with_another_content(was: str, now: str, difference: str, place: tuple[int, int]) -> None:
@@ -272,7 +272,7 @@ def test_of_closed_groups_that_serve_it_the_groups_are_named() -> None:
         )
     )
     assert found.message.endswith("several processes serve: left.Mouth, right.Lips")
-    assert found.hint == "write `connect: {Mouth: left.Mouth}`, or another"
+    assert found.hint == "write `connect: {Mouth: left.Mouth}`, or another one"
 
 
 def test_an_include_is_connected_inside_first() -> None:

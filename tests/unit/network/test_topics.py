@@ -55,7 +55,7 @@ def test_a_rename_takes_the_prefix_away() -> None:
     values = "component: ../ears.cdsl.yaml\ntopics: {prefix: {HeardPub: left}, name: {Heard: Words}}\n"
     files = deployed(STORM + BOTH, **ENDS, **{"ears/etc/config.yaml": values})
     (kept,) = faults(files)  # nobody publishes `Heard` any more
-    assert kept.code == "RC4210" and kept.hint == "it is published as left/Words: `topics: {Heard: left/Words}`"
+    assert kept.code == "RC4210" and kept.hint == "the interface is published as left/Words: `topics: {Heard: left/Words}`"
     both = BOTH.replace("}", ", topics: {Heard: all/heard}}")
     found = network({**files, "robot.ddsl.yaml": f"deployment: Robot\n{STORM}{both}"})
     assert {topic for _, _, topic, _ in lines(found)} == {"all/heard"}
@@ -111,7 +111,7 @@ def test_both_ends_must_mean_the_same() -> None:
     files = deployed(STORM + BOTH, **ENDS, **{"Other.idsl.yaml": other})
     (found,) = faults({**files, "mind/mind.cdsl.yaml": component("MindComp", MIND, "Other")})
     assert said(found) == ("RC4211", "robot.ddsl.yaml", 5, 3)
-    assert found.message.endswith("define the topic Heard differently: 'text' of 'word' is string, and int")
+    assert found.message.endswith("define the topic Heard differently: 'text' of 'word' is string in one, and int in the other")
 
 
 ARM = "deployment: Arm\n" + BOTH
@@ -155,14 +155,14 @@ def test_who_is_outside_is_told_what_the_topic_is_called() -> None:
     outer = STORM + ARMS + "components: {all: {component: mind}}\n"
     (found,) = faults(deployed(outer, **ENDS, **{"arm.ddsl.yaml": ARM}))
     assert found.code == "RC4210"
-    assert found.hint == "it is published as left/Heard, right/Heard: `topics: {Heard: left/Heard}`"
+    assert found.hint == "the interface is published as left/Heard, right/Heard: `topics: {Heard: left/Heard}`"
 
 
 def test_the_name_is_that_which_leads_there_from_where_it_is_written() -> None:
     outer = STORM + "include: {left: arm.ddsl.yaml, right: mind.ddsl.yaml}\n"
     mind = "deployment: Mind\ncomponents: {mind: {component: mind}}\n"
     (found,) = faults(deployed(outer, **ENDS, **{"arm.ddsl.yaml": ARM, "mind.ddsl.yaml": mind}))
-    assert found.hint == "it is published as left/Heard: `topics: {Heard: /left/Heard}`"
+    assert found.hint == "the interface is published as left/Heard: `topics: {Heard: /left/Heard}`"
     named = mind.replace("mind}", "mind, topics: {Heard: /left/Heard}}")
     topic = topics(network(deployed(outer, **ENDS, **{"arm.ddsl.yaml": ARM, "mind.ddsl.yaml": named})))["right.mind"]
     assert topic == "left/Heard"
@@ -172,7 +172,7 @@ def test_what_another_icestorm_carries_is_told() -> None:
     arm = ARM.replace("components", "services: {storm: {icestorm: {}}}\ncomponents", 1)
     outer = STORM + "include: {left: arm.ddsl.yaml}\ncomponents: {mind: {component: mind}}\n"
     (found,) = faults(deployed(outer, **ENDS, **{"arm.ddsl.yaml": arm}))
-    assert found.hint == "it is published with the IceStorm 'left.storm': where there is one only, all meet"
+    assert found.hint == "the interface is published through the IceStorm 'left.storm': use one IceStorm for all"
 
 
 def test_an_include_with_an_icestorm_of_its_own() -> None:
