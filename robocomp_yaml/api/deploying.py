@@ -269,7 +269,7 @@ class Deployment:
 
         files = self.export(form)
         try:
-            self._told += exported.in_the_way(output, files)
+            self._told += exported.conflicts(output, files)
             if has_errors(self._told):
                 raise Faulty(self.diagnostics)
             exported.write(output, files)

@@ -1,4 +1,5 @@
-"""Carrying out a plan: what stops, in reverse order; then what starts, each as soon as all it is after are ready."""
+"""A plan is carried out: first processes stop, in reverse order; then each process starts when all that it is after are
+ready."""
 
 from __future__ import annotations
 
@@ -22,7 +23,7 @@ STOPPING, GONE, STARTING, READY, FAILED, SKIPPED = "stopping", "stopped", "start
 
 
 class ProcessEvent(msgspec.Struct, frozen=True):
-    """Something happened to a process; `seconds` since it began to happen, `text` what to add."""
+    """An event of one process. `seconds` is how long it took, `text` has details."""
 
     name: str
     kind: str
@@ -31,9 +32,9 @@ class ProcessEvent(msgspec.Struct, frozen=True):
 
 
 class StartOutcome(msgspec.Struct):
-    """`began` are the processes that were started, ready or not; `failed` why some are not ready; `skipped` are those
-    that were not tried because of these, or because the time was over (`is_late`): then `late` are those of the failed
-    that were still waited for."""
+    """What came of the starts. `began` are the processes that were started, ready or not. `failed` has the reason for
+    each that is not ready. `skipped` were not started, because others failed or the time limit expired (`is_late`);
+    in the latter case, `late` are the failed ones that were still pending."""
 
     began: list[str] = []
     failed: dict[str, Diagnostic] = {}
@@ -46,41 +47,42 @@ Report = Callable[[ProcessEvent], None]
 
 
 class Watch:
-    """What the engine sees, asked for by one at a time and no more often than needed, however many wait for it."""
+    """The engine's observations for any number of waiting tasks: one observation at a time serves all of them."""
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
-        self._seen: dict[str, Running] = {}
-        self._when = -math.inf
-        self._look: asyncio.Task[None] | None = None
+        self._observed: dict[str, Running] = {}
+        self._when = -math.inf  # the time before the last observation
+        self._task: asyncio.Task[None] | None = None
 
     def of(self, name: str) -> State:
-        async def look(since: float) -> Running | None:
+        async def state(since: float) -> Running | None:
             while self._when < since:
-                if self._look is None or self._look.done():
-                    self._look = asyncio.create_task(self._observe())
-                await asyncio.shield(self._look)  # others wait for it too
-            return self._seen.get(name)
+                if self._task is None or self._task.done():
+                    self._task = asyncio.create_task(self._observe())
+                await asyncio.shield(self._task)  # other tasks wait for it, too
+            return self._observed.get(name)
 
-        return look
+        return state
 
     async def _observe(self) -> None:
         began = time.monotonic()
-        self._seen = await self._engine.observe()
+        self._observed = await self._engine.observe()
         self._when = began
 
     async def close(self) -> None:
-        if self._look:
-            await _cancel([self._look])
+        if self._task:
+            await _cancel([self._task])
 
 
 async def carry_out(
     engine: Engine, plan: Plan, report: Report, *, keep_going: bool, limit: TimeLimit | None = None,
     blocked: Mapping[str, Diagnostic] | None = None,
 ) -> StartOutcome:  # fmt: skip
-    """Does what the plan says. Where a process that is started fails, nothing more is, or, with `keep_going`, only what
-    depends on it is not; the latter holds also where one that ran already is not ready. When the time is over, nothing
-    more is started, and what is not ready has failed. What is `blocked` is left as it is, and counts as failed."""
+    """Carries out a plan. When a process fails to start, no further process is started; with `keep_going`, only those
+    that depend on it are skipped. These are skipped also when a process that ran before is not ready. When the time
+    limit expires, nothing more is started, and every process that is not ready has failed. A `blocked` process is not
+    changed, and counts as failed. Raises DeployFailed if a process cannot be stopped or prepared."""
     blocked = blocked or {}
     leaving = [step.running for step in plan.of(STOP, RESTART) if step.running]
     leaving += [step.running for step in plan.of(START) if step.running and step.running.state in (RUNNING, WAITING)]
@@ -93,7 +95,8 @@ async def carry_out(
 
 
 async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -> None:
-    """Stops processes, each after all that are after it. Raises DeployFailed when all that can stop have stopped."""
+    """Stops processes, each when all that are after it have stopped. Raises DeployFailed if one cannot be stopped, when
+    all others have stopped."""
     leaving = {one.name: one for one in running if one.state not in (STOPPED, LOST)}
     after = {name: one.spec.process.after if one.spec else () for name, one in leaving.items()}
     tasks: dict[str, asyncio.Task[None]] = {}
@@ -117,7 +120,7 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
 
 
 class _Starts(msgspec.Struct):
-    """The starts of one plan under way. `_since` has the start of the wait for each process that is pending."""
+    """The starts of one plan. `_since` has the time at which the wait for each pending process began."""
 
     _engine: Engine
     _watch: Watch
@@ -136,10 +139,10 @@ class _Starts(msgspec.Struct):
         try:
             for step in (self._plan.steps[name] for name in order):
                 if step.name in starting:
-                    # Those that close a cycle come later in the order, and are not waited for.
+                    # A process that closes a circle comes later in the order: this one does not wait for it.
                     before = {name: self._tasks[name] for name in _after(step) if name in self._tasks}
                     self._tasks[step.name] = asyncio.create_task(self._start(step, before))
-                else:  # it runs already: as a rule it answers at once
+                else:  # it already runs, and is usually ready
                     self._tasks[step.name] = asyncio.create_task(self._ends_ready(step, is_new=False))
             pending = set(self._tasks.values())
             while pending:
@@ -159,7 +162,7 @@ class _Starts(msgspec.Struct):
         if self._outcome.is_late:
             self._outcome.late = [*self._since]
             for name in self._outcome.late:
-                await self._is_late(self._plan.steps[name])
+                await self._report_late(self._plan.steps[name])
         await self._watch.close()
         tried = {*self._outcome.began, *self._outcome.failed}
         self._outcome.skipped = [step.name for step in self._plan.of(START, RESTART) if step.name not in tried]
@@ -168,8 +171,8 @@ class _Starts(msgspec.Struct):
         return self._outcome
 
     async def _start(self, step: PlanStep, before: Mapping[str, asyncio.Task[bool]]) -> bool:
-        """Starts a process when all it is after are ready, or have failed where it can do without; whether it is ready
-        then."""
+        """Starts a process when all that it is after are ready, or are optional and have failed. Returns whether it
+        became ready."""
         if step.name in self._blocked:
             self._since[step.name] = time.monotonic()
             self._fail(step.name, self._blocked[step.name])
@@ -200,19 +203,19 @@ class _Starts(msgspec.Struct):
             self._report(ProcessEvent(step.name, READY, seconds=took))
         return True
 
-    async def _is_late(self, step: PlanStep) -> None:
-        """It was still waited for when the time was over."""
+    async def _report_late(self, step: PlanStep) -> None:
+        """Reports a process that was pending when the time limit expired."""
         assert step.spec
         why = why_not(step.spec, await self._watch.of(step.name)(time.monotonic() - RECENT))
         where = step.spec.process.span
         self._fail(step.name, deploying.NOT_READY.at(where, name=step.name, within=self._limit, why=why))
 
-    def _fail(self, name: str, found: Diagnostic) -> None:
-        self._outcome.failed[name] = found
-        self._report(ProcessEvent(name, FAILED, found.message, self._took(name)))
+    def _fail(self, name: str, reason: Diagnostic) -> None:
+        self._outcome.failed[name] = reason
+        self._report(ProcessEvent(name, FAILED, reason.message, self._took(name)))
 
     def _took(self, name: str) -> float:
-        """The seconds for which it was waited for, which is over."""
+        """Ends the wait for a process; the seconds that it took."""
         return time.monotonic() - self._since.pop(name)
 
 
@@ -228,8 +231,8 @@ async def _cancel(tasks: Iterable[asyncio.Task[Any]]) -> None:
 
 
 def undo(plan: Plan, before: Mapping[str, Running], now: Mapping[str, Running]) -> Plan:
-    """The plan back to what ran before this plan was carried out, wholly or in part. What was not touched is not waited
-    for either."""
+    """The plan that restores what ran before this plan was carried out, also if only partly. Unchanged processes are
+    not in it, so that it does not wait for them."""
     steps: dict[str, PlanStep] = {}
     for name, step in plan.steps.items():
         if step.action == KEEP:

@@ -1,4 +1,4 @@
-"""What differs between two specs of a process, field by field, in the user's words."""
+"""The differences between two specs of a process, field by field, in the user's words."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from robocomp_yaml.source import properties
 
 
 class Difference(msgspec.Struct, frozen=True):
-    """`old` and `new` are '' where there is nothing. `is_live` where it holds without a restart."""
+    """`old` or `new` is '' if the field is absent. `is_live` is True if the new value applies without a restart."""
 
     field: str
     old: str = ""
@@ -31,6 +31,7 @@ class Difference(msgspec.Struct, frozen=True):
 
 
 def differences(old: ProcessSpec, new: ProcessSpec) -> list[Difference]:
+    """All differences, with secrets hidden."""
     before, after = old.process, new.process
     return [
         *_field("host", old.address, new.address),
@@ -49,7 +50,7 @@ def _field(name: str, old: str, new: str, *, is_live: bool = False) -> Iterator[
 
 
 def _entries(name: str, old: dict[str, str], new: dict[str, str], hidden: Collection[str]) -> Iterator[Difference]:
-    """`hidden` are names of secrets, beside those that say so themselves."""
+    """`hidden` are names of secrets, in addition to names that suggest a secret."""
     for key in [*old, *(key for key in new if key not in old)]:
         before, after = old.get(key), new.get(key)
         if before != after:
@@ -57,7 +58,7 @@ def _entries(name: str, old: dict[str, str], new: dict[str, str], hidden: Collec
 
 
 def _shown(key: str, value: str | None, hidden: Collection[str]) -> str:
-    """An empty value is not the same as none; secrets are hidden."""
+    """A value, with secrets hidden. An empty value differs from an absent one."""
     return "''" if value == "" else secrets.value(key, value or "", hidden)
 
 
@@ -70,7 +71,7 @@ def _variables(variables: tuple[EnvironmentVariable, ...]) -> dict[str, str]:
 
 
 def _config(old: ConfigFile | None, new: ConfigFile | None, names: set[str]) -> Iterator[Difference]:
-    """By property; a text that differs in nothing else has changed as a whole."""
+    """By property. If no property differs, the text as a whole has changed."""
     before, after = old.text if old else "", new.text if new else ""
     if before != after:
         hidden = {*names, *(old.secrets if old else ()), *(new.secrets if new else ())}
@@ -79,14 +80,14 @@ def _config(old: ConfigFile | None, new: ConfigFile | None, names: set[str]) -> 
 
 
 def _files(old: dict[str, str], new: dict[str, str]) -> Iterator[Difference]:
-    """A file that was not watched before, or is no longer, is told by the field that names it."""
+    """Changed files. A file that is watched in one spec only is reported with the field that names it."""
     for path, digest in new.items():
         if path in old and old[path] != digest:
             yield Difference(shown_path(path) if digest else f"{shown_path(path)} (gone)")
 
 
 def _live(before: Process, after: Process) -> Iterator[Difference]:
-    """What holds without a restart. Where an endpoint changes what the process does, its configuration changes."""
+    """What applies without a restart. An endpoint that matters to the process itself is also in its configuration."""
     if before.endpoints != after.endpoints:
         served = list(_entries("serves", _served(before), _served(after), ()))
         yield from (replace(one, is_live=True) for one in served or [Difference("endpoints")])
@@ -104,7 +105,7 @@ def _served(process: Process) -> dict[str, str]:
 
 
 def _ready(process: Process) -> dict[str, str]:
-    """Without the pings: they follow from what is served, as a rule."""
+    """Without the pings, which usually follow from what is served."""
     ready = process.ready
     port = "" if ready.port is None else str(ready.port)
     return {"within": f"{ready.within:g} s", "port": port, "command": " ".join(ready.command), "log": ready.log}
@@ -119,13 +120,13 @@ def _restart(process: Process) -> dict[str, str]:
 
 
 def _names(name: str, old: tuple[str, ...], new: tuple[str, ...]) -> Iterator[Difference]:
-    """Those that are gone, and those that are new; where there are none, their order has changed."""
+    """Names that were removed, and names that were added. Without either, the order has changed."""
     if old != new:
-        gone = ", ".join(one for one in old if one not in new)
-        yield Difference(name, gone, ", ".join(one for one in new if one not in old), is_live=True)
+        removed = ", ".join(one for one in old if one not in new)
+        yield Difference(name, removed, ", ".join(one for one in new if one not in old), is_live=True)
 
 
 def shown_path(path: str) -> str:
-    """A path as one would type it from here, where that is shorter."""
+    """A path relative to the working folder, if that is shorter."""
     short = os.path.relpath(path)
     return path if short.startswith("../..") else short

@@ -1,4 +1,4 @@
-"""Exported files on the disk: an export overwrites only what an export wrote, which a record beside the files says."""
+"""Exported files. An export overwrites only files that an export wrote, which are in a record beside them."""
 
 from __future__ import annotations
 
@@ -28,22 +28,22 @@ RECORD = ".rcyaml/exports.json"
 def files(
     network: Network, form: str, plugins: Plugins, *, reveal: bool
 ) -> tuple[dict[str, str], list[Diagnostic]]:  # fmt: skip
-    """The files of an export, and what it says otherwise than the network; an error, and no files, where it cannot say
-    it at all. Unless `reveal`, secrets are hidden."""
+    """The texts of an export by path, and warnings for what the form can express only in part. If the form cannot
+    express the network, there are no files but an error. Unless `reveal`, secrets are hidden."""
     try:
         with exports.noted() as notes:
             made = exports.export(network if reveal else hidden(network), form, plugins)
-    except exports.Unwritable as refused:
-        return {}, [_told(refused, form).as_severity(ERROR)]
-    return made, list(dict.fromkeys(_told(note, form) for note in notes))
+    except exports.Unwritable as error:
+        return {}, [_diagnostic(error, form).as_severity(ERROR)]
+    return made, list(dict.fromkeys(_diagnostic(note, form) for note in notes))
 
 
-def _told(found: exports.Unwritable, form: str) -> Diagnostic:
-    return codes.CHANGED_BY_EXPORT.at(found.span, name=found.name, form=form, reason=found)
+def _diagnostic(note: exports.Unwritable, form: str) -> Diagnostic:
+    return codes.CHANGED_BY_EXPORT.at(note.span, name=note.name, form=form, reason=note)
 
 
-def in_the_way(output: str, files: Mapping[str, str]) -> list[Diagnostic]:
-    """What stands where a file is to be written, and no export wrote it. Raises OSError."""
+def conflicts(output: str, files: Mapping[str, str]) -> list[Diagnostic]:
+    """Files at the paths of exported files that no export wrote, or that were edited. Raises OSError."""
     written = _record(output)
     found = {path: _read(os.path.join(output, path)) for path in files}
     hint = "or it was edited since; move it away, or export to another folder"
@@ -55,7 +55,8 @@ def in_the_way(output: str, files: Mapping[str, str]) -> list[Diagnostic]:
 
 
 def write(output: str, files: Mapping[str, str]) -> None:
-    """Writes the files, which may hold what nobody else should read, and remembers them. Raises OSError."""
+    """Writes the files, which only their owner can read because they may contain secrets, and records them. Raises
+    OSError."""
     digests = _record(output) | {path: digest(_bytes(text)) for path, text in files.items()}
     folder.write(output, RECORD, json.dumps(digests, indent=2, sort_keys=True) + "\n")
     for path, text in files.items():
@@ -63,7 +64,7 @@ def write(output: str, files: Mapping[str, str]) -> None:
 
 
 def _record(output: str) -> dict[str, str]:
-    """Digests by path; without a record that can be read, nothing counts as ours."""
+    """The digests of exported files by path; empty if there is no valid record."""
     try:
         raw = json.loads(_read(os.path.join(output, RECORD)) or b"{}")
     except (ValueError, RecursionError):
@@ -84,6 +85,7 @@ def _bytes(text: str) -> bytes:
 
 
 def hidden(network: Network) -> Network:
+    """The network without the secrets in commands, variables and configurations."""
     processes = {name: _process(process) for name, process in network.processes.items()}
     return replace(network, processes=processes, extra=_extra(network.extra))
 
@@ -101,7 +103,7 @@ def _process(process: Process) -> Process:
 
 
 def _config(config: ConfigFile, names: tuple[str, ...]) -> ConfigFile:
-    """A line is known as one of Ice's, or by the words of any other text."""
+    """Hides secrets in a configuration: in Ice properties, and in any other text by its words."""
     known = frozenset((*config.secrets, *names))
     lines = [without_secret(line, known) for line in config.text.split("\n")]
     return replace(config, text="".join(secrets.hidden_lines("\n".join(lines), known)))

@@ -1,4 +1,4 @@
-"""Components that were compiled before their interfaces changed: what runs would not speak as the documents say."""
+"""Components that were compiled before their interfaces changed, and communicate by the old ones."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from robocomp_yaml.source.regular import text
 
 
 def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
-    """A warning for each component whose Slice is not that of its documents; one that has none is not compiled."""
+    """A warning for each component of a deployment whose Slice differs from its documents. A component without Slice
+    has not been compiled, and is ignored."""
     started: dict[str, tuple[Span, str, LinkedComponent]] = {}
     for instance in linked.instances.values():
         if instance.component is not None and instance.entry.enabled:
@@ -28,7 +29,7 @@ def outdated(linked: LinkedDeployment) -> Iterator[Diagnostic]:
 
 
 def outdated_components(components: Iterable[LinkedComponent]) -> Iterator[Diagnostic]:
-    """The same of components by themselves, at their documents."""
+    """The same for components, at the locations of their documents."""
     of = ((linked, linked.component) for linked in components)
     return _outdated((os.path.dirname(one.path), one.span, one.name, linked) for linked, one in of)
 
@@ -37,7 +38,7 @@ def _outdated(compiled: Iterable[tuple[str, Span, str, LinkedComponent]]) -> Ite
     texts = functools.cache(slice_target.text)
     for folder, span, name, component in compiled:
         if component.broken or any(module.unresolved for module in component.modules()):
-            continue  # it cannot be compiled as it is
+            continue  # it cannot be compiled
         if changed := _changed(folder, component, texts):
             yield deploying.OUTDATED.at(
                 span, name=name, document=changed[0].module.path, hint=_compile(component),
@@ -54,13 +55,13 @@ def _compile(linked: LinkedComponent) -> str:
 
 
 def _changed(folder: str, component: LinkedComponent, texts: Callable[[LinkedModule], str]) -> list[LinkedModule]:
-    """The modules that are not as they were. Where the component shares its Slice, and only generated code knows which
-    it was made for, they are all that it has."""
+    """The modules that changed. With shared Slice, the generated code has only one fingerprint of all modules: then all
+    modules of the component."""
     modules = component.modules()
     states = component.component.language.target.states
-    said = text(os.path.join(folder, states)) if states else None
-    if said is not None and STATED in said:
+    code = text(os.path.join(folder, states)) if states else None
+    if code is not None and STATED in code:
         now = fingerprint({slice_target.file_name(one): texts(one) for one in modules})
-        return [] if stated(now) in said else modules
-    found = {one: text(os.path.join(folder, SLICE, slice_target.file_name(one))) for one in modules}
-    return [one for one, found_text in found.items() if found_text is not None and found_text != texts(one)]
+        return [] if stated(now) in code else modules
+    compiled = {one: text(os.path.join(folder, SLICE, slice_target.file_name(one))) for one in modules}
+    return [one for one, slice_ in compiled.items() if slice_ is not None and slice_ != texts(one)]

@@ -1,4 +1,4 @@
-"""How long bringing a network up may take, all in all."""
+"""Time limits: of a whole operation, and of a wait for a condition."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import msgspec
 
 
 class TimeLimit(msgspec.Struct, frozen=True):
-    """So many `seconds` from `began` on, by a clock that nobody sets; without a limit where they are None."""
+    """A limit of `seconds` from the time `began`, by a monotonic clock; None is no limit."""
 
     seconds: float | None = None
     began: float = msgspec.field(default_factory=time.monotonic)
@@ -27,7 +27,8 @@ class TimeLimit(msgspec.Struct, frozen=True):
 
 
 def until(condition: Callable[[], bool], within: float, pause: float = 0.01) -> bool:
-    """Waits for a condition, and looks at it at least once; whether it held within so many seconds."""
+    """Waits until a condition holds, and returns whether it did `within` seconds. It is checked at least once, with a
+    `pause` in seconds between two checks."""
     end = time.monotonic() + within
     while not (holds := condition()) and time.monotonic() < end:
         time.sleep(pause)

@@ -37,7 +37,7 @@ def test_who_is_ready_and_who_is_not(place: Place) -> None:
     why = "was not ready within 3 s: no line of its log matches 'never'"
     assert [one.message for one in late.related] == [f"'b' {why}", f"'c' {why}"]
     lines = late.more.splitlines()
-    assert lines[:3] == ["ready: a", "waited for: b, c", "not started: d"]
+    assert lines[:3] == ["ready: a", "pending: b, c", "not started: d"]
     assert "b | where is my motor" in lines and "c | where is my motor" in lines
     assert place.order(SKIPPED) == ["d"]
     assert set(place.pids().values()) == {0}
@@ -48,7 +48,7 @@ def test_what_failed_before_is_told_apart(place: Place) -> None:
     result = place.up(sleeper("a"), fails, waiting("c"), limit=ENOUGH, on_failure=operations.KEEP_GOING)
     assert codes(result) == ["RC7011", "RC7004"]
     late, failed = result.diagnostics
-    assert late.more.splitlines()[:3] == ["ready: a", "waited for: c", "failed: b"]
+    assert late.more.splitlines()[:3] == ["ready: a", "pending: c", "failed: b"]
     assert "b | no power" in failed.more.splitlines() and "no power" not in late.more
 
 
@@ -119,7 +119,7 @@ def test_as_one_types_it(engine: str, place: Place, tmp_path: Path, rcyaml: Call
     assert result.exit_code == 1
     assert result.stdout.endswith("Robot: failed; what was started was stopped\n")
     assert "error[RC7011]: the time limit of 6 s expired when 1 of 3 processes was ready" in result.stderr
-    assert "    ready: base\n    waited for: arm\n    not started: hand\n" in result.stderr
+    assert "    ready: base\n    pending: arm\n    not started: hand\n" in result.stderr
     assert "robot.ddsl.yaml:4:3" in result.stderr and "arm | no motor" in result.stderr
     states = [line.split()[1] for line in deploy("status").stdout.splitlines()[1:]]
     assert states[0] == "ready" and "running" not in states

@@ -207,7 +207,7 @@ def test_when_the_time_is_over_it_says_how_far_it_came() -> None:
     assert (outcome.is_late, outcome.late, outcome.skipped) == (True, ["base"], ["arm"])
     late, *others = result.diagnostics
     assert not others and "when 2 of 4 processes were ready" in late.message
-    assert late.more.splitlines() == ["ready: motors, camera", "waited for: base", "not started: arm"]
+    assert late.more.splitlines() == ["ready: motors, camera", "pending: base", "not started: arm"]
     assert [one.span.line for one in late.related] == [len("base")] and "within 0.5 s" in late.related[0].message
     assert result.undone == STOP_THEM and engine.states() == {"motors": STOPPED, "base": STOPPED, "camera": RUNNING}
 

@@ -104,7 +104,7 @@ def test_a_forced_one_says_who_wanted_it_and_what_changed_besides() -> None:
     changed = replace(MOTORS, cwd="/tmp")
     step = plan(network(changed), {"motors": running(MOTORS)}, forced=["motors"]).steps["motors"]
     assert (step.action, step.reason, [str(one) for one in step.changes]) == (
-        RESTART, "you asked for it", ["cwd: / → /tmp"],
+        RESTART, "its restart was requested", ["cwd: / → /tmp"],
     )  # fmt: skip
     assert actions(plan(network(MOTORS), {"motors": running(MOTORS, STOPPED)}, forced=["motors"])) == {"motors": START}
 
