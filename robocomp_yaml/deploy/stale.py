@@ -57,7 +57,7 @@ def diagnostics(network: Network, found: Iterable[StaleComponent]) -> Iterator[D
         type_ = f" --type {one.look.type}" if one.look.type not in ("", RELEASE) else ""
         yield deploying.STALE.at(
             first.span, name=first.name, changed=", ".join(shown[:_SHOWN]) + more, hint=f"`{one.unit.command}{type_}`",
-            related=[Related("it is also started here", network.processes[name].span) for name in one.processes[1:_SHOWN]],
+            related=[Related("also started here", network.processes[name].span) for name in one.processes[1:_SHOWN]],
         )  # fmt: skip
 
 

@@ -123,9 +123,9 @@ def test_ports_that_another_deployment_has(place: Place, free_port: Ports, tmp_p
 @pytest.mark.parametrize(
     ("command", "reason"),
     [
-        (("no-such-program",), "no program 'no-such-program' is in the PATH"),
-        (("/no/such/file",), "there is no file '/no/such/file'"),
-        (("/etc/passwd",), "'/etc/passwd' is no program that may be run"),
+        (("no-such-program",), "PATH contains no program 'no-such-program'"),
+        (("/no/such/file",), "the file '/no/such/file' is missing"),
+        (("/etc/passwd",), "'/etc/passwd' is not executable"),
     ],
 )
 def test_a_program_that_cannot_be_run(place: Place, command: tuple[str, ...], reason: str) -> None:
@@ -139,7 +139,7 @@ def test_a_file_that_is_no_program_after_all(place: Place) -> None:
     program.write_bytes(b"\x7fELF, but not really")
     program.chmod(0o755)
     result = place.up(replace(sleeper("a"), command=(str(program),)))
-    reason = f"'{program}' is no program of this kind of machine"
+    reason = f"'{program}' is not a program for this kind of machine"
     assert [found.message for found in result.diagnostics] == [f"'a' cannot be started: {reason}"]
 
 
@@ -154,7 +154,7 @@ def test_one_that_crashes_is_started_again(place: Place) -> None:
     running = place.observe()["a"]
     assert (running.restarts, running.last_exit) == (1, "SIGKILL")
     assert place.pids()["b"] == before["b"]
-    assert "rcyaml: ended by itself: SIGKILL; starting again in 0.1 s" in place.log("a")
+    assert "rcyaml: ended by itself: SIGKILL; restarting in 0.1 s" in place.log("a")
 
 
 def test_a_crash_loop_is_given_up(place: Place) -> None:
@@ -184,7 +184,7 @@ def test_a_program_that_vanishes_between_two_runs(place: Place) -> None:
     place.up(replace(sleeper("a", restart=RestartRule(delay=0.01, tries=2)), command=(str(program), "600")))
     program.unlink()
     os.kill(place.pids()["a"], signal.SIGKILL)
-    assert place.wait_for_state("a", GIVEN_UP).last_exit == f"there is no file '{program}'"
+    assert place.wait_for_state("a", GIVEN_UP).last_exit == f"the file '{program}' is missing"
 
 
 def test_one_that_will_not_end_is_killed(place: Place) -> None:

@@ -149,7 +149,7 @@ def test_a_killed_component_is_back(talk: Deployment, ready: dict[str, int]) -> 
     now = talk.until_ready()
     assert now["mouth"]["restarts"] == before + 1
     assert {name: one["pid"] for name, one in now.items() if name != "mouth"} == _without(ready, "mouth")
-    assert "ended by itself: SIGKILL; starting again" in talk.logs("mouth")
+    assert "ended by itself: SIGKILL; restarting" in talk.logs("mouth")
     assert talk.copies("mouth") == 1
 
 

@@ -158,7 +158,7 @@ def test_a_configuration_is_written_as_it_is_and_for_its_owner(runner: Runner) -
 def test_one_that_fails_again_and_again_is_given_up(runner: Runner) -> None:
     log = runner.to_end("=sh", "=-c", "=exit 3", rule="1 on-failure 10 20 2 60000")
     assert log.count("rcyaml: started") == 3
-    assert "exit code 3; starting again in 10 ms" in log and "exit code 3; starting again in 20 ms" in log
+    assert "exit code 3; restarting in 10 ms" in log and "exit code 3; restarting in 20 ms" in log
     assert "given up: it ended 3 times within 60 s, the last time with exit code 3" in log
     assert runner.told == ("given up", "exit code 3", 2)
 

@@ -1,4 +1,4 @@
-"""A deployment's supervisor as its clients have it: reached or started, with requests and answers over its socket."""
+"""The client of a supervisor: it connects to one or starts one, and sends requests over the control socket."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from robocomp_yaml.deploy.local import channel, procfs, record
 from robocomp_yaml.deploy.local.service import LONGEST
 
 _LINES = 10
-_PATIENCE = 20.0  # seconds: far more than it needs, also where the machine is busy
+_PATIENCE = 20.0  # seconds: far more than is needed, also on a busy machine
 
 
 class SupervisorGone(Exception):
-    """The supervisor ended, or was killed, while something was asked of it."""
+    """The supervisor ended, or was killed, during a request."""
 
 
 class RequestFailed(Exception):
-    """The supervisor could not do what was asked; the text says why, in the operating system's words."""
+    """A request failed; the text is the reason, in the operating system's words."""
 
 
 class Client:
-    """A connection; many requests may be under way at once."""
+    """A connection. Many requests can be pending at a time."""
 
     def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         self._reader, self._writer = reader, writer
@@ -40,7 +40,7 @@ class Client:
         return cls(*await asyncio.open_unix_connection(sock=connection, limit=LONGEST))
 
     async def ask(self, do: str, **facts: object) -> dict[str, Any]:
-        """The answer. Raises RequestFailed or SupervisorGone."""
+        """The answer to a request. Raises RequestFailed or SupervisorGone."""
         number = next(self._numbers)
         answer = self._waiting[number] = asyncio.get_running_loop().create_future()
         try:
@@ -72,7 +72,7 @@ class Client:
                     answer.set_exception(SupervisorGone())
 
     async def wait_closed(self) -> None:
-        """Until the supervisor is gone."""
+        """Waits until the supervisor has ended."""
         await asyncio.wait([self._listener])
 
     async def close(self) -> None:
@@ -82,12 +82,12 @@ class Client:
 
 
 def reach(folder: str) -> socket.socket | None:
-    """A connection to the supervisor; None where there is none. Raises OSError where the folder is none."""
+    """A connection to the supervisor, None if none runs. Raises OSError if the folder cannot be opened."""
     return channel.connect(f"{folder}/state") if os.path.isdir(f"{folder}/state") else None
 
 
 def last_words(folder: str) -> list[str]:
-    """What the supervisor said of itself, which is nothing as long as all is well."""
+    """The last lines of the supervisor's own log, which is empty without errors."""
     try:
         with open(f"{folder}/state/supervisor.log", encoding="utf-8", errors="replace") as file:
             return file.read().splitlines()[-_LINES:]
@@ -96,16 +96,16 @@ def last_words(folder: str) -> list[str]:
 
 
 async def start(folder: str) -> socket.socket:
-    """A connection to a new supervisor. Raises OSError where it does not come to life, with what it said."""
+    """A connection to a new supervisor. Raises OSError with the last lines of its log if it does not start."""
     package = os.path.abspath(f"{__file__}/../../../..")
     environment = {**os.environ, procfs.MARK: f"{folder}:"}
     environment["PYTHONPATH"] = os.pathsep.join([package, *filter(None, [environment.get("PYTHONPATH")])])
-    said = os.open(f"{folder}/state/supervisor.log", os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
+    log = os.open(f"{folder}/state/supervisor.log", os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
     try:
-        # It stays when this process ends, and nobody waits for it then.
+        # It goes on when this process ends, which therefore does not wait for it.
         keeper = subprocess.Popen(
             [sys.executable, "-m", "robocomp_yaml.deploy.local.supervisor", folder],
-            cwd="/", env=environment, stdin=subprocess.DEVNULL, stdout=said, stderr=said, start_new_session=True,
+            cwd="/", env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
         )  # fmt: skip
         for _ in range(int(_PATIENCE / 0.02)):
             if connection := reach(folder):
@@ -118,11 +118,11 @@ async def start(folder: str) -> socket.socket:
         keeper.wait()
         raise OSError(0, f"the supervisor does not start: {' '.join(last_words(folder))}")
     finally:
-        os.close(said)
+        os.close(log)
 
 
 async def wait_gone(folder: str) -> None:
-    """Until the supervisor has taken leave."""
+    """Waits until the supervisor has removed its record."""
     for _ in range(int(_PATIENCE / 0.02)):
         if not record.is_there(folder):
             return

@@ -1,4 +1,4 @@
-"""The engine of one machine: what `deploy` asks of a network's supervisor."""
+"""The engine for one machine: a client of the deployment's supervisor."""
 
 from __future__ import annotations
 
@@ -45,8 +45,8 @@ class LocalEngine:
 
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network = network
-        if found := elsewhere(network):
-            raise DeployFailed(found)
+        if diagnostic := elsewhere(network):
+            raise DeployFailed(diagnostic)
         try:
             connection = client.reach(network.folder)
             was_killed = connection is None and record.was_killed(network.folder)
@@ -142,7 +142,7 @@ class LocalEngine:
             self._client = None
 
     async def _ask(self, about: str, do: str, **facts: object) -> dict[str, Any]:
-        """An answer of the supervisor, about the process of that name where there is one."""
+        """An answer of the supervisor. An error is reported for the process of the name `about`, if there is one."""
         assert self._client, "open it first"
         try:
             return await self._client.ask(do, **facts)
@@ -169,15 +169,15 @@ def _running(entry: dict[str, Any]) -> Running:
 
 
 def stand_in(path: str) -> Network | None:
-    """The network of what runs, as it was started; None where nothing does, or the document does not even show its
-    name."""
-    place, name = os.path.abspath(path), own_folder.deployment_in(path)
-    folder = os.path.join(os.path.dirname(place), FOLDER, name)
+    """The network of the processes that run on this machine, as they were started, for a document that cannot be read.
+    None if no process runs, or the document does not even contain the name of its deployment."""
+    document, name = os.path.abspath(path), own_folder.deployment_in(path)
+    folder = os.path.join(os.path.dirname(document), FOLDER, name)
     if not name or not record.is_there(folder) or record.was_killed(folder):
         return None
-    network = Network(name, place, folder)
+    network = Network(name, document, folder)
 
-    async def look() -> None:
+    async def fill() -> None:
         engine = LocalEngine()
         if await engine.open(network, create=False):
             for name, running in (await engine.observe()).items():
@@ -186,5 +186,5 @@ def stand_in(path: str) -> Network | None:
                     network.hosts[running.spec.process.host] = NetworkHost(running.spec.process.host)
         await engine.close()
 
-    asyncio.run(look())
+    asyncio.run(fill())
     return network

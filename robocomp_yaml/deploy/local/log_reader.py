@@ -1,4 +1,4 @@
-"""Logs read back: the last lines of several processes in the order of their times, and those that come."""
+"""Reading logs: the last lines of several processes, ordered by time, and all further lines."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from typing import BinaryIO, Protocol
 
 from robocomp_yaml.deploy.engine import Line
 
-_PERIOD = 0.1  # seconds between two looks at logs that are followed
+_PERIOD = 0.1  # seconds between two reads of logs that are followed
 _BLOCK = 1 << 16
 _STAMP = len("2026-11-21T10:02:03.123Z")
 
 
 class LineReader(Protocol):
-    """What reads one process's log from where it was when this was made."""
+    """Reads the log of one process. New lines are those after the creation of the reader."""
 
     def last(self, count: int) -> list[Line]: ...
 
@@ -29,8 +29,7 @@ def line_of(name: str, text: str) -> Line:
 
 
 class LogReader:
-    """One process's log, read from where it ends when this is made, across rotations. No file stays open between two
-    reads."""
+    """Reads a log on this machine, across rotations. No file is open between two reads."""
 
     def __init__(self, folder: str, name: str) -> None:
         self.name, self.path = name, f"{folder}/logs/{name}.log"
@@ -41,7 +40,7 @@ class LogReader:
             self._inode, self._offset = status.st_ino, status.st_size
 
     def last(self, count: int) -> list[Line]:
-        """The last lines before the place from which it is read on."""
+        """The last lines before the new ones."""
         lines: list[bytes] = []
         for path, end in ((self.path, self._offset), (f"{self.path}.1", -1)):
             if len(lines) < count and self._inode:
@@ -50,7 +49,7 @@ class LogReader:
         return [self._line(line) for line in lines]
 
     def new(self) -> Iterator[Line]:
-        """The lines that came since the last call."""
+        """The lines since the last call."""
         with suppress(OSError), open(self.path, "rb") as file:
             inode = os.fstat(file.fileno()).st_ino
             if inode != self._inode:
@@ -63,7 +62,7 @@ class LogReader:
             yield from map(self._line, lines)
 
     def _end_of_older(self) -> bytes:
-        """What was written to the log that was read until now, before it was put aside."""
+        """The rest of the log that was read before the rotation."""
         with suppress(OSError), open(f"{self.path}.1", "rb") as file:
             if os.fstat(file.fileno()).st_ino == self._inode:
                 file.seek(self._offset)
@@ -77,7 +76,8 @@ class LogReader:
 async def merged(
     readers: Sequence[LineReader], last: int, follow: bool, *, is_far: bool = False
 ) -> AsyncGenerator[Line, None]:
-    """The lines of all, by time; those of one process always in their own order, whatever the clock did."""
+    """The lines of all logs, ordered by time. Lines of one process keep their order, also if the clock was set. With
+    `is_far`, logs are read in a thread, because that waits for other hosts."""
 
     def new() -> list[list[Line]]:
         return [list(reader.new()) for reader in readers]
@@ -93,7 +93,7 @@ async def merged(
 
 
 def _last_lines(file: BinaryIO, end: int, count: int) -> list[bytes]:
-    """The last whole lines before `end`, which is -1 for that of the file."""
+    """The last complete lines before `end`; -1 is the end of the file."""
     if end < 0:
         end = file.seek(0, os.SEEK_END)
     position, text = end, b""

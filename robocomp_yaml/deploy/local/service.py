@@ -1,7 +1,7 @@
-"""The supervisor proper: its children, and what clients may ask on the control socket.
+"""The supervisor's service: its children, and the requests of clients on the control socket.
 
-A request is a line `{"id", "do", …}`, and its answer a line `{"id", …}` with what was asked for, or with `error`: an
-`errno`'s text, in words. Requests run at once; those for one child wait for each other.
+A request is a line `{"id", "do", …}`. Its answer is a line `{"id", …}` with the result, or with `error`, the text of an
+`errno`. Requests run in parallel, except those for the same child.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from robocomp_yaml.deploy.local.kernel import OpenFiles
 from robocomp_yaml.deploy.local.log_file import LIMIT, LogFile
 
 PROTOCOL = 2
-"""Raised with each change of what is said on the socket: clients of another version are told."""
+"""The version of the protocol. A client of another version reports the difference."""
 
-LONGEST = 1 << 28  # bytes of a request: configurations may be long
+LONGEST = 1 << 28  # bytes of a request, which contains configurations
 END_WITHIN = 5.0
 
 Request = dict[str, Any]
 
 
 def serve(folder: str) -> None:
-    """Runs until it is asked to end, by a client or by a signal."""
+    """Runs until a client or a signal ends it."""
     asyncio.run(_Service(folder).run())
 
 
@@ -49,7 +49,9 @@ class _Service:
         loop.add_signal_handler(signal.SIGCHLD, self._reap)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             loop.add_signal_handler(number, self._over.set)
-        server = await asyncio.start_unix_server(self._talk, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST)
+        server = await asyncio.start_unix_server(
+            self._serve_client, sock=channel.listen(f"{self.folder}/state"), limit=LONGEST
+        )
         keeper = os.getppid()
         record.write(self.folder, keeper)
         await self._over.wait()
@@ -58,11 +60,11 @@ class _Service:
         await asyncio.gather(*stops, return_exceptions=True)  # the keeper kills what does not end
         for child in self.children.values():
             child.log.close()
-        if os.getppid() != keeper:  # it was killed, and cannot take leave for both
+        if os.getppid() != keeper:  # the keeper was killed, and cannot remove the record
             record.remove(self.folder)
 
     def _reap(self) -> None:
-        """Takes the exit codes of all that ended: children, and what they left to us."""
+        """Collects the exit codes of ended processes: children, and adopted orphans of them."""
         by_pid = {child.pid: child for child in self.children.values() if child.pid}
         while True:
             try:
@@ -74,10 +76,10 @@ class _Service:
             if child := by_pid.get(pid):
                 child.on_exit(status)
 
-    async def _talk(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    async def _serve_client(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         tasks: set[asyncio.Task[None]] = set()
         try:
-            if not channel.is_ours(writer.get_extra_info("socket")):
+            if not channel.is_of_owner(writer.get_extra_info("socket")):
                 return
             while line := await reader.readline():
                 request = json.loads(line)
@@ -86,9 +88,9 @@ class _Service:
                 tasks.add(task)
                 task.add_done_callback(tasks.discard)
         except (ValueError, LookupError, TypeError, AttributeError, ConnectionError):
-            pass  # what talks like this is no client of ours
+            pass  # not a client of rcyaml
         finally:
-            # What a client began is brought to its end, even where the client is gone.
+            # Requests are completed, even if the client has disconnected.
             await asyncio.gather(*tasks)
             writer.close()
 
@@ -96,7 +98,7 @@ class _Service:
         try:
             answer = await work
         except OSError as error:
-            answer = {"error": (error.strerror or "it does not end, even though it was killed").lower()}
+            answer = {"error": (error.strerror or "it does not end, although it was killed").lower()}
         try:
             writer.write(json.dumps({"id": number, **answer}).encode() + b"\n")
             await writer.drain()

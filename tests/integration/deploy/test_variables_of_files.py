@@ -98,9 +98,9 @@ def test_it_is_read_here_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 @pytest.mark.parametrize(
     ("make", "why"),
     [
-        (lambda path: None, "cannot be read: no such file"), (lambda path: path.mkdir(), "no regular file"),
+        (lambda path: None, "cannot be read: no such file"), (lambda path: path.mkdir(), "not a regular file"),
         (lambda path: path.write_bytes(b"a\0"), "a NUL"), (lambda path: path.write_bytes(b"a" * LONGEST), "longer"),
-        (lambda path: path.symlink_to("/dev/zero"), "no regular file"),
+        (lambda path: path.symlink_to("/dev/zero"), "not a regular file"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_read_is_said(tmp_path: Path, make: Callable[[Path], Any], why: str) -> None:
