@@ -90,7 +90,7 @@ def test_a_port_that_another_program_has(hosts: Deployment, free_port: Ports) ->
     finally:
         other.kill()
         other.wait()
-    assert f"error[RC7001]: 'bad' needs port {port}, which another program uses: one on the host 'arm'" in said
+    assert f"error[RC7001]: 'bad' needs port {port}, which another program uses: a program on the host 'arm'" in said
 
 
 def test_one_that_is_never_ready(hosts: Deployment, free_port: Ports) -> None:

@@ -1,7 +1,8 @@
-"""IceGrid's daemons: the registry and the nodes of this machine are started here, others by a script.
+"""IceGrid's daemons: the registry and the nodes of a deployment.
 
-The script of a host holds all that its node needs, the deployment's key too, and is given to bash on that host: over
-SSH, or by hand with the command that is shown. It starts nothing that runs already.
+A node is started by a script, which bash runs on the node's host: for another host over SSH, or by hand with a command
+that the user is shown. The script contains all that the node needs, including the deployment's key, and does nothing if
+the node already runs.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ def as_text(properties: Mapping[str, str]) -> str:
 
 
 def start_registry(files: GridFiles, registry: Registry) -> None:
-    """Starts the registry, and what starts it again after a crash. Raises OSError."""
+    """Starts the registry under its guard, which restarts it after a crash. Raises OSError."""
     own = files.registry_folder
     for path in (own, f"{own}/data"):
         os.makedirs(path, mode=0o700, exist_ok=True)
@@ -41,22 +42,22 @@ def start_registry(files: GridFiles, registry: Registry) -> None:
         command, env={**os.environ, MARK: f"{files.folder}:"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL, start_new_session=True, cwd="/",
     )  # fmt: skip
-    started.returncode = 0  # it stays when this process ends, and nobody waits for it
+    started.returncode = 0  # it goes on when this process ends, which does not wait for it
 
 
 def end(folder: str) -> None:
-    """Asks the daemon of this folder to end, with what would start it again."""
+    """Sends SIGTERM to the guard of the daemon of this folder, which ends the daemon."""
     _signal(folder, "pid", f"{folder}/guard", signal.SIGTERM)
 
 
 def kill(folder: str) -> None:
-    """Kills the daemon of this folder, which does not end when it is asked, and what would start it again."""
+    """Kills the daemon of this folder and its guard."""
     _signal(folder, "pid", f"{folder}/guard", signal.SIGKILL)
     _signal(folder, "program", f"--Ice.Config={folder}/settings", signal.SIGKILL)
 
 
 def _signal(folder: str, file_name: str, word: str, number: int) -> None:
-    """To the process whose number the file holds, if it still is the one with this word in its command."""
+    """Sends a signal to the process whose pid is in the file, if this word is in its command: a pid can be reused."""
     try:
         with open(f"{folder}/{file_name}", encoding="ascii") as file:
             pid = int(file.read())
@@ -68,7 +69,7 @@ def _signal(folder: str, file_name: str, word: str, number: int) -> None:
 
 
 def last_words(folder: str) -> str:
-    """The last line of a daemon's log."""
+    """The last line of a daemon's log, or ''."""
     try:
         with open(f"{folder}/log", encoding="utf-8", errors="replace") as file:
             return next((line.strip() for line in reversed(file.readlines()) if line.strip()), "")
@@ -95,14 +96,14 @@ def write_script(files: GridFiles, host: NetworkHost, registry: Registry) -> str
 
 
 class NodeStart(msgspec.Struct, frozen=True):
-    """What became of starting a node: `reason` why it failed, else ''; and whether it ran already."""
+    """The result of starting a node. `reason` is why that failed, or ''. `was_running` is True if it already ran."""
 
     reason: str = ""
-    was_there: bool = False
+    was_running: bool = False
 
 
 def outcome(code: int | None, output: str, errors: str) -> NodeStart:
-    """What a node's script has said."""
+    """The result of a node's script, from its exit code and its output."""
     reason = (errors.strip() or "the script that starts it failed") if code else ""
     return NodeStart(reason, output.rstrip().endswith("already"))
 
@@ -116,8 +117,8 @@ def start_node_here(script: str) -> NodeStart:
 
 def by_hand(script: str, host: NetworkHost) -> str:
     """The command that starts a node on another host."""
-    where = f"{host.user}@{host.address}" if host.user else host.address
-    return f"ssh {where} bash -s < {shlex.quote(script)}"
+    login = f"{host.user}@{host.address}" if host.user else host.address
+    return f"ssh {login} bash -s < {shlex.quote(script)}"
 
 
 def _text(path: str) -> str:
@@ -126,7 +127,7 @@ def _text(path: str) -> str:
 
 
 def is_alive(folder: str) -> bool:
-    """Whether the daemon of this folder, or what starts it again, runs on this machine."""
+    """Whether the daemon of this folder, or its guard, runs on this machine."""
     try:
         lock = os.open(f"{folder}/lock", os.O_RDONLY | os.O_CLOEXEC)
     except OSError:

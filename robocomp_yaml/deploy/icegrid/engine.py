@@ -1,6 +1,6 @@
-"""The engine of several machines: what `deploy` asks of a deployment's IceGrid.
+"""The engine for several machines: a client of the deployment's IceGrid.
 
-Ice and IceGrid's own calls wait for their answers; they run in threads beside the event loop.
+Calls of Ice and IceGrid block, so that they run in threads beside the event loop.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _TOO_LONG = "its configuration is longer than the 100,000 bytes that IceGrid car
 _RULE_WITHIN = 10.0
 _TIMED_OUT, _NOT_FOUND, _UNKNOWN = 124, 127, 1
 _CODE = "exit code "
-_CALLS = 32  # at once: each waits, and costs next to nothing
+_CALLS = 32  # threads, which mostly wait
 
 
 class IceGridEngine:
@@ -53,10 +53,10 @@ class IceGridEngine:
         self._files = GridFiles("")
         self._grid: GridSession | None = None
         self._specs: dict[str, ProcessSpec | None] = {}
-        self._wanted: set[str] = set()
-        self._kept: set[str] = set()  # those of the wanted that are written down
-        self._nodes: asyncio.Task[None] | None = None  # brings them up; what needs none need not wait
-        self._no_node: dict[str, Diagnostic] = {}  # by the host
+        self._desired: set[str] = set()
+        self._kept: set[str] = set()  # the desired processes that are in the file
+        self._nodes: asyncio.Task[None] | None = None  # starts the nodes; what needs no node does not wait
+        self._no_node: dict[str, Diagnostic] = {}  # by the name of the host
         self._cleared = CheckedSpecs()
         self._lock = threading.Lock()
         self._calls = ThreadPoolExecutor(_CALLS, "icegrid")
@@ -70,9 +70,9 @@ class IceGridEngine:
             return False
         if create:
             self._nodes = asyncio.create_task(self._call("", "reached", self._ensure_nodes, self._grid))
-            await asyncio.sleep(0)  # so that it begins
+            await asyncio.sleep(0)  # so that it starts
         self._specs = self._files.specs()
-        self._kept = self._wanted = self._files.wanted()
+        self._kept = self._desired = self._files.desired()
         return True
 
     def _reach(self, create: bool) -> GridSession | None:
@@ -87,15 +87,16 @@ class IceGridEngine:
         try:
             self._no_node = start_up.ensure_nodes(grid, self._files, self._network, hosts)
         except BaseException:
-            if self._files.wanted():
+            if self._files.desired():
                 grid.close()
             else:
                 start_up.ended(grid, self._network.name)
             raise
-        self._end_left(grid)
+        self._end_leftovers(grid)
 
-    def _end_left(self, grid: GridSession) -> None:
-        """The keeper does so too: where there is none, or it was faster, nothing is lost."""
+    def _end_leftovers(self, grid: GridSession) -> None:
+        """Ends leftovers, as the keeper does: there may be no keeper. A failure is ignored, because the keeper tries
+        again."""
         from robocomp_yaml.deploy.icegrid import leftovers
         from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
@@ -111,7 +112,7 @@ class IceGridEngine:
         return await self._beside("", "observed", observe, self._reached(), dict(self._specs), hosts)
 
     async def obstacles(self, specs: Sequence[ProcessSpec], leaving: Collection[str]) -> list[Diagnostic]:
-        """On this machine all that can be known; of other hosts, whether they have a node, and the ports."""
+        """The obstacles: on this machine all, on other hosts a missing node and ports that are used."""
 
         running = await self.observe() if self._grid else {}
         roots = {one.pid for name, one in running.items() if name in leaving and one.pid}
@@ -124,7 +125,7 @@ class IceGridEngine:
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
         far = [spec for spec in specs if not is_here(spec.address) and spec.process.host not in lost]
-        found += await taken(far, running)
+        found += await _used_ports(far, running)
         return [*lost.values(), *found] + [
             deploying.CANNOT.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
             for spec in specs
@@ -168,7 +169,7 @@ class IceGridEngine:
             self._pass_rule(grid, spec, number)
 
     def _pass_rule(self, grid: GridSession, spec: ProcessSpec, number: int) -> None:
-        """Tells `run` how it is to restart a process that goes on."""
+        """Passes the restart rule of a running process to its `run`."""
         from robocomp_yaml.deploy.icegrid.descriptors import restart_rule
 
         path = self._files.rule(spec.name)
@@ -177,7 +178,7 @@ class IceGridEngine:
         self._run(grid, spec, command, _RULE_WITHIN)
 
     def _deploy(self, replaced: Collection[str], servers: list[tuple[str, Any]]) -> None:
-        """Deploys these servers, and those that were deployed before except the replaced."""
+        """Deploys these servers, and all that were deployed before except the replaced ones."""
         from robocomp_yaml.deploy.icegrid import descriptors
 
         grid = self._reached()
@@ -186,12 +187,12 @@ class IceGridEngine:
             servers += [
                 (host, one) for host, node in before.nodes.items() for one in node.servers if one.id not in replaced
             ]
-        elif keeper_host := self._host_here():
+        elif keeper_host := self._local_host():
             servers.append((keeper_host, descriptors.keeper(self._files, grid.user_of(keeper_host))))
         grid.deploy(descriptors.application(self._network.name, servers), is_new=before is None)
 
-    def _host_here(self) -> str:
-        """A host that is this machine, on which the keeper can run."""
+    def _local_host(self) -> str:
+        """The name of a host that is this machine, on which the keeper can run, or ''."""
         used = {process.host for process in self._network.enabled()}
         here = (host.name for host in self._network.hosts.values() if host.name in used and is_here(host.address))
         return next(here, "")
@@ -200,21 +201,21 @@ class IceGridEngine:
         spec = self._specs[name]
         if spec and is_here(spec.address):
             self._cleared.require(spec)
-        await self._want(self._wanted | {name})
+        await self._set_desired(self._desired | {name})
         await self._beside(name, "started", self._reached().start, name)
 
     async def stop(self, name: str, within: float = STOP_WITHIN) -> None:
-        await self._want(self._wanted - {name})
+        await self._set_desired(self._desired - {name})
         await self._beside(name, "stopped", self._reached().stop, name)
 
-    async def _want(self, names: set[str]) -> None:
-        """Returns when they are written down, together with those that are wanted meanwhile."""
-        self._wanted = names
-        await asyncio.sleep(0)  # until all that begin at once have said what they want
+    async def _set_desired(self, names: set[str]) -> None:
+        """Sets the desired processes. Returns when they are in the file, with those of concurrent calls."""
+        self._desired = names
+        await asyncio.sleep(0)  # until all concurrent calls have set theirs
         with self._lock:
-            if self._kept != self._wanted:
-                self._files.keep_wanted(self._wanted)
-                self._kept = self._wanted
+            if self._kept != self._desired:
+                self._files.keep_desired(self._desired)
+                self._kept = self._desired
 
     async def forget(self, names: Iterable[str]) -> None:
         await self._beside("", "forgotten", self._forget, set(names))
@@ -231,8 +232,8 @@ class IceGridEngine:
                 if spec and not states[name][0]:
                     leftovers.note(self._files, spec.process.host, name)
             self._deploy(gone, [])
-            self._kept = self._wanted = self._wanted - names
-            self._files.keep_wanted(self._wanted)
+            self._kept = self._desired = self._desired - names
+            self._files.keep_desired(self._desired)
             self._files.keep_specs(self._specs)
         for name, spec in gone.items():
             own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
@@ -301,13 +302,13 @@ class IceGridEngine:
         return self._grid
 
     async def _beside(self, about: str, what: str, work: Callable[..., T], *arguments: Any) -> T:
-        """Carries out work when the nodes are there."""
+        """Runs a blocking function when the nodes have been started."""
         if self._nodes:
             await asyncio.shield(self._nodes)
         return await self._call(about, what, work, *arguments)
 
     async def _call(self, about: str, what: str, work: Callable[..., T], *arguments: Any) -> T:
-        """Carries out work that waits; what fails it is told of the process of that name, where there is one."""
+        """Runs a blocking function. An error is reported for the process of the name `about`, if there is one."""
         from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
         try:
@@ -329,8 +330,8 @@ def _is_too_long(spec: ProcessSpec) -> bool:
 
 
 def _missing() -> str:
-    """What the engine needs and this machine lacks, in words, or ''."""
-    # What is compiled of Ice is found only by the Python that it was compiled for.
+    """What the engine needs and this machine lacks, or ''."""
+    # Ice's compiled module works only with the Python that it was compiled for.
     if not all(map(importlib.util.find_spec, ("Ice", "IceGrid", "IcePy"))):
         return "Ice for Python is not installed (`pip install 'rcyaml[ice]'`, Debian: python3-zeroc-ice)"
     for program, package in (("icegridregistry", "zeroc-icegrid"), ("icegridnode", "zeroc-icegrid"),
@@ -343,27 +344,28 @@ def _missing() -> str:
 _WITHIN = 1.0  # seconds for an answer
 
 
-async def taken(specs: Sequence[ProcessSpec], running: Mapping[str, Running]) -> list[Diagnostic]:
-    """`specs` are to be started; what runs of the deployment itself is in nobody's way."""
+async def _used_ports(specs: Sequence[ProcessSpec], running: Mapping[str, Running]) -> list[Diagnostic]:
+    """Diagnostics for ports of `specs` on which something listens. Ports of the deployment's own processes are
+    ignored."""
     own = {
         (one.spec.address, endpoint.port)
         for one in running.values()
         if one.spec and one.state not in (STOPPED, ENDED, GIVEN_UP)
         for endpoint in one.spec.process.endpoints
     }
-    asked = [
+    ports = [
         (spec, endpoint)
         for spec in specs
         for endpoint in spec.process.endpoints
         if endpoint.port and endpoint.protocol != "udp" and (spec.address, endpoint.port) not in own
     ]
-    answers = await asyncio.gather(*(listens(spec.address, endpoint.port, _WITHIN) for spec, endpoint in asked))
+    answers = await asyncio.gather(*(listens(spec.address, endpoint.port, _WITHIN) for spec, endpoint in ports))
     return [
         deploying.PORT_TAKEN.at(
             endpoint.span if endpoint.span.file else spec.process.span,
-            hint=f"`ss -ltnp` says there which; end it, or give '{spec.name}' another port",
-            name=spec.name, port=endpoint.port, program=f"one on the host '{spec.process.host}'",
+            hint=f"`ss -ltnp` shows it on that host; end it, or choose another port for '{spec.name}'",
+            name=spec.name, port=endpoint.port, program=f"a program on the host '{spec.process.host}'",
         )
-        for (spec, endpoint), is_taken in zip(asked, answers, strict=True)
+        for (spec, endpoint), is_taken in zip(ports, answers, strict=True)
         if is_taken
     ]  # fmt: skip

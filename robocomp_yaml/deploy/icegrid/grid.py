@@ -1,4 +1,4 @@
-"""An administrator's session with a deployment's registry, in calls that wait for their answers."""
+"""An administrator's session with a deployment's registry, in blocking calls."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from robocomp_yaml.deploy.local.log_reader import line_of
 from robocomp_yaml.deploy.time_limit import until
 
 _RETRY = 0.01
-_LOOK_WITHIN = 4000  # milliseconds
+_READ_WITHIN = 4000  # milliseconds
 
 
 class GridFailed(Exception):
-    """IceGrid refused, or does not answer; says why in words."""
+    """A call of IceGrid failed; the text is the reason."""
 
 
 class Unreachable(GridFailed):
-    """The registry, or the node that is asked for, does not answer."""
+    """The registry or a node does not answer."""
 
 
 class GridSession:
-    """A session. Its methods may be called from several threads; they raise GridFailed."""
+    """A session. Its methods are thread-safe, and raise GridFailed."""
 
     def __init__(self, files: GridFiles, registry: Registry) -> None:
         self.files = files
@@ -40,14 +40,14 @@ class GridSession:
             data.properties.setProperty(key, value)
         data.logger = _Silent()
         self.communicator = Ice.initialize(data)
-        atexit.register(self.communicator.destroy)  # also where a command fails before it closes this
+        atexit.register(self.communicator.destroy)  # also if a command fails before it closes the session
         try:
             proxy = self.communicator.stringToProxy(settings.registry_proxy(registry))
             self.session = IceGrid.RegistryPrx.uncheckedCast(proxy).createAdminSession("rcyaml", "")
             self.admin = self.session.getAdmin()
-            # What only looks is soon over, or its host does not answer.
-            self._looks = IceGrid.AdminPrx.uncheckedCast(self.admin.ice_invocationTimeout(_LOOK_WITHIN))
-            self._reads = IceGrid.AdminSessionPrx.uncheckedCast(self.session.ice_invocationTimeout(_LOOK_WITHIN))
+            # Calls that only read are fast, unless a host does not answer.
+            self._reads = IceGrid.AdminPrx.uncheckedCast(self.admin.ice_invocationTimeout(_READ_WITHIN))
+            self._read_session = IceGrid.AdminSessionPrx.uncheckedCast(self.session.ice_invocationTimeout(_READ_WITHIN))
         except Ice.Exception as error:
             self._destroy()
             raise Unreachable(in_words(error)) from error
@@ -63,24 +63,24 @@ class GridSession:
 
     def has_node(self, host: str) -> bool:
         with _failures(), contextlib.suppress(IceGrid.NodeNotExistException, Ice.InvocationTimeoutException):
-            answer: bool = self._looks.pingNode(host)
+            answer: bool = self._reads.pingNode(host)
             return answer
         return False
 
     def user_of(self, host: str) -> str:
-        """The user as whom a node runs: its data folder is named after them."""
+        """The user of a node, whose name is the name of the node's data folder."""
         info = self._call(self.admin.getNodeInfo, host)
         name: str = info.dataDir.rstrip("/").rpartition("/")[2]
         return name
 
     def descriptor(self, application: str) -> Any:
-        """What is deployed; None where nothing is."""
+        """The deployed application, None if there is none."""
         with _failures(), contextlib.suppress(IceGrid.ApplicationNotExistException):
             return self.admin.getApplicationInfo(application).descriptor
         return None
 
     def deploy(self, descriptor: Any, *, is_new: bool) -> None:
-        """Restarts those of the servers that run whose descriptors differ from before, and leaves all others alone."""
+        """Deploys an application. Running servers whose descriptors changed restart; all others go on."""
         if is_new:
             self._call(self.admin.addApplication, descriptor)
         else:
@@ -91,11 +91,12 @@ class GridSession:
             self.admin.removeApplication(application)
 
     def states(self, names: Iterable[str]) -> dict[str, tuple[str, int]]:
-        """State and pid of each server; '' for one whose node does not answer, and one that there is not."""
-        asked = [(name, self._looks.getServerPidAsync(name)) for name in names]
-        pids = {name: self._answer(pid, -1) for name, pid in asked}
-        # What has a pid is active, or on its way there or back.
-        rest = {name: self._looks.getServerStateAsync(name) for name, pid in pids.items() if pid == 0}
+        """The state and the pid of each server. The state is '' if its node does not answer, or the server is
+        unknown."""
+        calls = [(name, self._reads.getServerPidAsync(name)) for name in names]
+        pids = {name: self._answer(pid, -1) for name, pid in calls}
+        # A server with a pid is active, activating or deactivating.
+        rest = {name: self._reads.getServerStateAsync(name) for name, pid in pids.items() if pid == 0}
         states = {name: str(self._answer(state, "")) for name, state in rest.items()}
         return {name: (states.get(name, "Active" if pid > 0 else ""), max(pid, 0)) for name, pid in pids.items()}
 
@@ -109,7 +110,7 @@ class GridSession:
         try:
             self._call(self.admin.startServer, name)
         except GridFailed:
-            # The keeper may have been faster.
+            # The keeper may have started it.
             if self.states([name])[name][0] not in ("Active", "Activating"):
                 raise
 
@@ -121,15 +122,15 @@ class GridSession:
                 raise
 
     def run(self, name: str, within: float) -> bool:
-        """Starts a server and waits until it has ended; False where it has not within so many seconds."""
+        """Starts a server and waits until it has ended. Returns whether it has, within so many seconds."""
         self.start(name)
         return until(lambda: self.states([name])[name][0] in ("Inactive", ""), within)
 
     def read(self, name: str, path: str) -> list[str]:
-        """The lines of one of a process's files, on its host; none where it is not there."""
+        """The lines of a file of a process, on its host; none if the file is missing."""
         lines: list[str] = []
         with _failures(), contextlib.suppress(IceGrid.FileNotAvailableException):
-            iterator = self._reads.openServerLog(name, path, -1)
+            iterator = self._read_session.openServerLog(name, path, -1)
             try:
                 is_end = False
                 while not is_end:
@@ -151,7 +152,7 @@ class GridSession:
 
 @contextlib.contextmanager
 def _failures() -> Iterator[None]:
-    """Raises GridFailed for what IceGrid refuses, and Unreachable for what does not answer."""
+    """Raises GridFailed for errors of IceGrid, and Unreachable if the registry or a node does not answer."""
     try:
         yield
     except IceGrid.NodeUnreachableException as error:
@@ -163,7 +164,7 @@ def _failures() -> Iterator[None]:
 
 
 def reach(files: GridFiles, registry: Registry, within: float) -> GridSession:
-    """A session, tried for so many seconds. Raises Unreachable."""
+    """A new session, tried for so many seconds. Raises Unreachable."""
     until = time.monotonic() + within
     while True:
         try:
@@ -175,13 +176,13 @@ def reach(files: GridFiles, registry: Registry, within: float) -> GridSession:
 
 
 def in_words(error: Exception) -> str:
-    """What IceGrid says is wrong, else what kind of exception it is."""
+    """The reason that IceGrid reports, else the name of the exception's class."""
     reason = getattr(error, "reason", "") or str(error)
     return " ".join(reason.split()).rstrip(".") or type(error).__name__
 
 
 class GridReader:
-    """The log of a process on another host. What is written while its node does not answer is read later."""
+    """Reads a log on another host. Lines that are written while the node does not answer are read later."""
 
     def __init__(self, grid: GridSession, name: str) -> None:
         self._grid, self._name = grid, name
@@ -205,7 +206,7 @@ class GridReader:
 
 
 class _Silent(Ice.Logger):  # type: ignore[misc]
-    """Connections that fail are told as diagnostics."""
+    """A logger without output: failures are reported as diagnostics."""
 
     def print(self, message: str) -> None:
         return

@@ -1,7 +1,7 @@
-"""What may still run on a host that did not answer when it was moved away or taken out of the deployment.
+"""Leftovers: processes that may still run on a host that did not answer when they were moved or removed.
 
-IceGrid forgets a server at once, and its node does not end it when the host is back. So it is noted, as an empty file
-`left/HOST/PROCESS`, and the keeper ends it there as soon as it can.
+IceGrid forgets a server immediately, and the node does not end it when the host is back. Each such process is noted as
+an empty file `left/HOST/PROCESS`, and the keeper ends it as soon as the host answers.
 """
 
 from __future__ import annotations
@@ -20,16 +20,17 @@ _WITHIN = 5.0
 
 
 def note(files: GridFiles, host: str, name: str) -> None:
+    """Notes a process of a host. Raises OSError."""
     own_folder.write(files.folder, f"{_FOLDER}/{host}/{name}", "")
 
 
 def drop(files: GridFiles, host: str, name: str) -> None:
-    """It is to run on that host again."""
+    """Removes the note: the process will run on that host again, or has been ended."""
     own_folder.remove(files.folder, f"{_FOLDER}/{host}/{name}")
 
 
 def end_all(grid: GridSession) -> None:
-    """Ends what is noted of hosts that answer. Raises GridFailed."""
+    """Ends the noted processes of all hosts that answer. Raises GridFailed."""
     folder = f"{grid.files.folder}/{_FOLDER}"
     for host in _listed(folder):
         names = _listed(f"{folder}/{host}")
@@ -40,7 +41,7 @@ def end_all(grid: GridSession) -> None:
 
 
 def _end(grid: GridSession, host: str, names: list[str]) -> None:
-    """With a server that only does this, in an application of its own, which no command touches."""
+    """Ends processes with a server for this only, in an application of its own, which no command changes."""
     server = descriptors.ender(grid.files, names, grid.user_of(host))
     grid.remove(_APPLICATION)
     grid.deploy(descriptors.application(_APPLICATION, [(host, server)]), is_new=True)

@@ -1,4 +1,4 @@
-"""Bringing up what the engine itself needs: the registry on this machine, and a node on every host."""
+"""Start and end of what the engine itself needs: the registry on this machine, and a node on every host."""
 
 from __future__ import annotations
 
@@ -27,30 +27,31 @@ from robocomp_yaml.network.network import Network, NetworkHost
 if TYPE_CHECKING:
     from robocomp_yaml.deploy.icegrid.grid import GridSession
 
-_PATIENCE = 20.0  # seconds: far more than is needed, also where a machine is busy
+_PATIENCE = 20.0  # seconds: far more than is needed, also on a busy machine
 _ENDS_WITHIN, _REGISTRY_ENDS_WITHIN = 15.0, 3.0
-_RECONNECTS_WITHIN = 15.0  # seconds in which a node finds a registry that has come back
-_AT_ONCE = 8  # connections over SSH
+_RECONNECTS_WITHIN = 15.0  # seconds in which a node reconnects to the registry
+_PARALLEL = 8  # connections over SSH
 
 
 def reached(files: GridFiles, network: Network) -> GridSession | None:
-    """A session with the registry that there is; None where none runs and nothing is to. One that was killed, with all
-    that would start it again, is started again."""
+    """A session with the running registry. If processes should run, a registry that was killed with its guard is
+    started again; else None. Raises DeployFailed."""
     registry = files.registry()
-    if registry is None or not (files.wanted() or daemons.is_alive(files.registry_folder)):
+    if registry is None or not (files.desired() or daemons.is_alive(files.registry_folder)):
         return None
     return _session(files, registry, network)
 
 
 def created(files: GridFiles, network: Network) -> GridSession:
-    """A session with the registry, started where none runs, at an address that all hosts reach."""
+    """A session with the registry, which is started if none runs at an address that all hosts reach. Raises
+    DeployFailed."""
     address = registry_address(network.hosts.values())
     registry = files.registry()
     if registry is None or registry.address != address:
         _end_here(files)
         try:
             if registry is None:
-                clear_up(network.folder)  # what runs although nothing is known of it: someone removed the folder
+                clear_up(network.folder)  # processes that run although their folder was removed
             own_folder.make(network.folder)
             settings.make_key(files)
             registry = Registry(address, free_port(address))
@@ -66,22 +67,21 @@ def _session(files: GridFiles, registry: Registry, network: Network) -> GridSess
             daemons.start_registry(files, registry)
         except OSError as error:
             raise _failed(network, error.strerror or str(error)) from error
-    try:  # loading Ice takes about as long as the registry does to start
+    try:  # while the registry starts, which takes about as long as the import of Ice
         from robocomp_yaml.deploy.icegrid.grid import Unreachable, reach
     except ImportError as error:
         raise _failed(network, str(error)) from error
     try:
         return reach(files, registry, _PATIENCE)
     except Unreachable as error:
-        said = daemons.last_words(files.registry_folder)
-        raise _failed(network, said or str(error)) from error
+        raise _failed(network, daemons.last_words(files.registry_folder) or str(error)) from error
 
 
 def ensure_nodes(
     grid: GridSession, files: GridFiles, network: Network, hosts: Iterable[NetworkHost]
 ) -> dict[str, Diagnostic]:
-    """Every host has its node: those of this machine are started, others over SSH, unless one that was started by hand
-    finds the registry again. What is wrong with those that have none, by their names."""
+    """Starts the missing nodes: on this machine directly, on other hosts over SSH. A node that was started by hand has
+    some seconds to reconnect to the registry. Returns a diagnostic for each host without a node, by its name."""
     registry = files.registry()
     assert registry
     known = files.nodes()
@@ -92,18 +92,18 @@ def ensure_nodes(
     tried = _started(missing, scripts)
     by_hand = [host for host in missing if tried[host.name].reason and not known.get(host.name, True)]
     until(lambda: all(grid.has_node(host.name) for host in by_hand), _RECONNECTS_WITHIN + begin - time.monotonic())
-    tried |= {host.name: daemons.NodeStart(was_there=True) for host in by_hand if grid.has_node(host.name)}
-    is_ours = {name: not start.reason for name, start in tried.items() if not start.was_there}
-    files.keep_nodes({**{host.name: False for host in hosts}, **known, **is_ours})
+    tried |= {host.name: daemons.NodeStart(was_running=True) for host in by_hand if grid.has_node(host.name)}
+    is_started = {name: not start.reason for name, start in tried.items() if not start.was_running}
+    files.keep_nodes({**{host.name: False for host in hosts}, **known, **is_started})
     faults = {}
     for host in missing:
         reason = tried[host.name].reason
         hint = f"start it by hand, then try again: {daemons.by_hand(shown_path(scripts[host.name]), host)}"
         if not reason and not until(lambda host=host: grid.has_node(host.name), _PATIENCE):  # type: ignore[misc]
             own = f"{files.root}/nodes/{host.name}"
-            said = daemons.last_words(own) or f"see {own}/log there"
-            reason = f"it was started, and does not reach the registry at {registry.address}:{registry.port}: {said}"
-            hint = "all hosts must reach each other over TCP: look for a firewall between them"
+            words = daemons.last_words(own) or f"see {own}/log on that host"
+            reason = f"it was started, but does not reach the registry at {registry.address}:{registry.port}: {words}"
+            hint = "all hosts must reach each other over TCP: check for a firewall between them"
         if reason:
             where = host.span if host.span.file else Span(network.path)
             hint = "" if is_here(host.address) else hint
@@ -114,35 +114,35 @@ def ensure_nodes(
 
 
 def _started(hosts: Sequence[NetworkHost], scripts: Mapping[str, str]) -> dict[str, daemons.NodeStart]:
-    """Starts the nodes of these hosts, all at once."""
-    with ThreadPoolExecutor(_AT_ONCE) as pool:
+    """Starts the nodes of these hosts in parallel. Returns the results by the names of the hosts."""
+    with ThreadPoolExecutor(_PARALLEL) as pool:
         outcomes = pool.map(lambda host: _start(host, scripts[host.name]), hosts)
         return {host.name: outcome for host, outcome in zip(hosts, outcomes, strict=True)}
 
 
 def ended(grid: GridSession, application: str) -> None:
-    """Ends what the engine runs: its servers, the nodes that it started, and the registry."""
+    """Ends what the engine runs: servers, the nodes that it started, and the registry."""
     from robocomp_yaml.deploy.icegrid.grid import GridFailed
 
-    with suppress(GridFailed):  # a node that does not answer: its servers are gone, or end when it comes back
+    with suppress(GridFailed):  # a node does not answer: its servers have ended, or end when it is back
         grid.remove(application)
     files = grid.files
     nodes = files.nodes()
-    for host, is_ours in nodes.items():
-        if is_ours:
+    for host, is_started in nodes.items():
+        if is_started:
             grid.shut_down_node(host)
-    files.keep_wanted(())
+    files.keep_desired(())
     grid.close()
     _end_here(files)
-    files.keep_nodes({host: is_ours for host, is_ours in nodes.items() if not is_ours})
+    files.keep_nodes({host: is_started for host, is_started in nodes.items() if not is_started})
 
 
 def _end_here(files: GridFiles) -> None:
     """Ends the registry, and the nodes of this machine that rcyaml started."""
-    nodes = [f"{files.root}/nodes/{host}" for host, is_ours in files.nodes().items() if is_ours]
+    nodes = [f"{files.root}/nodes/{host}" for host, is_started in files.nodes().items() if is_started]
     for folder in (*nodes, files.registry_folder):
         daemons.end(folder)
-    # The registry would wait for a host that is cut off.
+    # The registry would wait for a host without a connection.
     if not until(lambda: not daemons.is_alive(files.registry_folder), _REGISTRY_ENDS_WITHIN):
         daemons.kill(files.registry_folder)
     until(lambda: not any(map(daemons.is_alive, (*nodes, files.registry_folder))), _ENDS_WITHIN)
@@ -160,8 +160,8 @@ _CONNECT_WITHIN, _RUN_WITHIN = 8.0, 30.0
 
 
 def run(script: str, host: NetworkHost) -> NodeStart:
-    """Gives the script to bash on the host. The user's own keys, agent and known hosts are used; nothing is ever
-    asked."""
+    """Runs the script with bash on the host, over SSH with the user's own keys, agent and known hosts, and without any
+    prompt."""
     try:
         import asyncssh
     except ImportError:
@@ -181,9 +181,9 @@ def run(script: str, host: NetworkHost) -> NodeStart:
     except TimeoutError:
         return NodeStart("ssh: no answer")
     except OSError as error:
-        is_system = error.errno is not None and error.errno > 0  # whose own text is about a call
+        is_system = error.errno is not None and error.errno > 0  # asyncio's own text is about the call
         return NodeStart(f"ssh: {os.strerror(error.errno or 0) if is_system else error.strerror or error}".lower())
     except asyncssh.HostKeyNotVerifiable:
-        return NodeStart("ssh: its key is not the one in your known_hosts, or there is none: connect once with `ssh`")
+        return NodeStart("ssh: its key differs from your known_hosts, or is missing there: connect once with `ssh`")
     except asyncssh.Error as error:
         return NodeStart(f"ssh: {str(error).strip() or 'the connection was closed'}")

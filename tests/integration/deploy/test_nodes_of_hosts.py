@@ -81,7 +81,7 @@ def test_who_was_started_by_hand_is_waited_for_and_nobody_else(files: GridFiles,
 
 def test_what_ran_already_is_not_ours(files: GridFiles, ensure: Ensure) -> None:
     files.keep_nodes({"onboard": True})
-    ensure(Grid(), onboard=NodeStart(was_there=True), head=NodeStart(was_there=True), arm=NodeStart())
+    ensure(Grid(), onboard=NodeStart(was_running=True), head=NodeStart(was_running=True), arm=NodeStart())
     assert files.nodes() == {"onboard": True, "head": False, "arm": True}
 
 
