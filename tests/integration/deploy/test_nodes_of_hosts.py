@@ -1,4 +1,4 @@
-"""How every host comes to its node: started here and over SSH at once, while those started by hand come back."""
+"""Start of the nodes of all hosts: local ones and those over SSH in parallel, while those started by hand reconnect."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ NETWORK = Network("Robot", "/robot.ddsl.yaml", "/robot")
 
 
 class Grid:
-    """A registry that nodes join: `joins` are the hosts whose nodes come when they have been asked for twice; where it
-    hears nothing, those that are started do not come."""
+    """A registry. `joins` are the hosts whose nodes connect after two requests. Unless `hears`, started nodes do not
+    connect."""
 
     def __init__(self, *joins: str, hears: bool = True) -> None:
         self.nodes: set[str] = set()
@@ -46,8 +46,8 @@ Ensure = Callable[..., tuple[list[bool], dict[str, Diagnostic]]]
 
 @pytest.fixture
 def ensure(files: GridFiles, monkeypatch: pytest.MonkeyPatch) -> Ensure:
-    """Ensures the nodes with what starts of nodes come to, by host; whether each thing that was waited for came, and
-    what is wrong with which host."""
+    """Ensures the nodes, with the results of starts by host. Returns whether each wait succeeded, and the diagnostics
+    by host."""
     waited: list[bool] = []
 
     def until(condition: Callable[[], bool], within: float) -> bool:
@@ -72,20 +72,20 @@ def ensure(files: GridFiles, monkeypatch: pytest.MonkeyPatch) -> Ensure:
 FAILS = NodeStart("ssh: no answer")
 
 
-def test_who_was_started_by_hand_is_waited_for_and_nobody_else(files: GridFiles, ensure: Ensure) -> None:
+def test_only_nodes_that_were_started_by_hand_are_waited_for(files: GridFiles, ensure: Ensure) -> None:
     files.keep_nodes({"head": False})
     waited, faults = ensure(Grid("head"), onboard=NodeStart(), head=FAILS, arm=NodeStart())
     assert all(waited) and not faults
     assert files.nodes() == {"onboard": True, "head": False, "arm": True}
 
 
-def test_what_ran_already_is_not_ours(files: GridFiles, ensure: Ensure) -> None:
+def test_a_node_that_ran_before_is_not_ended_by_rcyaml(files: GridFiles, ensure: Ensure) -> None:
     files.keep_nodes({"onboard": True})
     ensure(Grid(), onboard=NodeStart(was_running=True), head=NodeStart(was_running=True), arm=NodeStart())
     assert files.nodes() == {"onboard": True, "head": False, "arm": True}
 
 
-def test_all_that_fail_are_told(files: GridFiles, ensure: Ensure) -> None:
+def test_all_failures_are_reported(files: GridFiles, ensure: Ensure) -> None:
     _, told = ensure(Grid(), onboard=NodeStart(), head=FAILS, arm=NodeStart("ssh: permission denied"))
     assert list(told) == ["head", "arm"] and "'arm'" in told["arm"].message
     assert told["arm"].hint == "start it by hand, then try again: ssh 10.0.0.4 bash -s < /arm.sh"

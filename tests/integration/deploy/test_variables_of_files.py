@@ -1,4 +1,4 @@
-"""`{file: PATH}` as a variable of the environment: read where and when the process starts, by whatever starts it."""
+"""`{file: PATH}` as an environment variable: read on the host of the process, when it starts, by every engine."""
 
 from __future__ import annotations
 
@@ -73,12 +73,12 @@ def test_an_export_reads_it_when_it_starts(tmp_path: Path, form: str) -> None:
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_no_export_holds_it(tmp_path: Path, form: str) -> None:
+def test_no_export_contains_it(tmp_path: Path, form: str) -> None:
     (tmp_path / "token").write_text("canary\n")
     assert "canary" not in "".join(export(network_of(str(tmp_path / "token")), form).values())
 
 
-def test_what_a_form_cannot_say() -> None:
+def test_a_form_without_files_of_variables() -> None:
     with pytest.raises(Unwritable, match="no home"):
         export(network_of("~/token"), "compose")
     with noted() as notes:
@@ -86,7 +86,7 @@ def test_what_a_form_cannot_say() -> None:
     assert [str(one) for one in notes] == ["RCManager gives its commands no variables: TOKEN, OTHER"]
 
 
-def test_it_is_read_here_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_local_engine_reads_it_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "token"
     monkeypatch.setenv("HOME", str(tmp_path))
     for raw, meant in ENDS:
@@ -103,7 +103,7 @@ def test_it_is_read_here_alike(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         (lambda path: path.symlink_to("/dev/zero"), "not a regular file"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_read_is_said(tmp_path: Path, make: Callable[[Path], Any], why: str) -> None:
+def test_an_unreadable_file_is_reported(tmp_path: Path, make: Callable[[Path], Any], why: str) -> None:
     make(tmp_path / "token")
     with pytest.raises(OSError, match=f"TOKEN is the text of .*token, which .*{why}"):
         from_files([("TOKEN", str(tmp_path / "token"))])
@@ -131,7 +131,7 @@ def test_documents(
     assert told in result.output and (not place or f"robot.ddsl.yaml:{place}" in result.output), result.output
 
 
-def test_paths_are_those_of_the_document_that_has_them(
+def test_paths_are_relative_to_the_document_that_contains_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, rcyaml: Callable[..., Any]
 ) -> None:
     monkeypatch.chdir(tmp_path)

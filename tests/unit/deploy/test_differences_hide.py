@@ -1,4 +1,4 @@
-"""What a plan tells of changes, without the secrets in them."""
+"""The differences in a plan, without secrets."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def spec(secret: str) -> ProcessSpec:
     return ProcessSpec(process, "", command, "/config/x")
 
 
-def test_no_secret_is_told() -> None:
+def test_secrets_are_hidden() -> None:
     told = [str(one) for one in differences(spec("canary"), spec("canaryNew"))]
     assert not [line for line in told if "canary" in line]
     hidden = "/bin/x --wifi=*** --password *** http://bob:***@host --name=x"

@@ -1,4 +1,4 @@
-"""A network as it may be shown: no secret of it is in what is left."""
+"""A hidden network contains no secret."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from robocomp_yaml.network.network import ConfigFile, EnvironmentVariable, Readi
 CANARY = "canary-hunter2"
 
 
-def test_no_secret_is_left_and_all_else_is() -> None:
+def test_secrets_are_hidden_and_nothing_else() -> None:
     one = process(
         "camera",
         env=(

@@ -1,4 +1,4 @@
-"""Logs of processes: written in files of limited size, read back in order, followed across rotations."""
+"""Logs of processes: written to files of limited size, read in order, followed across rotations."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def texts(lines: object) -> list[str]:
     return [line.text for line in lines]  # type: ignore[attr-defined]
 
 
-def test_lines_are_written_when_they_are_whole(logs: Path) -> None:
+def test_a_line_is_written_when_it_is_complete(logs: Path) -> None:
     reader, log = LogReader(str(logs), "a"), LogFile(f"{logs}/logs/a.log")
     log.write(b"one\ntw")
     assert texts(reader.new()) == ["one"]
@@ -37,7 +37,7 @@ def test_lines_are_written_when_they_are_whole(logs: Path) -> None:
     log.close()
 
 
-def test_a_line_without_end_is_broken(logs: Path) -> None:
+def test_a_line_without_end_is_split(logs: Path) -> None:
     log = LogFile(f"{logs}/logs/a.log")
     for _ in range(4):
         log.write(b"x" * (log_file.LONGEST // 2 + 1))
@@ -51,7 +51,7 @@ def test_a_follower_misses_nothing_across_rotations(logs: Path) -> None:
     seen = []
     for number in range(100):
         log.write(f"line {number}\n".encode())
-        if number % 5 == 0:  # more than one look in each file
+        if number % 5 == 0:  # more than one read of each file
             seen += texts(reader.new())
     seen += texts(reader.new())
     assert seen == [f"line {number}" for number in range(100)]
@@ -60,14 +60,14 @@ def test_a_follower_misses_nothing_across_rotations(logs: Path) -> None:
     log.close()
 
 
-def test_bytes_that_are_no_text_are_shown(logs: Path) -> None:
+def test_bytes_that_are_not_text_are_shown(logs: Path) -> None:
     log = LogFile(f"{logs}/logs/a.log")
     log.write(b"caf\xe9 \xff\x00\n")
     assert texts(LogReader(str(logs), "a").last(1)) == ["caf\ufffd \ufffd\x00"]
     log.close()
 
 
-def test_a_full_disk_loses_lines_and_says_how_many(logs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_loses_lines_and_reports_their_number(logs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     log = LogFile(f"{logs}/logs/a.log")
     log.write(b"before\n")
     write = os.write

@@ -1,4 +1,4 @@
-"""Plans of deployments, without any process: what happens to each for which state, and in which order."""
+"""Plans of deployments, without real processes: what happens in which state, and in which order."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def test_a_moved_host_restarts() -> None:
     assert (step.action, step.reason) == (RESTART, "host: 10.0.0.1 → 10.0.0.2")
 
 
-def test_a_named_one_takes_its_dependences_and_its_followers_along() -> None:
+def test_a_named_process_includes_its_dependences_and_followers() -> None:
     plain = replace(B, name="c", is_ice=False)
     changed = replace(A, cwd="/tmp")
     now = {process.name: running(process) for process in (A, B, plain)}
@@ -113,7 +113,7 @@ def test_a_named_one_takes_its_dependences_and_its_followers_along() -> None:
     assert with_dependents({"a": (), "b": ("a",), "c": ("b",), "d": ()}, ["a"]) == {"a", "b", "c"}
 
 
-def test_what_was_done_is_undone() -> None:
+def test_undo_of_a_plan() -> None:
     changed, gone, new = replace(A, cwd="/tmp"), replace(A, name="gone"), replace(A, name="new")
     before = {process.name: running(process) for process in (A, B, gone)}
     done = plan(network(changed, B, new), before)
@@ -136,7 +136,7 @@ def test_data_of_another_version_is_rejected() -> None:
 
 
 @given(st.dictionaries(st.integers(0, 12), st.lists(st.integers(0, 12), max_size=4)))
-def test_each_stands_behind_what_it_is_after(graph: dict[int, list[int]]) -> None:
+def test_random_graphs_are_ordered(graph: dict[int, list[int]]) -> None:
     after = {str(name): [str(other) for other in others] for name, others in graph.items()}
     order = in_order(after)
     assert sorted(order) == sorted(after)
@@ -146,7 +146,7 @@ def test_each_stands_behind_what_it_is_after(graph: dict[int, list[int]]) -> Non
 
 
 def _has_cycle(after: dict[str, list[str]]) -> bool:
-    """By taking away what is after nothing that is left."""
+    """By removing names that are after no remaining one."""
     left = dict(after)
     while free := [name for name, others in left.items() if not set(others) & set(left)]:
         for name in free:

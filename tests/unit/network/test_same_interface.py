@@ -1,4 +1,4 @@
-"""Two documents that define one interface: where they mean the same, and what is told where they do not."""
+"""Two documents that define one interface: when the definitions are equal, and the diagnostic when they differ."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ interfaces:
 
 
 def told(was: str, now: str) -> list[Said]:
-    """What is said where a component requires an interface of one document, and another serves that of the other."""
+    """The diagnostics when one component requires the interface of one document, and another serves that of the
+    other."""
     assert was in FACE
     text = "deployment: R\ncomponents: {speech: {component: speech}, mouth: {component: mouth}}\n"
     return said(
@@ -51,7 +52,7 @@ def told(was: str, now: str) -> list[Said]:
         ("{type: float, unit: mm}", "float"),
     ],
 )
-def test_they_mean_the_same(was: str, now: str) -> None:
+def test_equal_definitions(was: str, now: str) -> None:
     assert told(was, now) == []
 
 
@@ -89,11 +90,11 @@ def test_they_mean_the_same(was: str, now: str) -> None:
         ('mode: Mode}', 'mode: string}', "'mode' of 'go' is Mode in one, and string in the other", ['Mode', 'string']),
     ],
 )  # fmt: skip
-def test_they_do_not(was: str, now: str, difference: str, places: list[str]) -> None:
+def test_different_definitions(was: str, now: str, difference: str, places: list[str]) -> None:
     (found,) = told(was, now)
     assert found.code == "RC4203" and found.message.endswith(f"define Mouth differently: {difference}")
     assert [at for _, at in found.related] == places
 
 
-def test_of_several_differences_one_is_told() -> None:
+def test_only_the_first_difference_is_reported() -> None:
     assert len(told("{x: {type: float, unit: mm}, y: float}", "{a: int}")) == 1

@@ -1,4 +1,4 @@
-"""What a deployment connects: what is said where the other end is none, is several, or is not there."""
+"""Diagnostics of connections whose other end is wrong, ambiguous or missing."""
 
 from __future__ import annotations
 
