@@ -1,4 +1,4 @@
-"""The units that are exported for systemd, under a systemd of their own: they start, in order, and come back."""
+"""Units exported for systemd run in a systemd of the test: they start in order, and are restarted."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ Systemctl = Callable[..., str]
 
 @pytest.fixture
 def systemctl() -> Iterator[Systemctl]:
-    """`systemctl(WORDS)` at a `systemctl.manager` whose home is `systemctl.home`; what it prints."""
+    """`systemctl(WORDS)` returns the output for a `systemctl.manager` with the home `systemctl.home`."""
     if MANAGER is None or os.geteuid() != 0:
         pytest.skip("systemd is not installed here (Debian: systemd), or only root may have one of its own")
     with tempfile.TemporaryDirectory(prefix="systemd") as name:
@@ -59,7 +59,7 @@ def systemctl() -> Iterator[Systemctl]:
                                            stderr=subprocess.STDOUT))  # fmt: skip
 
         def run(*words: str) -> str:
-            """It is obeyed only where its caller is among the manager's own processes."""
+            """The manager accepts it only from its own processes."""
             children = Path(f"/proc/{manager.process.pid}/task/{manager.process.pid}/children").read_text()
             inside = ["nsenter", "--pid", "--mount", "--target", *children.split()]
             asked = [*inside, "systemctl", "--user", *words]
@@ -84,7 +84,7 @@ def systemctl() -> Iterator[Systemctl]:
 
 
 def install(systemctl: Systemctl, *processes: Process) -> None:
-    """As docs/exports.md says: units to where the manager looks for them, and config/ to where they look for it."""
+    """Installs units and config/ as docs/exports.md says."""
     network = Network("Robot", "/robot.ddsl.yaml", "/f", {LOOPBACK: NetworkHost(LOOPBACK)})
     network.processes = {process.name: process for process in processes}
     settings = systemctl.home / ".config"  # type: ignore[attr-defined]
@@ -128,13 +128,13 @@ def test_the_units_run(systemctl: Systemctl, tmp_path: Path) -> None:
     assert states == ["inactive"] * 3
 
 
-def test_what_crashes_comes_back_and_not_for_ever(systemctl: Systemctl, tmp_path: Path) -> None:
+def test_a_crashed_unit_is_restarted_a_limited_number_of_times(systemctl: Systemctl, tmp_path: Path) -> None:
     loop = shell("loop", f"echo again >> {tmp_path}/crashes; exit 3", restart=RestartRule(delay=0.01, tries=3))
     install(systemctl, loop, sleeper("steady"))
     systemctl("start", "Robot.target")
     until(lambda: systemctl("is-active", "Robot-steady.service") == "active\n", "it runs")
     systemctl("kill", "-s", "KILL", "Robot-steady.service")
-    until(lambda: systemctl("show", "-P", "NRestarts", "Robot-steady.service") == "1\n", "it is started again")
+    until(lambda: systemctl("show", "-P", "NRestarts", "Robot-steady.service") == "1\n", "it is restarted")
     until(lambda: systemctl("is-active", "Robot-steady.service") == "active\n", "it runs again")
     until(lambda: systemctl("is-active", "Robot-loop.service") == "failed\n", "it is given up")
     assert (tmp_path / "crashes").read_text() == "again\n" * 4, "once, and three times more"

@@ -1,4 +1,4 @@
-"""A network that is to be ready within a time, all in all."""
+"""A time limit for the start of a whole network."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def waiting(name: str, *after: str) -> Process:
     return shell(name, "echo where is my motor; exec sleep 600", *after, ready=IN_VAIN)
 
 
-def test_who_is_ready_and_who_is_not(place: Place) -> None:
+def test_ready_and_pending_processes(place: Place) -> None:
     result = place.up(sleeper("a"), waiting("b"), waiting("c", "a"), sleeper("d", "b"), limit=ENOUGH)
     assert codes(result) == ["RC7011"]
     (late,) = result.diagnostics
@@ -43,7 +43,7 @@ def test_who_is_ready_and_who_is_not(place: Place) -> None:
     assert set(place.pids().values()) == {0}
 
 
-def test_what_failed_before_is_told_apart(place: Place) -> None:
+def test_earlier_failures_are_reported_separately(place: Place) -> None:
     fails = shell("b", "echo no power; exit 3", restart=RestartRule(policy=NEVER))
     result = place.up(sleeper("a"), fails, waiting("c"), limit=ENOUGH, on_failure=operations.KEEP_GOING)
     assert codes(result) == ["RC7011", "RC7004"]
@@ -56,14 +56,14 @@ def test_time_enough(place: Place) -> None:
     assert not place.up(sleeper("a"), sleeper("b", "a"), limit=600).diagnostics
 
 
-def test_over_before_anything_was_done(place: Place) -> None:
+def test_a_limit_that_expires_before_any_change(place: Place) -> None:
     result = place.up(sleeper("a"), limit=0)
     (found,) = result.diagnostics
     assert found.message == "the time limit of 0 s expired before anything was done"
     assert place.pids() == {}
 
 
-def test_back_to_what_ran_before(place: Place) -> None:
+def test_rollback_at_the_limit(place: Place) -> None:
     place.up(sleeper("a"), sleeper("b", "a"))
     before = place.pids()
     changed = sleeper("b", "a", env=(EnvironmentVariable("X", "1"),))
@@ -74,15 +74,15 @@ def test_back_to_what_ran_before(place: Place) -> None:
     assert after["b"].spec and not after["b"].spec.process.env and "c" not in after
 
 
-def test_what_was_started_may_stay(place: Place) -> None:
+def test_keep_at_the_limit(place: Place) -> None:
     result = place.up(sleeper("a"), waiting("b", "a"), limit=ENOUGH, on_failure=operations.KEEP_GOING)
     assert codes(result) == ["RC7011"]
     assert {name: one.state for name, one in place.observe().items()} == {"a": RUNNING, "b": RUNNING}
 
 
 @pytest.mark.parametrize("on_failure", [operations.STOP_THEM, operations.ROLL_BACK])
-def test_stopping_takes_all_the_time(place: Place, on_failure: str) -> None:
-    """Nothing is started any more; what was stopped for that comes back where this is wanted."""
+def test_the_limit_expires_while_processes_stop(place: Place, on_failure: str) -> None:
+    """Nothing more is started. With rollback, what was stopped is started again."""
     slow = shell("a", SLOW, ready=Readiness(log="at work"))
     place.up(slow)
     result = place.up(shell("a", SLOW + " # new", ready=Readiness(log="at work")), limit=ENOUGH, on_failure=on_failure)
@@ -103,7 +103,7 @@ MORE = """\
 
 
 @pytest.mark.parametrize("engine", ["local", "icegrid"])
-def test_as_one_types_it(engine: str, place: Place, tmp_path: Path, rcyaml: Callable[..., Result]) -> None:
+def test_the_command(engine: str, place: Place, tmp_path: Path, rcyaml: Callable[..., Result]) -> None:
     if engine == "icegrid":
         pytest.importorskip("IceGrid", reason="Ice for Python is not installed (Debian: python3-zeroc-ice)")
         if shutil.which("icegridnode") is None:
