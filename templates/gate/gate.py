@@ -1,6 +1,6 @@
-"""Stands between a group and those outside of it: passes calls on, as many and such as its rules allow.
+"""A gate between a group and the processes outside it: forwards the calls that its rules allow.
 
-Written by rcyaml from the deployment's document; it needs nothing but Python and Ice.
+Written by rcyaml from the deployment's document. It needs only Python and Ice.
 """
 
 import queue
@@ -11,7 +11,7 @@ import time
 
 import Ice
 
-# name, identity, endpoint, proxy of the member, calls a second (or None), methods that may be called (or None)
+# name, identity, endpoint, proxy of the member, calls per second (or None), allowed methods (or None)
 SERVED = ()
 
 ALWAYS = ("ice_ping", "ice_isA", "ice_id", "ice_ids")
@@ -19,7 +19,7 @@ MOST_WAITING = 1000
 
 
 class Turns(threading.Thread):
-    """Lets what waits pass one by one, in its order, at equal distances."""
+    """Runs pending calls one by one, in their order, at a fixed rate."""
 
     def __init__(self, rate):
         super().__init__(daemon=True)
@@ -28,7 +28,7 @@ class Turns(threading.Thread):
         self.start()
 
     def wait(self, passed):
-        """Calls `passed` when its turn has come; False where too many wait already."""
+        """Calls `passed` in its turn. Returns False if too many calls are pending."""
         try:
             self._waiting.put_nowait(passed)
         except queue.Full:
@@ -47,7 +47,7 @@ class Turns(threading.Thread):
 
 
 class Gate(Ice.Blobject):
-    """An object of whatever interface: it does not look into the calls that it passes on."""
+    """An object of any interface, which forwards calls without decoding them."""
 
     def __init__(self, name, member, rate, allowed):
         self._name = name
@@ -59,7 +59,7 @@ class Gate(Ice.Blobject):
         name = current.operation
         if self._allowed is not None and name not in self._allowed and name not in ALWAYS:
             may = ", ".join(self._allowed) or "nothing"
-            raise Ice.UnknownException("the group that serves %s lets pass %s, not '%s'" % (self._name, may, name))
+            raise Ice.UnknownException("the group that serves %s allows %s, not '%s'" % (self._name, may, name))
 
         def call():
             return self._member.ice_invokeAsync(name, current.mode, data, current.ctx)
@@ -68,7 +68,7 @@ class Gate(Ice.Blobject):
             return call()
         answer = Ice.Future()
         if not self._turns.wait(lambda: pass_on(call, answer)):
-            raise Ice.UnknownException("%d calls wait for their turn already" % MOST_WAITING)
+            raise Ice.UnknownException("%d calls are already pending" % MOST_WAITING)
         return answer
 
 
@@ -81,7 +81,7 @@ def pass_on(call, answer):
 
     try:
         call().add_done_callback(done)
-    except Exception as error:  # the communicator is gone, or the proxy is none
+    except Exception as error:  # the communicator is destroyed, or the proxy is not valid
         answer.set_exception(error)
 
 
@@ -97,7 +97,7 @@ def main():
             adapter = communicator.createObjectAdapterWithEndpoints(name, endpoint)
             adapter.add(Gate(name, communicator.stringToProxy(proxy), rate, allowed), Ice.stringToIdentity(identity))
             adapter.activate()
-        while not communicator.isShutdown():  # a signal is only seen between two waits
+        while not communicator.isShutdown():  # a signal is handled between two waits
             time.sleep(0.1)
     finally:
         communicator.destroy()

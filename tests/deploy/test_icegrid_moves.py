@@ -132,7 +132,7 @@ def test_a_moved_component_has_logs_restart_and_down(talk: Deployment) -> None:
 def _greets(talk: Deployment) -> None:
     """Speech has made its calls once for each start. The gate did not forward forbidden calls."""
     times = talk.logs("speech").count("SpeechComp is running")
-    until(lambda: talk.logs("speech").count("lets pass move, not 'close'") == times, lambda: talk.logs())
+    until(lambda: talk.logs("speech").count("allows move, not 'close'") == times, lambda: talk.logs())
     assert talk.logs("speech").count("with the mouth") == GREETING * times
     assert talk.logs("mouth").count("moves to") == GREETING * times
     assert "closes" not in talk.logs("mouth")
