@@ -10,7 +10,7 @@ import msgspec
 
 from robocomp_yaml.deploy import operations
 from robocomp_yaml.deploy.carry_out import stop_all
-from robocomp_yaml.deploy.engine import GIVEN_UP, RUNNING, WAITING, Engine, Line
+from robocomp_yaml.deploy.engine import GIVEN_UP, Engine, Line
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Network
@@ -63,7 +63,7 @@ async def _stay(engine: Engine, stays: Attached | None) -> list[Diagnostic]:
         for one in running.values():
             if one.state == GIVEN_UP and one.spec:
                 failed[one.name] = deploying.GIVEN_UP.at(one.spec.process.span, name=one.name, how=one.end)
-        if not any(one.state in (RUNNING, WAITING) for one in running.values()):
+        if not any(one.is_alive for one in running.values()):
             break
         with suppress(TimeoutError):
             await asyncio.wait_for(ended.wait(), _PERIOD)

@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from robocomp_yaml.deploy.engine import LOST, RUNNING, STOPPED, WAITING, DeployFailed, Engine, Running
+from robocomp_yaml.deploy.engine import LOST, STOPPED, DeployFailed, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep, in_order
 from robocomp_yaml.deploy.readiness import RECENT, State, holds, until_ready, why_not
 from robocomp_yaml.deploy.time_limit import TimeLimit
@@ -85,7 +85,7 @@ async def carry_out(
     changed, and counts as failed. Raises DeployFailed if a process cannot be stopped or prepared."""
     blocked = blocked or {}
     leaving = [step.running for step in plan.of(STOP, RESTART) if step.running]
-    leaving += [step.running for step in plan.of(START) if step.running and step.running.state in (RUNNING, WAITING)]
+    leaving += [step.running for step in plan.of(START) if step.running and step.running.is_alive]
     await stop_all(engine, [running for running in leaving if running.name not in blocked], report)
     if gone := [step.name for step in plan.of(STOP)]:
         await engine.forget(gone)
@@ -104,7 +104,7 @@ async def stop_all(engine: Engine, running: Iterable[Running], report: Report) -
     async def stop(name: str, users: list[asyncio.Task[None]]) -> None:
         if users:
             await asyncio.wait(users)
-        began, is_reported = time.monotonic(), leaving[name].state in (RUNNING, WAITING)
+        began, is_reported = time.monotonic(), leaving[name].is_alive
         if is_reported:
             report(ProcessEvent(name, STOPPING))
         await engine.stop(name)
@@ -237,7 +237,7 @@ def undo(plan: Plan, before: Mapping[str, Running], now: Mapping[str, Running]) 
     for name, step in plan.steps.items():
         if step.action == KEEP:
             continue
-        spec = before[name].spec if name in before and before[name].state in (RUNNING, WAITING) else None
+        spec = before[name].spec if name in before and before[name].is_alive else None
         if spec is None:
             if name in now:
                 steps[name] = PlanStep(name, STOP, "it did not run before", running=now[name])

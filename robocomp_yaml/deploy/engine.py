@@ -57,6 +57,11 @@ class Running(msgspec.Struct, frozen=True):
     cpu: float = 0.0
 
     @property
+    def is_alive(self) -> bool:
+        """Whether it runs, or will be restarted by the engine."""
+        return self.state in (RUNNING, WAITING)
+
+    @property
     def end(self) -> str:
         """How the last run ended, with the number of restarts."""
         again = f", after {self.restarts} restart{'' if self.restarts == 1 else 's'}" if self.restarts else ""

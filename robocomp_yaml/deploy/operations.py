@@ -10,7 +10,7 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.deploy.carry_out import Report, StartOutcome, carry_out, stop_all, undo
-from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, RUNNING, STOPPED, WAITING, Engine, Running
+from robocomp_yaml.deploy.engine import GIVEN_UP, LOST, STOPPED, WAITING, Engine, Running
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, plan, with_dependents
 from robocomp_yaml.deploy.readiness import holds
 from robocomp_yaml.deploy.time_limit import TimeLimit
@@ -154,7 +154,7 @@ async def down(engine: Engine, names: Collection[str], report: Report) -> list[s
     running = await engine.observe()
     after = {name: one.spec.process.after if one.spec else () for name, one in running.items()}
     leaving = with_dependents(after, names) & set(running) if names else set(running)
-    alive = [one.name for one in running.values() if one.name in leaving and one.state in (RUNNING, WAITING)]
+    alive = [one.name for one in running.values() if one.name in leaving and one.is_alive]
     await stop_all(engine, [running[name] for name in leaving], report)
     await engine.forget(leaving)
     await engine.close(end=len(leaving) == len(running))
@@ -164,4 +164,4 @@ async def down(engine: Engine, names: Collection[str], report: Report) -> list[s
 async def end_if_idle(engine: Engine) -> None:
     """Closes an engine, and ends it if no process runs."""
     running = await engine.observe()
-    await engine.close(end=not any(one.state in (RUNNING, WAITING, LOST) for one in running.values()))
+    await engine.close(end=not any(one.is_alive or one.state == LOST for one in running.values()))

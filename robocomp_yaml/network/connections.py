@@ -34,7 +34,7 @@ class Providers(msgspec.Struct):
         """Adds what a component implements, and what a program has an endpoint for."""
         around = _around(draft.instance)
         for offer in draft.offers:
-            if offer.port or offer.given:
+            if offer.port or offer.explicit:
                 self._every.setdefault(offer.interface, []).append(offer)
                 for holder in around:
                     self._within.setdefault((offer.interface, holder), []).append(offer)
@@ -76,12 +76,12 @@ _MANY = 6
 
 
 class Connections(msgspec.Struct):
-    """Connects what is required. `found` are the connections, `needs` the dependences that follow."""
+    """Connects what is required. `connections` are the connections, `needs` the dependences that follow."""
 
     drafts: Drafts
     comparison: InterfaceComparison
     gates: Gates
-    found: list[Connection] = []
+    connections: list[Connection] = []
     needs: list[Dependence] = []
     diagnostics: list[Diagnostic] = []
     _providers: Providers = msgspec.field(default_factory=Providers)
@@ -108,7 +108,7 @@ class Connections(msgspec.Struct):
             self.diagnostics += _faults(draft, pair)
             proxy = pair.text.strip(BLANKS)  # Ice ignores them, and the value of a property cannot end with a tab
             draft.proxies[pair.name] = LocatedText(proxy, pair.span)
-            self.found.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
+            self.connections.append(Connection(draft.name, pair.name, interface, "", proxy=proxy, span=pair.span))
             return
         target = named(self.drafts, draft, pair)
         if isinstance(target, Diagnostic):
@@ -164,7 +164,7 @@ class Connections(msgspec.Struct):
         if offer.endpoint is None:  # the endpoint is not valid, which has been reported
             return
         draft.proxies[name] = LocatedText(offer.proxy, span)
-        self.found.append(Connection(draft.name, name, interface, target.name, proxy=offer.proxy, span=span))
+        self.connections.append(Connection(draft.name, name, interface, target.name, proxy=offer.proxy, span=span))
         if target is not draft:
             self.needs.append(Dependence(draft.name, target.name, port.use.absent if port else "", name, span))
         if draft.instance.entry.enabled and not target.instance.entry.enabled and not _may_be_absent(port):
@@ -221,7 +221,7 @@ class Connections(msgspec.Struct):
 
     def _unresolved(self, draft: Draft, port: Port) -> None:
         linked, name = self.drafts.linked, port.interface.name
-        self.found.append(Connection(draft.name, port.name, name, "", span=draft.span))
+        self.connections.append(Connection(draft.name, port.name, name, "", span=draft.span))
         if linked.is_included or not self.drafts.complete:
             return
         unresolved = codes.UNRESOLVED.at(
@@ -336,5 +336,5 @@ def _of_group(drafts: Drafts, group: LinkedGroup, draft: Draft) -> Iterator[tupl
     owners = dict.fromkeys(owner for member in group.members if (owner := drafts.of(member)))
     for offer in (offer for owner in owners for offer in owner.offers):
         name = names.get((offer.owner.instance, offer.adapter))
-        if name is not None if is_outside else offer.port or offer.given:
+        if name is not None if is_outside else offer.port or offer.explicit:
             yield name or offer.adapter, offer

@@ -50,7 +50,7 @@ def derive(linked: LinkedDeployment, program: Program) -> tuple[Network, list[Di
     connections.resolve()
     gates.connect()
     topics.resolve()
-    network.connections = [*connections.found, *gates.found, *topics.found]
+    network.connections = [*connections.connections, *gates.connections, *topics.connections]
     diagnostics = [*endpoint_faults(drafts), *connections.diagnostics, *topics.diagnostics]
     needs = [*_explicit(drafts, gates), *connections.needs, *gates.needs, *topics.needs]
     enabled = {draft.name for draft in drafts.drafts.values() if draft.instance.entry.enabled}
@@ -101,12 +101,12 @@ def _put_in_order(network: Network, needs: Sequence[Dependence]) -> list[Diagnos
 def endpoint_faults(drafts: Drafts) -> Iterator[Diagnostic]:
     usual = f"write a protocol and a port from 1 to {LAST_PORT}, such as `tcp -p 10003`"
     for offer in (offer for draft in drafts.drafts.values() for offer in draft.adapters):
-        if offer.given:
+        if offer.explicit:
             try:
-                fixed_endpoint(offer.given)
+                fixed_endpoint(offer.explicit)
             except Refused as refused:
-                facts = {"name": offer.adapter, "text": offer.given}
-                yield text_fault(codes.BAD_ENDPOINT, offer.owner, offer.span, offer.given, refused, usual, **facts)
+                facts = {"name": offer.adapter, "text": offer.explicit}
+                yield text_fault(codes.BAD_ENDPOINT, offer.owner, offer.span, offer.explicit, refused, usual, **facts)
         elif offer.number > LAST_PORT:
             hint = "begin with a lower port, or use fewer instances"
             yield codes.PORT_TOO_HIGH.at(offer.span, name=offer.owner.name, port=offer.number, hint=hint)

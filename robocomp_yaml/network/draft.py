@@ -41,8 +41,8 @@ def listening(host: NetworkHost, number: int) -> str:
 
 class Offer(msgspec.Struct, eq=False):
     """An interface that a draft serves on the adapter `adapter`. `port` is the entry of the component's `implements`,
-    None for an endpoint of a program and for CommonBehavior, of which only the name is known. `given` is the endpoint
-    in the document; without one, `number` is its TCP port, 0 until it is assigned."""
+    None for an endpoint of a program and for CommonBehavior, of which only the name is known. `explicit` is the
+    endpoint in the document; without one, `number` is its TCP port, 0 until it is assigned."""
 
     owner: Draft
     adapter: str
@@ -50,7 +50,7 @@ class Offer(msgspec.Struct, eq=False):
     span: Span
     port: Port | None = None
     number: int = 0
-    given: str = ""
+    explicit: str = ""
 
     @property
     def full_name(self) -> str:
@@ -60,12 +60,12 @@ class Offer(msgspec.Struct, eq=False):
     @property
     def endpoint(self) -> IceEndpoint | None:
         """None if the endpoint in the document is not valid."""
-        return parse_endpoint(self.given) if self.given else IceEndpoint(self.number)
+        return parse_endpoint(self.explicit) if self.explicit else IceEndpoint(self.number)
 
     @property
     def text(self) -> str:
         """The value of the adapter's property."""
-        return self.given.strip(BLANKS) or listening(self.owner.host, self.number)
+        return self.explicit.strip(BLANKS) or listening(self.owner.host, self.number)
 
     @property
     def proxy(self) -> str:
@@ -208,30 +208,30 @@ def _offers(draft: Draft) -> Iterator[Offer]:
     if component is None:
         yield from _endpoints(draft, draft.instance)
         return
-    given = {pair.name: pair for pair in draft.instance.entry.endpoints}
+    endpoints = {pair.name: pair for pair in draft.instance.entry.endpoints}
     served: list[tuple[str, str, Port | None]] = [(p.name, p.interface.name, p) for p in component.implements]
     if all(port.name != COMMON_BEHAVIOR for port in component.implements):
         served.append((COMMON_BEHAVIOR, COMMON_BEHAVIOR, None))
     for name, interface, port in served:
-        pair = given.get(name)
-        yield Offer(draft, name, interface, pair.span if pair else draft.span, port, given=pair.text if pair else "")
+        pair = endpoints.get(name)
+        yield Offer(draft, name, interface, pair.span if pair else draft.span, port, explicit=pair.text if pair else "")
 
 
 def _subscribers(draft: Draft) -> Iterator[Offer]:
     entry, component = draft.instance.entry, draft.instance.component
-    given = {pair.name: pair for pair in entry.endpoints}
+    endpoints = {pair.name: pair for pair in entry.endpoints}
     fixed = {number.name: number for number in entry.ports}
     for port in component.subscribes if component else ():
-        where = given.get(port.name) or fixed.get(port.name)
+        where = endpoints.get(port.name) or fixed.get(port.name)
         if where is not None:
-            text = given[port.name].text if port.name in given else ""
-            yield Offer(draft, f"{port.name}Topic", port.interface.name, where.span, port, given=text)
+            text = endpoints[port.name].text if port.name in endpoints else ""
+            yield Offer(draft, f"{port.name}Topic", port.interface.name, where.span, port, explicit=text)
 
 
 def _endpoints(owner: Draft, instance: LinkedInstance) -> Iterator[Offer]:
     """What a program serves by the `endpoints:` of an entry; a module can qualify the name."""
     for pair in instance.entry.endpoints:
-        yield Offer(owner, pair.name, pair.name.rpartition(".")[2], pair.span, given=pair.text)
+        yield Offer(owner, pair.name, pair.name.rpartition(".")[2], pair.span, explicit=pair.text)
 
 
 def text_fault(
@@ -258,7 +258,7 @@ def assign_ports(drafts: Drafts) -> None:
     for draft in drafts.drafts.values():
         for offer in draft.adapters:
             _fix(draft, offer)
-            if offer.endpoint is not None and (offer.given or offer.number):
+            if offer.endpoint is not None and (offer.explicit or offer.number):
                 taken[draft.host.address].add(offer.endpoint.port)
     for name, served in sorted(_unassigned(drafts), key=lambda pair: pair[0]):
         ports = taken[served.host.address if isinstance(served, StormDraft) else served.owner.host.address]
@@ -276,7 +276,7 @@ def _unassigned(drafts: Drafts) -> Iterator[tuple[tuple[str, str], Offer | Storm
     """Everything without a port, with the names from which its default is computed."""
     for draft in drafts.drafts.values():
         for offer in draft.offers:
-            if not offer.given and not offer.number:
+            if not offer.explicit and not offer.number:
                 yield (draft.name, offer.adapter), offer
     for storm in drafts.storms.values():
         yield (storm.name, f"{MANAGER}.{PUBLISH}"), storm
@@ -289,7 +289,7 @@ def _fix(draft: Draft, offer: Offer) -> None:
     entry = draft.instance.entry
     name = offer.adapter.removesuffix("Topic") if offer in draft.subscribers else offer.adapter
     fixed = next((number for number in entry.ports if number.name == name), None)
-    if fixed is None and entry.port is not None and offer is draft.offers[0] and not offer.given:
+    if fixed is None and entry.port is not None and offer is draft.offers[0] and not offer.explicit:
         fixed = entry.port
     if fixed is not None:
         offer.number = fixed.number + _step(draft.instance)

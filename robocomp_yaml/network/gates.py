@@ -23,10 +23,10 @@ _TABLE = "SERVED = ()\n"
 
 
 class Gates(msgspec.Struct):
-    """The gates of a network, by group, with their connections `found` and their dependences `needs`."""
+    """The gates of a network, by group, with their `connections` and the dependences `needs`."""
 
     drafts: Drafts
-    found: list[Connection] = []
+    connections: list[Connection] = []
     needs: list[Dependence] = []
     _of: dict[LinkedGroup, Draft] = {}
 
@@ -95,7 +95,7 @@ class Gates(msgspec.Struct):
                 target, proxy, span = offer.owner.name, offer.proxy, _span(served)
                 gate.proxies[served.name] = LocatedText(proxy, span)
                 connection = Connection(gate.name, served.name, offer.interface, target, proxy=proxy, span=span)
-                self.found.append(connection)
+                self.connections.append(connection)
                 self.needs.append(Dependence(gate.name, target, "", served.name, span))
 
     def _behind(self, group: LinkedGroup) -> Iterator[tuple[Served, Offer]]:

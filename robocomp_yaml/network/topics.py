@@ -39,12 +39,12 @@ class _TopicEnd(msgspec.Struct, frozen=True):
 
 
 class TopicConnections(msgspec.Struct):
-    """Connects publishers and subscribers. `found` are the connections, `needs` the dependences that follow."""
+    """Connects publishers and subscribers. `connections` are the connections, `needs` the dependences that follow."""
 
     drafts: Drafts
     comparison: InterfaceComparison
     base_of: Callable[[Draft], ConfigurationBase]
-    found: list[Connection] = []
+    connections: list[Connection] = []
     needs: list[Dependence] = []
     diagnostics: list[Diagnostic] = []
     _ends: dict[tuple[str, str], list[_TopicEnd]] = {}
@@ -132,7 +132,7 @@ class TopicConnections(msgspec.Struct):
         carrier, proxy = (storm.name, storm.proxy) if storm else ("", end.manager)
         interface = port.interface.name
         connection = Connection(draft.name, port.name, interface, carrier, TOPIC, topic, end.is_out, proxy, end.span)
-        self.found.append(connection)
+        self.connections.append(connection)
         self._ends.setdefault((carrier or f":{end.manager}", topic), []).append(end)
 
     def _compare(self, topic: str, ends: list[_TopicEnd]) -> None:
@@ -149,7 +149,7 @@ class TopicConnections(msgspec.Struct):
                 )  # fmt: skip
                 self.diagnostics.append(mismatch)
         is_closed = self.drafts.complete and not self.drafts.linked.is_included
-        if first.is_out or not is_closed or not all(c.target for c in self.found if c.topic == topic):
+        if first.is_out or not is_closed or not all(c.target for c in self.connections if c.topic == topic):
             return
         hint = self._other_names(first) + _too([end.draft for end in ends[1:]])
         related = [Related(f"subscribes to {first.port.name} here", first.port.use.span)]

@@ -38,7 +38,6 @@ class GridSession:
         data.properties = Ice.createProperties()
         for key, value in settings.of_client(files).items():
             data.properties.setProperty(key, value)
-        data.logger = _Silent()
         self.communicator = Ice.initialize(data)
         atexit.register(self.communicator.destroy)  # also if a command fails before it closes the session
         try:
@@ -203,25 +202,3 @@ class GridReader:
             return [line for line in self._grid.read(self._name, self._grid.files.log(self._name)) if line]
         except GridFailed:
             return []
-
-
-class _Silent(Ice.Logger):  # type: ignore[misc]
-    """A logger without output: failures are reported as diagnostics."""
-
-    def print(self, message: str) -> None:
-        return
-
-    def trace(self, category: str, message: str) -> None:
-        return
-
-    def warning(self, message: str) -> None:
-        return
-
-    def error(self, message: str) -> None:
-        return
-
-    def getPrefix(self) -> str:
-        return ""
-
-    def cloneWithPrefix(self, prefix: str) -> _Silent:
-        return self

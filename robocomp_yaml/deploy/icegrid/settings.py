@@ -122,6 +122,7 @@ def of_client(files: GridFiles) -> dict[str, str]:
         "Ice.ACM.Close": "2",  # only while an answer is pending
         "Ice.ACM.Heartbeat": "3",  # always: the session lives as long as its connection
         "Ice.Warn.Connections": "0",
+        "Ice.LogFile": os.devnull,  # failures are reported as diagnostics
     }
 
 
