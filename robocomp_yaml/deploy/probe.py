@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import msgspec
 
 from robocomp_yaml import languages, resources
-from robocomp_yaml.deploy.local.obstacles import is_here
+from robocomp_yaml.deploy.local.obstacles import is_local
 from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.network.network import Network, NetworkHost, Process
@@ -113,7 +113,7 @@ async def ask(
 async def probe(host: NetworkHost, queries: dict[ProgramQuery, tuple[str, ...]]) -> list[ProbedProgram]:
     """The programs of a host. Raises ProbeFailed."""
     script = ["sh", "-c", resources.text(SCRIPT), "ask", modules()]
-    command = script if is_here(host.address) else _over_ssh(host, script)
+    command = script if is_local(host.address) else _over_ssh(host, script)
     try:
         process = await asyncio.create_subprocess_exec(
             *command, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE

@@ -108,7 +108,7 @@ def outcome(code: int | None, output: str, errors: str) -> NodeStart:
     return NodeStart(reason, output.rstrip().endswith("already"))
 
 
-def start_node_here(script: str) -> NodeStart:
+def start_local_node(script: str) -> NodeStart:
     """Starts a node on this machine."""
     with open(script, "rb") as file:
         done = subprocess.run(["bash", "-s"], stdin=file, capture_output=True, text=True, check=False, cwd="/")

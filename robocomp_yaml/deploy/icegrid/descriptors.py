@@ -46,7 +46,7 @@ _SERVICE = "IceBox.Service."
 _AFTER_KILL = 10  # seconds that IceGrid itself waits, after what `run` waits
 
 
-def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_here: bool) -> Any:
+def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_local: bool) -> Any:
     """The descriptor of a process. For another host it contains the configuration. `number` is the number of its
     restart rule."""
     process = spec.process
@@ -65,7 +65,7 @@ def server(files: GridFiles, spec: ProcessSpec, user: str, number: int, *, is_he
     if is_storm:
         words.append("k")  # IceGrid writes the configuration of an IceBox and its services itself
         command = command[:1]
-    elif process.config and not is_here:
+    elif process.config and not is_local:
         words.append(f"c{spec.config_path}")
         environment.append(f"RCYAML_CONFIG={encoded(process.config.text)}")
     words += [f"={part}" for part in command]

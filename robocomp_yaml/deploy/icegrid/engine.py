@@ -22,7 +22,7 @@ from robocomp_yaml.deploy.icegrid import start_up
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles
 from robocomp_yaml.deploy.local import procfs
 from robocomp_yaml.deploy.local.log_reader import LineReader, LogReader, merged
-from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_here, obstacles
+from robocomp_yaml.deploy.local.obstacles import CheckedSpecs, is_local, obstacles
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.diag.codes import deploying, grids
@@ -117,14 +117,14 @@ class IceGridEngine:
         running = await self.observe() if self._grid else {}
         roots = {one.pid for name, one in running.items() if name in leaving and one.pid}
         own = procfs.descendants(roots, procfs.table()) if roots else set()
-        found = obstacles([spec for spec in specs if is_here(spec.address)], own)
+        found = obstacles([spec for spec in specs if is_local(spec.address)], own)
         if not found:
             self._cleared.note(specs)
         if self._nodes:
             await asyncio.shield(self._nodes)
         lost = {spec.process.host: self._no_node[spec.process.host] for spec in specs
                 if spec.process.host in self._no_node}  # fmt: skip
-        far = [spec for spec in specs if not is_here(spec.address) and spec.process.host not in lost]
+        far = [spec for spec in specs if not is_local(spec.address) and spec.process.host not in lost]
         found += await _used_ports(far, running)
         return [*lost.values(), *found] + [
             deploying.CANNOT.at(spec.process.span, name=spec.name, what="started", reason=_TOO_LONG)
@@ -146,7 +146,7 @@ class IceGridEngine:
         running = [spec for spec in specs if states[spec.name][0] not in ("", "Inactive")]
         starting = [spec for spec in specs if spec not in running]
         for spec in specs:
-            if spec.process.config and is_here(spec.address):
+            if spec.process.config and is_local(spec.address):
                 own_folder.write(self._files.folder, spec.process.config.path, spec.process.config.text)
         for spec in starting:
             leftovers.drop(self._files, spec.process.host, spec.name)
@@ -159,7 +159,7 @@ class IceGridEngine:
             users = {host: grid.user_of(host) for host in {spec.process.host for spec in starting}}
             servers = [
                 (spec.process.host, descriptors.server(
-                    self._files, spec, users[spec.process.host], number, is_here=is_here(spec.address)
+                    self._files, spec, users[spec.process.host], number, is_local=is_local(spec.address)
                 ))
                 for spec in starting
             ]  # fmt: skip
@@ -194,12 +194,12 @@ class IceGridEngine:
     def _local_host(self) -> str:
         """The name of a host that is this machine, on which the keeper can run, or ''."""
         used = {process.host for process in self._network.enabled()}
-        here = (host.name for host in self._network.hosts.values() if host.name in used and is_here(host.address))
-        return next(here, "")
+        names = (host.name for host in self._network.hosts.values() if host.name in used and is_local(host.address))
+        return next(names, "")
 
     async def start(self, name: str) -> None:
         spec = self._specs[name]
-        if spec and is_here(spec.address):
+        if spec and is_local(spec.address):
             self._cleared.require(spec)
         await self._set_desired(self._desired | {name})
         await self._beside(name, "started", self._reached().start, name)
@@ -249,7 +249,7 @@ class IceGridEngine:
             return LogReader(self._files.folder, name)
 
         specs, grid = {name: self._specs.get(name) for name in names}, self._grid
-        far = {name for name, spec in specs.items() if grid and spec and not is_here(spec.address)}
+        far = {name for name, spec in specs.items() if grid and spec and not is_local(spec.address)}
         if not far:
             return merged([reader(name) for name in names], last, follow)
         readers = await self._beside("", "read", lambda: [reader(name) for name in names])
@@ -266,18 +266,18 @@ class IceGridEngine:
         from robocomp_yaml.deploy.icegrid.grid import GridFailed
         from robocomp_yaml.deploy.icegrid.status import run_status
 
-        host, here = spec.process.host, is_here(spec.address)
+        host, is_near = spec.process.host, is_local(spec.address)
         name = f"{spec.name}.ready"
         process = replace(spec.process, name=name, kind=PROGRAM, config=None, folders=(), restart=RestartRule(NEVER))
         own = replace(spec, process=process, command=command)
-        server = descriptors.server(self._files, own, grid.user_of(host), 0, is_here=here)
+        server = descriptors.server(self._files, own, grid.user_of(host), 0, is_local=is_near)
         with self._lock:
             self._deploy([name], [(host, server)])
         try:
             if not grid.run(name, within):
                 grid.stop(name)
                 return _TIMED_OUT
-            last = run_status(grid, name, here=here)
+            last = run_status(grid, name, is_local=is_near)
             code = last.last_exit.removeprefix(_CODE) if last else ""
             return int(code) if code.isdigit() else _UNKNOWN
         except GridFailed:
@@ -285,7 +285,7 @@ class IceGridEngine:
         finally:
             with self._lock:
                 self._deploy([name], [])
-            if here:
+            if is_near:
                 own_folder.remove(self._files.folder, f"state/icegrid/status/{name}")
                 own_folder.remove(self._files.folder, f"logs/{name}.log")
 
@@ -326,7 +326,7 @@ def _is_too_long(spec: ProcessSpec) -> bool:
     from robocomp_yaml.deploy.icegrid.descriptors import LONGEST_CONFIG, encoded
 
     config = spec.process.config
-    return bool(config and not is_here(spec.address) and len(encoded(config.text).encode()) > LONGEST_CONFIG)
+    return bool(config and not is_local(spec.address) and len(encoded(config.text).encode()) > LONGEST_CONFIG)
 
 
 def _missing() -> str:

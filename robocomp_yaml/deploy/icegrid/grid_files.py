@@ -14,7 +14,7 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy.local.obstacles import is_here
+from robocomp_yaml.deploy.local.obstacles import is_local
 from robocomp_yaml.deploy.spec import ProcessSpec
 from robocomp_yaml.network.network import NetworkHost, is_loopback
 
@@ -117,7 +117,7 @@ class GridFiles(msgspec.Struct, frozen=True):
 def registry_address(hosts: Iterable[NetworkHost]) -> str:
     """The address of this machine for all these hosts: a loopback address if all are this machine, else the address of
     its own entry, else the address from which it reaches the first of the others."""
-    others = [host.address for host in hosts if not is_here(host.address)]
+    others = [host.address for host in hosts if not is_local(host.address)]
     if not others:
         return "127.0.0.1"
     own = [host.address for host in hosts if host.address not in others and not is_loopback(host.address)]

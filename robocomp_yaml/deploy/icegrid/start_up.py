@@ -16,7 +16,7 @@ from robocomp_yaml.deploy.engine import DeployFailed
 from robocomp_yaml.deploy.icegrid import daemons, settings
 from robocomp_yaml.deploy.icegrid.daemons import NodeStart, outcome
 from robocomp_yaml.deploy.icegrid.grid_files import GridFiles, Registry, free_port, registry_address
-from robocomp_yaml.deploy.local.obstacles import is_here
+from robocomp_yaml.deploy.local.obstacles import is_local
 from robocomp_yaml.deploy.local.record import clear_up
 from robocomp_yaml.deploy.time_limit import until
 from robocomp_yaml.diag.codes import grids
@@ -48,7 +48,7 @@ def created(files: GridFiles, network: Network) -> GridSession:
     address = registry_address(network.hosts.values())
     registry = files.registry()
     if registry is None or registry.address != address:
-        _end_here(files)
+        _end_local(files)
         try:
             if registry is None:
                 clear_up(network.folder)  # processes that run although their folder was removed
@@ -106,7 +106,7 @@ def ensure_nodes(
             hint = "all hosts must reach each other over TCP: check for a firewall between them"
         if reason:
             where = host.span if host.span.file else Span(network.path)
-            hint = "" if is_here(host.address) else hint
+            hint = "" if is_local(host.address) else hint
             faults[host.name] = grids.NO_NODE.at(
                 where, name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
@@ -133,11 +133,11 @@ def ended(grid: GridSession, application: str) -> None:
             grid.shut_down_node(host)
     files.keep_desired(())
     grid.close()
-    _end_here(files)
+    _end_local(files)
     files.keep_nodes({host: is_started for host, is_started in nodes.items() if not is_started})
 
 
-def _end_here(files: GridFiles) -> None:
+def _end_local(files: GridFiles) -> None:
     """Ends the registry, and the nodes of this machine that rcyaml started."""
     nodes = [f"{files.root}/nodes/{host}" for host, is_started in files.nodes().items() if is_started]
     for folder in (*nodes, files.registry_folder):
@@ -149,7 +149,7 @@ def _end_here(files: GridFiles) -> None:
 
 
 def _start(host: NetworkHost, script: str) -> daemons.NodeStart:
-    return daemons.start_node_here(script) if is_here(host.address) else run(script, host)
+    return daemons.start_local_node(script) if is_local(host.address) else run(script, host)
 
 
 def _failed(network: Network, reason: str) -> DeployFailed:

@@ -70,13 +70,13 @@ def elsewhere(network: Network) -> Diagnostic | None:
     """A diagnostic for the first process that runs on another machine; None if all run on this one."""
     for process in network.enabled():
         host = network.hosts[process.host]
-        if not is_here(host.address):
+        if not is_local(host.address):
             where = host.span if host.span.file else process.span
             return deploying.OTHER_MACHINE.at(where, name=process.name, host=host.name, address=host.address)
     return None
 
 
-def is_here(address: str) -> bool:
+def is_local(address: str) -> bool:
     """Whether an address is one of this machine: only those can be bound. False if it cannot be resolved."""
     if address == LOOPBACK:
         return True
