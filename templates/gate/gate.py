@@ -1,6 +1,6 @@
-"""A gate between a group and the processes outside it: forwards the calls that its rules allow.
+"""Stands between a group and those outside of it: passes calls on, as many and such as its rules allow.
 
-Written by rcyaml from the deployment's document. It needs only Python and Ice.
+Written by rcyaml from the deployment's document; it needs nothing but Python and Ice.
 """
 
 import queue
@@ -11,7 +11,7 @@ import time
 
 import Ice
 
-# name, identity, endpoint, proxy of the member, calls per second (or None), allowed methods (or None)
+# name, identity, endpoint, proxy of the member, calls a second (or None), methods that may be called (or None)
 SERVED = ()
 
 ALWAYS = ("ice_ping", "ice_isA", "ice_id", "ice_ids")
@@ -19,7 +19,7 @@ MOST_WAITING = 1000
 
 
 class Turns(threading.Thread):
-    """Runs pending calls one by one, in their order, at a fixed rate."""
+    """Lets what waits pass one by one, in its order, at equal distances."""
 
     def __init__(self, rate):
         super().__init__(daemon=True)
@@ -28,7 +28,7 @@ class Turns(threading.Thread):
         self.start()
 
     def wait(self, passed):
-        """Calls `passed` in its turn. Returns False if too many calls are pending."""
+        """Calls `passed` when its turn has come; False where too many wait already."""
         try:
             self._waiting.put_nowait(passed)
         except queue.Full:
@@ -47,7 +47,7 @@ class Turns(threading.Thread):
 
 
 class Gate(Ice.Blobject):
-    """An object of any interface, which forwards calls without decoding them."""
+    """An object of whatever interface: it does not look into the calls that it passes on."""
 
     def __init__(self, name, member, rate, allowed):
         self._name = name
@@ -81,7 +81,7 @@ def pass_on(call, answer):
 
     try:
         call().add_done_callback(done)
-    except Exception as error:  # the communicator is destroyed, or the proxy is not valid
+    except Exception as error:  # the communicator is gone, or the proxy is none
         answer.set_exception(error)
 
 
@@ -97,7 +97,7 @@ def main():
             adapter = communicator.createObjectAdapterWithEndpoints(name, endpoint)
             adapter.add(Gate(name, communicator.stringToProxy(proxy), rate, allowed), Ice.stringToIdentity(identity))
             adapter.activate()
-        while not communicator.isShutdown():  # a signal is handled between two waits
+        while not communicator.isShutdown():  # a signal is only seen between two waits
             time.sleep(0.1)
     finally:
         communicator.destroy()

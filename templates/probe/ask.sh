@@ -1,6 +1,7 @@
-# Written by rcyaml. Reads one line for each program: the Python of the process (RCYAML_PYTHON, or ""), a tab, and the
-# program's name. Writes one line for each: the program's path ("" if it is missing or not executable), its digest, its
-# date, and what it needs and this host lacks. $1 is modules.py. No program is run, except interpreters of Python programs.
+# Written by rcyaml. Reads names of programs, a line each, behind the Python that the process asks for (RCYAML_PYTHON, ""
+# for none) and a tab; answers with a line each: the program's path ("" where there is none that can be executed),
+# digest, day, and what it needs that is not here. $1 is modules.py. Nothing that it is asked about is run, but for the
+# interpreters of Python programs.
 set -f
 tab=$(printf '\t')
 while IFS= read -r asked; do

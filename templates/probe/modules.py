@@ -1,8 +1,8 @@
-"""Prints the modules that a Python program imports when it starts, and that its interpreter lacks.
+"""Prints the modules that a Python program imports when it starts, and that its interpreter does not find.
 
-For a component, the code in `src/`, `generated/` and its shared run time is searched, too, and the Python is the one that
-would run it: `interpreter.py`, which is before this text, defines `settle`. No code of the program is run: paths that it
-adds as literals are searched, and imports after `Ice.loadSlice` are ignored, because a Slice file can define them.
+Of a component, the code in `src/` and `generated/` counts too, with what it needs of a shared run time, and the Python is the one that would run it: the rule of
+components (`interpreter.py`) stands above this text, as `settle`. Nothing of the program is run: paths that it adds by
+a text are searched, and what stands behind `Ice.loadSlice` may be anything that a Slice file defines.
 """
 
 import ast
@@ -25,12 +25,12 @@ def sources(program):
 
 
 def below(folder):
-    for parent, _, names in os.walk(folder):
-        yield from (os.path.join(parent, name) for name in names if name.endswith(".py"))
+    for place, _, names in os.walk(folder):
+        yield from (os.path.join(place, name) for name in names if name.endswith(".py"))
 
 
 def shared(folder, own):
-    """The files of the packages of a shared run time that the component's own files use."""
+    """The packages of a run time that stands elsewhere which the component's own files name."""
     texts = []
     for path in own:
         try:
@@ -76,14 +76,14 @@ RULE = ("runtime", "interpreter.py")
 
 
 def lacks_ice(program):
-    """Whether no Python of this host can run a component. If one can, this script continues in it."""
+    """Whether no Python here could run a component; in the one that could, this script goes on."""
     root = os.path.dirname(os.path.dirname(os.path.abspath(program)))
     generated = os.path.join(root, "generated")
     if not any(os.path.isfile(os.path.join(generated, *path)) for path in (("component.py",), RULE)):
         return False
-    sys.path[:] = filter(None, sys.path)  # without the working folder
+    sys.path[:] = filter(None, sys.path)  # not the folder where this happens to run
     try:
-        settle(root, ["-c", sys.argv[2], *sys.argv[1:]])  # noqa: F821 (in interpreter.py)
+        settle(root, ["-c", sys.argv[2], *sys.argv[1:]])  # noqa: F821 (it stands above)
     except NoPython:  # noqa: F821
         return True
     return False

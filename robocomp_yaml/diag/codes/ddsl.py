@@ -1,4 +1,4 @@
-"""RC4xxx: documents of deployments, and the names in them."""
+"""RC4xxx: deployment documents, and what they refer to."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""RC7xxx: deploying. What prevents a network from starting, and what a user should know about a running one.
+"""RC7xxx: deploying. Why a network does not start, and what to know about a running one.
 
-RC7001 to RC7019 are for all engines, or for the local one.
+The codes up to RC7019 are for all engines and for the local one.
 """
 
 from __future__ import annotations
