@@ -31,7 +31,7 @@ from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.link.workspace import Search
-from robocomp_yaml.network.networks import Derived, networks_of
+from robocomp_yaml.network.networks import DerivedNetworks, networks_of
 from robocomp_yaml.source.allowances import Allowance
 from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
 from robocomp_yaml.source.disk import Disk
@@ -49,7 +49,7 @@ class Analysis(msgspec.Struct, frozen=True):
     linker: Linker
     found: Found
     disk: Disk
-    derived: Derived
+    derived: DerivedNetworks
     texts: Texts
     allowed: Allowed
     diagnostics: tuple[Diagnostic, ...] = ()

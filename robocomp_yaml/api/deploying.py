@@ -20,7 +20,7 @@ from robocomp_yaml.deploy.engines import ENGINES, LOCAL, make_engine
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, STOP_THEM, Choose, Result, Status
 from robocomp_yaml.deploy.plan import RESTART, START, STOP, Plan, with_dependences
 from robocomp_yaml.deploy.plan import plan as make_plan
-from robocomp_yaml.deploy.probe import Found
+from robocomp_yaml.deploy.probe import ProbedProgram
 from robocomp_yaml.deploy.time_limit import TimeLimit
 from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic, has_errors
@@ -33,7 +33,7 @@ from robocomp_yaml.pipeline import Analysis
 if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
     from robocomp_yaml.building.job import Event
-    from robocomp_yaml.deploy.stale import Stale
+    from robocomp_yaml.deploy.stale import StaleComponent
 
 T = TypeVar("T")
 
@@ -55,7 +55,7 @@ class Deployment:
         network = analysis.networks.get(os.path.realpath(path))
         self.unread = network is None
         if network is None and lenient:
-            from robocomp_yaml.deploy.stand_in import stand_in
+            from robocomp_yaml.deploy.local.engine import stand_in
 
             network = stand_in(path)
         if network is None or (has_errors(analysis.diagnostics) and not lenient):
@@ -103,7 +103,7 @@ class Deployment:
             found |= members or {one.name for one in [process] if one}
         return found
 
-    def stale(self, *names: str) -> list[Stale]:
+    def stale(self, *names: str) -> list[StaleComponent]:
         """The components whose programs are not there, or are older than what they are made of, of those that are
         built and start here; of NAMEs, with all that they need."""
         from robocomp_yaml.api.building import every_unit
@@ -132,7 +132,7 @@ class Deployment:
     def _tell_stale(self, names: Iterable[str], severity: str = ERROR) -> bool:
         from robocomp_yaml.deploy import stale
 
-        found = [one.as_severity(severity) for one in stale.told(self.network, self.stale(*names))]
+        found = [one.as_severity(severity) for one in stale.diagnostics(self.network, self.stale(*names))]
         told = self._analysis.shown(self._analysis.judged(found).told)
         self._told += told
         return has_errors(told)
@@ -234,7 +234,7 @@ class Deployment:
 
         return self._run(work(), change=True)
 
-    def probe(self, host: str = "") -> dict[str, list[Found]]:
+    def probe(self, host: str = "") -> dict[str, list[ProbedProgram]]:
         """Which of the network's programs the host has, or each of all; one that does not answer is among the
         diagnostics."""
         from robocomp_yaml.deploy import probe
@@ -269,7 +269,7 @@ class Deployment:
 
         files = self.export(form)
         try:
-            self._told += exported.in_the_way(output, files)
+            self._told += exported.conflicts(output, files)
             if has_errors(self._told):
                 raise Faulty(self.diagnostics)
             exported.write(output, files)

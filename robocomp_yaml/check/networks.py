@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator
 from robocomp_yaml.check import modules_of, plugged, said_by
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.network.networks import Derived
+from robocomp_yaml.network.networks import DerivedNetworks
 
 _FAMILY = "RC4"
 
 
-def of_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
+def of_networks(derived: DerivedNetworks, program: Program) -> Iterator[Diagnostic]:
     """What deriving them said, and what the checks say."""
     if not derived.networks:
         return iter(())
@@ -25,7 +25,7 @@ def of_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
     return one_per_cause([*derived.diagnostics, *found])
 
 
-def of_environment(derived: Derived, *, environment: bool) -> Iterator[Diagnostic]:
+def of_environment(derived: DerivedNetworks, *, environment: bool) -> Iterator[Diagnostic]:
     """What depends on this machine: warnings about executables that are not there, and, where `environment` is asked
     for, about programs and addresses."""
     from robocomp_yaml.check.ddsl import files, hosts

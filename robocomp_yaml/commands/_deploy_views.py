@@ -9,7 +9,7 @@ from typing import Any
 
 from robocomp_yaml.deploy.engine import OWN, Line
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
-from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step
+from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, PlanStep
 from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown
 from robocomp_yaml.network.network import Network
 
@@ -37,7 +37,7 @@ def plan_data(plan: Plan) -> list[dict[str, Any]]:
     return [_step_data(step) for step in plan.steps.values()]
 
 
-def _step_data(step: Step) -> dict[str, Any]:
+def _step_data(step: PlanStep) -> dict[str, Any]:
     changes = [
         {"field": change.field, "old": change.old, "new": change.new, "needs_restart": not change.is_live}
         for change in step.changes

@@ -8,7 +8,7 @@ from msgspec import to_builtins
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._deploying import Opened, end
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.probe import Found, can_run
+from robocomp_yaml.deploy.probe import ProbedProgram, can_run
 from robocomp_yaml.diag import terminal
 
 
@@ -25,7 +25,7 @@ def tell(ctx: click.Context, opened: Opened, name: str = "") -> None:
     end(ctx, opened, code=code)
 
 
-def _lines(found: list[Found], color: bool) -> list[terminal.Shown]:
+def _lines(found: list[ProbedProgram], color: bool) -> list[terminal.Shown]:
     rows = [(shown_path(one.program) if "/" in one.program else one.program, *_verdict(one)) for one in found]
     width = max((terminal.columns(row[0]) for row in rows), default=0)
     return [
@@ -37,7 +37,7 @@ def _lines(found: list[Found], color: bool) -> list[terminal.Shown]:
     ]  # fmt: skip
 
 
-def _verdict(one: Found) -> tuple[str, str]:
+def _verdict(one: ProbedProgram) -> tuple[str, str]:
     if not one.path:
         return "not there, or not executable", "31"
     if one.missing:

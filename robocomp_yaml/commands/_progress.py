@@ -9,7 +9,7 @@ import time
 from collections.abc import Collection
 from types import TracebackType
 
-from robocomp_yaml.deploy.carry_out import FAILED, GONE, READY, SKIPPED, STARTING, STOPPING, Event
+from robocomp_yaml.deploy.carry_out import FAILED, GONE, READY, SKIPPED, STARTING, STOPPING, ProcessEvent
 from robocomp_yaml.diag import terminal
 
 _PERIOD = 0.1
@@ -40,7 +40,7 @@ class Progress:
         self._busy.clear()
         self.pause()
 
-    def report(self, event: Event) -> None:
+    def report(self, event: ProcessEvent) -> None:
         if self._is_live and self._ticker is None:
             self._ticker = asyncio.create_task(self._tick())  # it ends with the loop, if not before
         if event.kind in (STARTING, STOPPING):

@@ -59,7 +59,7 @@ class Gate(Ice.Blobject):
         name = current.operation
         if self._allowed is not None and name not in self._allowed and name not in ALWAYS:
             may = ", ".join(self._allowed) or "nothing"
-            raise Ice.UnknownException("the group that serves %s lets pass %s, not '%s'" % (self._name, may, name))
+            raise Ice.UnknownException("the group that serves %s allows %s, not '%s'" % (self._name, may, name))
 
         def call():
             return self._member.ice_invokeAsync(name, current.mode, data, current.ctx)
@@ -68,7 +68,7 @@ class Gate(Ice.Blobject):
             return call()
         answer = Ice.Future()
         if not self._turns.wait(lambda: pass_on(call, answer)):
-            raise Ice.UnknownException("%d calls wait for their turn already" % MOST_WAITING)
+            raise Ice.UnknownException("%d calls are already pending" % MOST_WAITING)
         return answer
 
 

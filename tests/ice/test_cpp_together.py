@@ -88,7 +88,7 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     assert "built       leg/bin/LegComp" in told.stdout and "failed      ArmComp" in told.stdout
     plan = rcyaml("deploy", "plan")
     assert plan.exit_code == 1
-    assert "the program of 'arm' is older than what it is made of: arm/src/specificworker.cpp" in plan.stderr
+    assert "the program of 'arm' is older than its sources: arm/src/specificworker.cpp" in plan.stderr
     mend()
     assert rcyaml("deploy", "plan").exit_code == 0, "changed back is not changed"
     assert build(rcyaml) == {"ArmComp": "up to date", "LegComp": "up to date"}
@@ -109,7 +109,7 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     append(leg / "src" / "specificworker.cpp", '#include "longest.h"\nint most() { return limit; }\n')
     assert build(rcyaml, "leg") == {"LegComp": "built"}
     (tmp_path / "common" / "longest.h").write_text("constexpr int limit = 4;\n")
-    assert "the program of 'leg' is older than what it is made of: common/longest.h" in rcyaml("deploy", "plan").stderr
+    assert "the program of 'leg' is older than its sources: common/longest.h" in rcyaml("deploy", "plan").stderr
     assert build(rcyaml, "leg") == {"LegComp": "built"}
     assert rcyaml("deploy", "plan").exit_code == 0
 

@@ -14,8 +14,7 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.model.deployment import CONFIG
-from robocomp_yaml.network.draft import is_loopback
-from robocomp_yaml.network.network import ICESTORM, Network, Process
+from robocomp_yaml.network.network import ICESTORM, Network, Process, is_loopback
 
 
 def missing(network: Network, *, environment: bool = False) -> Iterator[Diagnostic]:

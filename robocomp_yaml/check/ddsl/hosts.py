@@ -9,8 +9,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.codes import networks as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.network.draft import is_loopback
-from robocomp_yaml.network.network import Host, Network
+from robocomp_yaml.network.network import Network, NetworkHost, is_loopback
 
 _LABEL = re.compile(r"(?!-)[A-Za-z0-9_-]{1,63}(?<!-)\Z")
 
@@ -38,7 +37,7 @@ def unresolved(network: Network) -> Iterator[Diagnostic]:
                 yield codes.NOT_RESOLVED.at(host.span, name=host.name, address=host.address)
 
 
-def _declared(network: Network) -> list[Host]:
+def _declared(network: Network) -> list[NetworkHost]:
     return [host for host in network.hosts.values() if host.span.file]
 
 

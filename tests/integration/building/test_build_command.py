@@ -178,8 +178,7 @@ def test_a_program_older_than_its_code_is_not_deployed(rcyaml: Rcyaml, tmp_path:
         told = rcyaml("deploy", command_)
         assert told.exit_code == 1
         assert (
-            "error[RC7016]: the program of 'eye' is older than what it is made of: eye/src/SpecificWorker.java"
-            in told.stderr
+            "error[RC7016]: the program of 'eye' is older than its sources: eye/src/SpecificWorker.java" in told.stderr
         )
         assert "`rcyaml build EyeComp`" in told.stderr
     assert "warning[RC7016]" in rcyaml("deploy", "status").stderr

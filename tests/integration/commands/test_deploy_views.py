@@ -13,7 +13,7 @@ from click.testing import Result
 from networks import speaking
 from robocomp_yaml.commands._deploy_views import status_lines
 from robocomp_yaml.commands._progress import Progress
-from robocomp_yaml.deploy.carry_out import STARTING, Event
+from robocomp_yaml.deploy.carry_out import STARTING, ProcessEvent
 from robocomp_yaml.deploy.operations import Status
 
 
@@ -41,7 +41,7 @@ def test_progress_takes_one_line_of_a_narrow_terminal_for_each(monkeypatch: pyte
     name = "a-process-with-a-long-name"
 
     async def work() -> None:
-        Progress(True, False, [name]).report(Event(name, STARTING))
+        Progress(True, False, [name]).report(ProcessEvent(name, STARTING))
 
     asyncio.run(work())
     assert terminal.getvalue() == "a-process-…\n"

@@ -268,7 +268,7 @@ def test_a_configuration_that_is_no_document(robot: Path, rcyaml: Callable[..., 
     assert told.count("RC4311") == (1 if line else 0), told
     assert not sings(told)
     if line:
-        assert f"speech/flat.conf holds a secret in line {line}, and others can read it" in told
+        assert f"speech/flat.conf contains a secret in line {line}, and other users can read it" in told
         assert "robot.ddsl.yaml:3:56" in told and "`chmod 600 speech/flat.conf`" in told
     (robot / "speech/flat.conf").chmod(0o600)
     assert "RC4311" not in rcyaml("check", "robot.ddsl.yaml").output

@@ -21,7 +21,7 @@ from networks import large, speaking
 from rcmanager_facts import facts
 from robocomp_yaml.emit.exports import export, forms
 from robocomp_yaml.emit.exports.icegrid import _DROP_LAST, _MAKE_FOLDERS
-from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Host, Network, Process
+from robocomp_yaml.network.network import LOOPBACK, PROGRAM, Network, NetworkHost, Process
 
 Golden = Callable[[str, Mapping[str, str]], None]
 ODD = ("a b", ";", "$HOME", "${x}", "100%", '"', "'", "\\", "\\n", "*", "", "&&", "ñ", "--", "%i", "#")
@@ -29,7 +29,7 @@ ODD = ("a b", ";", "$HOME", "${x}", "100%", '"', "'", "\\", "\\n", "*", "", "&&"
 
 def one(*arguments: str, program: str = "/bin/true", **more: Any) -> Network:
     """A network of one program."""
-    network = Network("One", "/one.ddsl.yaml", "/f", {LOOPBACK: Host(LOOPBACK)})
+    network = Network("One", "/one.ddsl.yaml", "/f", {LOOPBACK: NetworkHost(LOOPBACK)})
     network.processes["p"] = Process("p", LOOPBACK, (program, *arguments), "/", PROGRAM, is_ice=False, **more)
     return network
 

@@ -125,7 +125,7 @@ def check(rcyaml: Run, tmp_path: Path, files: Tree, *args: str) -> str:
 
 def test_what_is_not_compiled_yet(rcyaml: Run, tmp_path: Path) -> None:
     output = check(rcyaml, tmp_path, deployed("components: {m: {component: mouth}}\n"))
-    assert "warning[RC4403]: 'm' has no executable: there is no mouth/bin/MouthComp" in output
+    assert "warning[RC4403]: 'm' has no executable: mouth/bin/MouthComp is missing" in output
     assert "`rcyaml compile mouth/mouth.cdsl.yaml` writes it" in output
 
 

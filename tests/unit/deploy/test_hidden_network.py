@@ -1,20 +1,24 @@
-"""A network as it may be shown: no secret of it is in what is left."""
+"""A hidden network contains no secret."""
 
 from __future__ import annotations
 
 import msgspec
 
 from engine_in_memory import network, process
-from robocomp_yaml.network.hidden import hidden
-from robocomp_yaml.network.network import ConfigFile, Readiness, Variable
+from robocomp_yaml.deploy.exported import hidden
+from robocomp_yaml.network.network import ConfigFile, EnvironmentVariable, Readiness
 
 CANARY = "canary-hunter2"
 
 
-def test_no_secret_is_left_and_all_else_is() -> None:
+def test_secrets_are_hidden_and_nothing_else() -> None:
     one = process(
         "camera",
-        env=(Variable("TOKEN", CANARY), Variable("LANG", "es"), Variable("WIFI", CANARY)),
+        env=(
+            EnvironmentVariable("TOKEN", CANARY),
+            EnvironmentVariable("LANG", "es"),
+            EnvironmentVariable("WIFI", CANARY),
+        ),
         config=ConfigFile(
             "config/camera", f"# of it\nport=7\napi.password={CANARY}\nwifi={CANARY}\nlock={CANARY}\n", ("lock",)
         ),

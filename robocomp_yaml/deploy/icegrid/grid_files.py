@@ -1,7 +1,7 @@
-"""Where the IceGrid engine keeps what it knows of a deployment, and which hosts are this machine.
+"""The files of the IceGrid engine, and the address of its registry.
 
-The deployment's folder has the same path on every host. Below `state/icegrid` stand the key of the deployment, the
-registry's files, a folder for each node, the status that each host's `run` script writes, and what is wanted to run.
+The deployment's folder has the same path on every host. `state/icegrid` contains the deployment's key, the registry's
+files, a folder for each node, the status files of the `run` scripts, and the desired processes.
 """
 
 from __future__ import annotations
@@ -14,28 +14,28 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.deploy import folder as own_folder
-from robocomp_yaml.deploy.local.obstacles import is_here
-from robocomp_yaml.deploy.spec import Spec
-from robocomp_yaml.network.network import LOOPBACK, Host
+from robocomp_yaml.deploy.local.obstacles import is_local
+from robocomp_yaml.deploy.spec import ProcessSpec
+from robocomp_yaml.network.network import NetworkHost, is_loopback
 
 KEEPER = "rcyaml.keeper"
-"""The id of the server that brings processes back after a node's death. No process can have it as a name."""
+"""The id of the keeper's server. No process can have this name."""
 
 _ROOT = "state/icegrid"
-_WANTED, _SPECS, _REGISTRY, _NODES, _RULES = (
+_DESIRED, _SPECS, _REGISTRY, _NODES, _RULES = (
     f"{_ROOT}/{name}.json" for name in ("wanted", "specs", "registry", "nodes", "rules")
 )
 
 
 class Registry(msgspec.Struct, frozen=True):
-    """Where the registry of a deployment listens."""
+    """The address and the TCP port of a deployment's registry."""
 
     address: str
     port: int
 
 
-class Places(msgspec.Struct, frozen=True):
-    """The files of one deployment's engine, by the deployment's folder."""
+class GridFiles(msgspec.Struct, frozen=True):
+    """The files of the engine in a deployment's folder. Methods that write raise OSError."""
 
     folder: str
 
@@ -59,11 +59,11 @@ class Places(msgspec.Struct, frozen=True):
         return f"{self.root}/status/{name}"
 
     def rule(self, name: str) -> str:
-        """Where `run` finds a newer rule for restarts than that of its start."""
+        """The path of a restart rule that is newer than the start of `run`."""
         return f"{self.root}/rules/{name}"
 
     def next_rule(self) -> int:
-        """A number higher than that of all rules before, whatever the clock does."""
+        """A number for a new rule, higher than those of all earlier rules."""
         number: int = self._read(_RULES, 0) + 1
         self._write(_RULES, number)
         return number
@@ -78,31 +78,31 @@ class Places(msgspec.Struct, frozen=True):
     def keep_registry(self, registry: Registry) -> None:
         self._write(_REGISTRY, {"address": registry.address, "port": registry.port})
 
-    def wanted(self) -> set[str]:
-        """The processes that are to run, whatever happens to their nodes."""
-        return set(self._read(_WANTED, []))
+    def desired(self) -> set[str]:
+        """The names of the processes that should run, whatever happens to their nodes."""
+        return set(self._read(_DESIRED, []))
 
-    def keep_wanted(self, names: Iterable[str]) -> None:
-        self._write(_WANTED, sorted(names))
+    def keep_desired(self, names: Iterable[str]) -> None:
+        self._write(_DESIRED, sorted(names))
 
     def nodes(self) -> dict[str, bool]:
-        """The hosts that had a node when the network was last brought up; whether rcyaml started it, and ends it: not
-        where it was started by hand."""
+        """The hosts that had a node after the last `up`, with whether rcyaml started it, and therefore ends it. A node
+        can also be started by hand."""
         return dict(self._read(_NODES, {}))
 
     def keep_nodes(self, nodes: Mapping[str, bool]) -> None:
         self._write(_NODES, dict(nodes))
 
-    def specs(self) -> dict[str, Spec | None]:
-        """What the processes were given; None where another version of rcyaml wrote it."""
-        return {name: _spec(data) for name, data in self._read(_SPECS, {}).items()}
+    def specs(self) -> dict[str, ProcessSpec | None]:
+        """The specs of the processes; None for one that another version of rcyaml wrote."""
+        return {name: ProcessSpec.of_data(data) for name, data in self._read(_SPECS, {}).items()}
 
-    def keep_specs(self, specs: dict[str, Spec | None]) -> None:
+    def keep_specs(self, specs: dict[str, ProcessSpec | None]) -> None:
         kept = self._read(_SPECS, {})
         self._write(_SPECS, {name: spec.as_data() if spec else kept.get(name) for name, spec in specs.items()})
 
     def _read(self, path: str, missing: Any) -> Any:
-        """What a file holds; `missing` where there is none, or one that another version of rcyaml wrote otherwise."""
+        """The content of a file; `missing` without a file, or with one of another version in another format."""
         try:
             with open(f"{self.folder}/{path}", encoding="utf-8") as file:
                 data = json.load(file)
@@ -114,20 +114,13 @@ class Places(msgspec.Struct, frozen=True):
         own_folder.write(self.folder, path, json.dumps(data))
 
 
-def _spec(data: dict[str, Any]) -> Spec | None:
-    try:
-        return Spec.of_data(data)
-    except ValueError:
-        return None
-
-
-def registry_address(hosts: Iterable[Host]) -> str:
-    """The address of this machine at which all these hosts reach it: a loopback address where all are this machine,
-    else that of its own entry, else the one from which it reaches the first of the others."""
-    others = [host.address for host in hosts if not is_here(host.address)]
+def registry_address(hosts: Iterable[NetworkHost]) -> str:
+    """The address of this machine for all these hosts: a loopback address if all are this machine, else the address of
+    its own entry, else the address from which it reaches the first of the others."""
+    others = [host.address for host in hosts if not is_local(host.address)]
     if not others:
         return "127.0.0.1"
-    own = [host.address for host in hosts if host.address not in others and not _is_loopback(host.address)]
+    own = [host.address for host in hosts if host.address not in others and not is_loopback(host.address)]
     return own[0] if own else _towards(others[0])
 
 
@@ -137,12 +130,8 @@ def free_port(address: str) -> int:
         return port
 
 
-def _is_loopback(address: str) -> bool:
-    return address == LOOPBACK or address.startswith("127.") or address == "::1"
-
-
 def _towards(address: str) -> str:
-    """Nothing is sent: the system only chooses the way."""
+    """The local address of the route to another address. Nothing is sent."""
     try:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             probe.connect((address, 9))

@@ -1,4 +1,4 @@
-"""What an instance's configuration is built on: the values document or the flat file that `config:` names."""
+"""The base of an instance's configuration: the values document or the flat config that `config:` names."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar
 _DIALECT_B = ("Endpoints.", "Proxies.", "Period.", "Agent.")
 
 
-class Base(msgspec.Struct):
-    """`values` are None for a flat file, of which `flat` is the text and `properties` what Ice makes of it; without
-    either there is nothing to build on."""
+class ConfigurationBase(msgspec.Struct):
+    """`values` is None for a flat config: then `flat` is its text, and `properties` are its properties as Ice reads
+    them. Without a base, both are None."""
 
     values: LinkedValues | None = None
     flat: str | None = None
@@ -32,7 +32,7 @@ class Base(msgspec.Struct):
 
     @property
     def manager(self) -> str:
-        """The topic manager's proxy that it names, or ''."""
+        """The proxy of the topic manager in the base, or ''."""
         if self.values is None:
             return self.first(*connections.MANAGER)
         for layer in reversed(self.values.layers()):
@@ -42,7 +42,7 @@ class Base(msgspec.Struct):
         return ""
 
     def topic(self, port: str, interface: str, *, is_out: bool) -> str:
-        """The name of a topic, as generated components make it: a prefix, and a name of its own."""
+        """The name of a topic as generated components compose it, from a prefix and a name."""
         prefixes = f"{port}Pub" if is_out else port
         if self.values is None:
             prefix, name = self.first(connections.prefix(prefixes)), self.first(port)
@@ -55,20 +55,20 @@ class Base(msgspec.Struct):
         return connections.first(self.properties.get, *keys)
 
     def proxy_key(self, name: str) -> Scalar | None:
-        """The property that a proxy has instead of its usual one."""
+        """The property that replaces the usual property of a proxy."""
         node = dict(given(self.values, "proxies")).get(name) if self.values is not None else None
         key = node.get("key") if isinstance(node, Mapping) else None
         return key if isinstance(key, Scalar) else None
 
 
-def base_of(instance: LinkedInstance, disk: Disk) -> Base:
+def base_of(instance: LinkedInstance, disk: Disk) -> ConfigurationBase:
     if instance.values is not None:
-        return Base(instance.values)
+        return ConfigurationBase(instance.values)
     raw = disk.read(instance.flat)[0] if instance.flat and disk.has_file(instance.flat) else None
     if raw is None:
-        return Base()
+        return ConfigurationBase()
     text = raw.decode("utf-8", "replace")
-    return Base(None, text, properties.read(text).values)
+    return ConfigurationBase(None, text, properties.read(text).values)
 
 
 def _text(node: Node | None) -> str:
