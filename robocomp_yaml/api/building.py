@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from robocomp_yaml.api.refusals import require
 from robocomp_yaml.building import builder, stamps
 from robocomp_yaml.building.inputs import Inputs
 from robocomp_yaml.building.job import FAILED, RELEASE, TYPES, Event, Job, Result
 from robocomp_yaml.building.unit import Unit, unit_of
 from robocomp_yaml.deploy.outdated import outdated_components
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
-from robocomp_yaml.diag.errors import Faulty, Refused
-from robocomp_yaml.diag.suggest import suggest
+from robocomp_yaml.diag.errors import Faulty
 from robocomp_yaml.source.discover import of_kind
 
 if TYPE_CHECKING:
@@ -68,11 +68,7 @@ def build(
     analysis: Analysis, documents: Sequence[str], *, build_type: str = RELEASE, jobs: int | None = None,
     defines: Sequence[str] = (), report: Callable[[Event], None] | None = None,
 ) -> Built:  # fmt: skip
-    if build_type not in TYPES:
-        meant = suggest(build_type, TYPES)
-        raise Refused(
-            f"there is no build type '{build_type}'; " + (f"did you mean '{meant}'?" if meant else ", ".join(TYPES))
-        )
+    require("build type", build_type, TYPES)
     before = _cpu()
 
     def told(event: Event) -> None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
-from functools import cache, cached_property
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from functools import cached_property
 
 from msgspec.structs import replace
 
-from robocomp_yaml.api import made_already
+from robocomp_yaml.api import compile_stamps
+from robocomp_yaml.api.neighbours import ports
 from robocomp_yaml.api.outcome import File, Outcome
 from robocomp_yaml.diag.codes.files import PLUGIN_FAILED
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, has_errors, in_order
@@ -27,10 +27,6 @@ from robocomp_yaml.source.regular import whole
 from robocomp_yaml.transactions import stamp, writer
 from robocomp_yaml.transactions.changes import Changes
 
-if TYPE_CHECKING:
-    from robocomp_yaml.emit.ports import Ports
-    from robocomp_yaml.link.program import LinkedComponent
-
 
 class Compilation:
     """What compiling the documents of a workspace comes to. Nothing is written before `apply`.
@@ -43,16 +39,13 @@ class Compilation:
         self, analysis: Analysis, paths: Sequence[str], include: Sequence[str], output: str | None,
         targets: Sequence[str], *, adopt: bool, merge: bool, standalone: bool = False,
     ) -> None:  # fmt: skip
-        self._analysis, self._adopt, self._merge, self._standalone = analysis, adopt, merge, standalone
-        self._paths, self._include, self._output, self._targets = tuple(paths), tuple(include), output, tuple(targets)
+        self._analysis, self._adopt, self._merge = analysis, adopt, merge
+        self._paths, self._output = tuple(paths), output
+        self._arguments = compile_stamps.Arguments(self._paths, include, output, targets, standalone)
         options = Options(
-            output,
-            analysis.found.folders,
-            frozenset(targets),
-            analysis.linker.workspace_of,
-            _ports(analysis),
+            output, analysis.found.folders, frozenset(targets), analysis.linker.workspace_of, ports(analysis),
             standalone=standalone,
-        )
+        )  # fmt: skip
         self._built = build(analysis.program, analysis.diagnostics, options)
         Fences(self._paths, output).keep_inside(self._built)
 
@@ -99,9 +92,7 @@ class Compilation:
         if not self._merge and not has_errors(one for one in told if one not in lasting):
             taken = self._stamp(own, changes, schemas, outcome.settled(lasting, changes))
             if taken is not None:
-                made_already.keep(
-                    taken, self._paths, self._include, self._output, self._targets, standalone=self._standalone
-                )
+                compile_stamps.keep(taken, self._arguments)
         return replace(outcome, to_build=self._to_build()) if outcome.dirty and self._output is None else outcome
 
     def _to_build(self) -> tuple[str, ...]:
@@ -200,15 +191,3 @@ def _outcome_of(
     return Outcome(
         tuple(told), tuple(by_path.values()), program.documents, len(program.asked), dict(sorted(left_out.items()))
     )
-
-
-def _ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
-    """Where the ports of a component's workspace come from, once some are asked for."""
-
-    @cache
-    def table() -> Callable[[LinkedComponent], Ports]:
-        from robocomp_yaml.api.neighbours import ports
-
-        return ports(analysis)
-
-    return lambda linked: table()(linked)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Callable, Collection, Coroutine, Iterable
+from collections.abc import Callable, Coroutine, Iterable
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec.structs import replace
 
+from robocomp_yaml.api.refusals import cannot_write, meant, require
 from robocomp_yaml.building.job import RELEASE
 from robocomp_yaml.deploy import folder, operations
 from robocomp_yaml.deploy.attached import Attached, attached
@@ -26,7 +27,6 @@ from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import ERROR, WARNING, Diagnostic, has_errors
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.network.network import Network
 from robocomp_yaml.pipeline import Analysis
 
@@ -50,7 +50,7 @@ class Deployment:
     """
 
     def __init__(self, analysis: Analysis, path: str, engine: str | None = None, *, lenient: bool = False) -> None:
-        _one_of("engine", engine or LOCAL, ENGINES)
+        require("engine", engine or LOCAL, ENGINES)
         self.path, self._analysis = path, analysis
         network = analysis.networks.get(os.path.realpath(path))
         self.unread = network is None
@@ -97,8 +97,7 @@ class Deployment:
             process = self.network.find(name)
             if not members and process is None:
                 groups = (group for one in self.network.processes.values() for group in one.groups)
-                meant = suggest(name, [*self.network.processes, *groups])
-                hint = f"; did you mean '{meant}'?" if meant else ""
+                hint = meant(name, [*self.network.processes, *groups])
                 raise Refused(f"{self.network.name} has no process or group '{name}'{hint}")
             found |= members or {one.name for one in [process] if one}
         return found
@@ -163,7 +162,7 @@ class Deployment:
         asked for that. `timeout` are seconds, `report` is told of each step. Who `stays` returns only when all is down
         again."""
         if isinstance(on_failure, str):
-            _one_of("way", on_failure, (STOP_THEM, ROLL_BACK, KEEP_GOING))
+            require("way", on_failure, (STOP_THEM, ROLL_BACK, KEEP_GOING))
         wanted, limit = self.chosen(names), TimeLimit(timeout)
         if self._tell_stale(names):
             raise Faulty(self.diagnostics)
@@ -241,7 +240,7 @@ class Deployment:
 
         known = self.network.hosts
         if host:
-            _one_of("host", host, known, self.network.name)
+            require("host", host, known, self.network.name)
         answers, failed = asyncio.run(probe.ask(self.network, [known[host]] if host else list(known.values())))
         self._told += failed
         return answers
@@ -252,7 +251,7 @@ class Deployment:
         from robocomp_yaml.emit import exports
 
         plugins = self._analysis.program.plugins_of(self.path)
-        _one_of("export", form, exports.forms(plugins))
+        require("export", form, exports.forms(plugins))
         try:
             files, told = exported.files(self.network, form, plugins, reveal=reveal)
         except Faulty as error:  # of a plug-in
@@ -274,8 +273,7 @@ class Deployment:
                 raise Faulty(self.diagnostics)
             exported.write(output, files)
         except OSError as error:
-            reason = (error.strerror or str(error)).lower()
-            raise Refused(f"cannot write {error.filename or output}: {reason}") from error
+            raise cannot_write(error.filename or output, error) from error
         return [os.path.normpath(os.path.join(output, path)) for path in files]
 
     def _run(self, work: Coroutine[Any, Any, T], *, change: bool = False) -> T:
@@ -300,13 +298,6 @@ class Deployment:
         where = shown_path(self.network.folder)
         self._told.append(deploying.FOLDER.at(Span(self.network.path), path=where, reason=reason))
         raise Faulty(self.diagnostics)
-
-
-def _one_of(what: str, name: str, known: Collection[str], owner: str = "rcyaml") -> None:
-    if name not in known:
-        meant = suggest(name, known)
-        hint = f"did you mean '{meant}'?" if meant else f"there are {', '.join(known)}"
-        raise Refused(f"{owner} has no {what} '{name}'; {hint}")
 
 
 def _ignore(event: object) -> None:

@@ -7,8 +7,8 @@ import re
 
 import msgspec
 
+from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.workspace import root_above
 from robocomp_yaml.link.workspace_files import GLOBS, modeline, schema_of, schema_path
 from robocomp_yaml.plugins import Plugins
@@ -57,9 +57,8 @@ def schema_for(document: str) -> Schema:
 def _kind_of(document: str) -> str:
     kind = "workspace" if os.path.basename(document) == WORKSPACE_FILE else kind_of(document)
     if kind is None:
-        meant = suggest(document, GLOBS)
-        hint = f"did you mean '{meant}'?" if meant else f"kinds are {', '.join(GLOBS)}"
-        raise Refused(f"'{document}' is neither a kind nor the name of a document; {hint}")
+        hint = meant(document, GLOBS, f"kinds are {', '.join(GLOBS)}")
+        raise Refused(f"'{document}' is neither a kind nor the name of a document{hint}")
     if not os.path.isfile(document):
         raise Refused(f"there is no file '{document}'")
     return kind

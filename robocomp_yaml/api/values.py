@@ -13,13 +13,13 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.api import which
+from robocomp_yaml.api.refusals import cannot_write, meant
 from robocomp_yaml.check.pdsl import values as check
 from robocomp_yaml.diag.codes import files as file_codes
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors, in_order
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues
 from robocomp_yaml.parameters.editing import show
 from robocomp_yaml.parameters.editing.edit import NotEditable
@@ -71,7 +71,7 @@ class Change(msgspec.Struct, frozen=True):
                 raise Refused(f"{self.file} was changed meanwhile, and stays as it is: try again")
             whole_file.replace(self.file, self.after)
         except OSError as error:
-            raise Refused(f"{self.file} cannot be written: {(error.strerror or str(error)).lower()}") from None
+            raise cannot_write(self.file, error) from None
 
 
 class Values:
@@ -244,7 +244,7 @@ def write_new(file: str, include: Sequence[str] = ()) -> str:
         os.makedirs(os.path.dirname(target) or ".", exist_ok=True)
         whole_file.create(target, first_values(linked, component, target, ports(analysis)))
     except OSError as error:
-        raise Refused(f"{target} cannot be written: {(error.strerror or str(error)).lower()}") from None
+        raise cannot_write(target, error) from None
     return target
 
 
@@ -252,8 +252,7 @@ def _steps(path: str, root: RecordType) -> tuple[list[str], Type]:
     steps = paths.parse(path)
     type_ = show.type_at(root, steps) if steps else None
     if steps is None or type_ is None:
-        meant = suggest(path, [name for name, _ in leaves(root)])
-        raise Refused(f"there is no parameter '{path}'" + (f"; did you mean '{meant}'?" if meant else ""))
+        raise Refused(f"there is no parameter '{path}'{meant(path, (name for name, _ in leaves(root)))}")
     return steps, type_
 
 

@@ -5,13 +5,17 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
+from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
-from robocomp_yaml.diag.suggest import suggest
 from robocomp_yaml.link.component_references import References, stem
 from robocomp_yaml.source.discover import kind_of, of_kind
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.heading import component_in
+
+if TYPE_CHECKING:
+    from robocomp_yaml.pipeline import Analysis
 
 VALUES = os.path.join("etc", "config.yaml")
 
@@ -72,8 +76,8 @@ def _named(name: str) -> str:
             return found[0]
         if found:
             raise Refused(f"several components are called '{name}': {_listed(found)}; name one of them")
-    meant = suggest(name, [called for called, *_ in names.values() if called])
-    raise Refused(f"there is no component '{name}'" + (f"; did you mean '{meant}'?" if meant else ""))
+    known = [called for called, *_ in names.values() if called]
+    raise Refused(f"there is no component '{name}'{meant(name, known)}")
 
 
 def _listed(paths: list[str]) -> str:
@@ -91,3 +95,38 @@ def component_near(values_document: str) -> str:
             if found:
                 raise Refused(f"there are several components here: {', '.join(found)}; name one of them")
     raise Refused(f"there is no component beside {values_document}, nor one folder up")
+
+
+def deployment(path: str, include: tuple[str, ...]) -> str:
+    """The deployment's document that a path means. Raises Refused where a folder has none, or
+    several."""
+    if not os.path.isdir(path):
+        return path
+    found = deployments_of(path, include)
+    if not found:
+        raise Refused(
+            f"'{path}' is to have a deployment document; it has none: `rcyaml new deployment NAME` writes one"
+        )
+    return one_of(found)
+
+
+def one_of(found: list[str]) -> str:
+    if len(found) > 1:
+        names = ", ".join(sorted(found))
+        raise Refused(f"there are several deployments here, of which one is to be named: {names}")
+    return found[0]
+
+
+def deployments_of(folder: str, include: tuple[str, ...] = (), analysis: Analysis | None = None) -> list[str]:
+    """The deployments of a folder, else those below it; those that others include are parts of these. `analysis` is of
+    the folder, where there is one."""
+    all_of_them, here = of_kind(folder, "ddsl"), os.path.normpath(folder)
+    found = [path for path in all_of_them if (os.path.dirname(path) or ".") == here] or all_of_them
+    if len(found) < 2:
+        return found
+    if analysis is None:
+        from robocomp_yaml.pipeline import analyse
+
+        analysis = analyse(found, include)
+    parts = {real for real, linked in analysis.program.deployments.items() if linked.is_included}
+    return [path for path in found if os.path.realpath(path) not in parts] or found

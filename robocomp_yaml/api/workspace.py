@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.pipeline import Analysis, analyse
+from robocomp_yaml.source.discover import kind_of
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.fixing import Fixing
     from robocomp_yaml.api.values import Values
     from robocomp_yaml.building.job import Event
+    from robocomp_yaml.emit.graphs.picture import Picture
     from robocomp_yaml.network.network import Network
 
 
@@ -123,9 +125,35 @@ class Workspace:
         """A picture in one of the forms of `rcyaml graph`: of the deployment at a path, or of what a folder has, which
         is its deployment or else its components. Raises Refused where there are several, or a document is none, and
         Faulty where errors leave nothing to show."""
-        from robocomp_yaml.api.drawing import draw
+        from robocomp_yaml.emit.graphs.forms import draw, forms
 
-        return draw(self.analysis, form, path or self._paths[0])
+        path = path or self._paths[0]
+        inside = os.path.join(path, "") if os.path.isdir(path) else path  # as a document, whose workspace decides
+        plugins = self.analysis.linker.workspace_of(inside).plugins
+        if form not in forms(plugins):
+            raise Refused(f"there is no picture '{form}'; there are {', '.join(forms(plugins))}")
+        picture = self._picture(path)
+        if picture is None:
+            raise Faulty(self.analysis.diagnostics, self.documents_read)
+        return draw(picture, form, plugins)
+
+    def _picture(self, path: str) -> Picture | None:
+        """None where the document, or everything in the folder, is too broken to show."""
+        from robocomp_yaml.api.which import deployments_of, one_of
+        from robocomp_yaml.emit.graphs import of_components, of_network
+
+        networks, program = self.analysis.networks, self.analysis.program
+        if not os.path.isdir(path):
+            network = networks.get(os.path.realpath(path))
+            if network is None and kind_of(path) != "ddsl":
+                raise Refused(f"'{path}' is no deployment document (NAME.ddsl.yaml), and no folder")
+            return of_network.picture_of(network, self.analysis.diagnostics) if network is not None else None
+        readable = [one for one in deployments_of(path, analysis=self.analysis) if os.path.realpath(one) in networks]
+        if readable:
+            return of_network.picture_of(networks[os.path.realpath(one_of(readable))], self.analysis.diagnostics)
+        if program.deployments or not program.components:
+            return None
+        return of_components.picture_of(os.path.basename(os.path.abspath(path)), program.components.values())
 
     def _deployment_at(self, path: str) -> str:
         """The document of the deployment that is meant, if it comes to a network."""
@@ -138,7 +166,7 @@ class Workspace:
         read = self.analysis.linker.documents.read
         found = [read[real].path for real in self.analysis.networks if real in wanted]
         if found:
-            from robocomp_yaml.api.deployments import one_of
+            from robocomp_yaml.api.which import one_of
 
             return one_of(found)
         if any(document.kind == "ddsl" and (not path or real in wanted) for real, document in read.items()):
@@ -165,9 +193,9 @@ class Workspace:
 
             yield from ports.clashes(analysis.program.components.values(), analysis.disk)
             if written.has_code(analysis.program):
-                from robocomp_yaml.api import made_already
+                from robocomp_yaml.api import compile_stamps
 
-                told = None if self._overlay else made_already.told_of_code(self._paths, self._include)
+                told = None if self._overlay else compile_stamps.diagnostics_of_code(self._paths, self._include)
                 if told is not None:
                     yield from told
                 else:

@@ -7,9 +7,11 @@ import zlib
 from collections.abc import Collection, Sequence
 from typing import Any
 
+from robocomp_yaml.deploy.differences import shown_path
 from robocomp_yaml.deploy.engine import OWN, Line
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step
+from robocomp_yaml.deploy.probe import Found
 from robocomp_yaml.diag.terminal import Shown, columns, cut, line, pad, paint, shown
 from robocomp_yaml.network.network import Network
 
@@ -131,6 +133,24 @@ def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any
         }
         for one in found
     ]
+
+
+def probe_lines(found: Sequence[Found], color: bool) -> list[Shown]:
+    """A line for each program that a host was asked for."""
+    rows = [(shown_path(one.program) if "/" in one.program else one.program, *_verdict(one)) for one in found]
+    width = max((columns(row[0]) for row in rows), default=0)
+    return [
+        line("  ", pad(program, width), "  ", paint(verdict, tint, color), f", for {', '.join(one.used_by)}")
+        for (program, verdict, tint), one in zip(rows, found, strict=True)
+    ]
+
+
+def _verdict(one: Found) -> tuple[str, str]:
+    if not one.path:
+        return "not there, or not executable", "31"
+    if one.missing:
+        return f"lacks {', '.join(one.missing)}", "31"
+    return f"{one.day} {one.digest}", "32"
 
 
 class LogView:

@@ -9,7 +9,6 @@ import click
 
 from robocomp_yaml.api.fixing import Fixing
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._fail_on import FailOn
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
 from robocomp_yaml.diag.render import tell
@@ -17,7 +16,7 @@ from robocomp_yaml.diag.render.json import dumps, fix_as_data, run_as_data
 from robocomp_yaml.fixing.rounds import Done
 
 
-def report(ctx: click.Context, fixing: Fixing, format_: str, fail_on: FailOn, *, look_only: bool) -> None:
+def report(ctx: click.Context, fixing: Fixing, format_: str, fail_on: _options.FailOn, *, look_only: bool) -> None:
     """Fixes, unless it is to be looked at only, prints what was fixed and what remains, and ends the command: with 1
     too where a document could not be written."""
     if not look_only:

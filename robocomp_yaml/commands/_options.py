@@ -6,29 +6,80 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
-from typing import Any
+from typing import Any, NoReturn
 
 import click
+import msgspec
 
-from robocomp_yaml.commands._fail_on import ERRORS, FailOn
-from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.commands import _plugged
+from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.diagnostic import ERROR, SEVERITIES, Diagnostic
 from robocomp_yaml.diag.render import FORMATS, tell
 
 MANY = 300  # documents: fewer are read before a bar could be seen
 
 paths = click.argument("paths", nargs=-1, type=click.Path(exists=True))
 include = click.option(
-    "-I",
-    "--include",
-    "include",
-    multiple=True,
-    metavar="DIR",
-    type=click.Path(exists=True, file_okay=False),
+    "-I", "--include", multiple=True, metavar="DIR", type=click.Path(exists=True, file_okay=False),
     help="Look for imports here too; may be repeated.",
-)
+)  # fmt: skip
 format_ = click.option(
     "--format", "format_", type=click.Choice(FORMATS), default="text", help="How to print diagnostics."
 )
+text_or_json = click.option(
+    "--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it."
+)
+
+
+class FailOn(msgspec.Struct, frozen=True):
+    """`--fail-on`: which diagnostics besides errors make a run fail. `severity` is the least that fails a run, `codes`
+    fail it whatever their severity is. `text` is as given."""
+
+    severity: str = ERROR
+    codes: frozenset[str] = frozenset()
+    text: str = ""
+
+    def code(self, told: Iterable[Diagnostic]) -> int:
+        """The exit code of a run that has told this."""
+        return 1 if any(self._counts(one) for one in told) else 0
+
+    def explain(self, told: Iterable[Diagnostic]) -> None:
+        """Says why a run fails that has no errors."""
+        counting = [one for one in told if self._counts(one)]
+        if counting and all(one.severity != ERROR for one in counting):
+            codes = ", ".join(sorted({one.code for one in counting}))
+            terminal.say(f"this fails because of {codes} (--fail-on {self.text})", err=True)
+
+    def _counts(self, one: Diagnostic) -> bool:
+        worst = SEVERITIES.index(one.severity)  # they are in order, the worst first
+        return worst <= SEVERITIES.index(self.severity) or one.code in self.codes
+
+
+def _fail_on(ctx: click.Context, param: click.Parameter, given: tuple[str, ...]) -> FailOn:
+    words = [word.strip() for text in given for word in text.split(",")]
+    severities = [word.lower() for word in words if word.lower() in SEVERITIES]
+    codes = {word.upper(): word for word in words if word.lower() not in SEVERITIES}
+    if codes:
+        from robocomp_yaml.diag.codes import table
+        from robocomp_yaml.diag.suggest import suggest
+
+        known = dict(table())
+        if not codes.keys() <= known.keys():
+            known |= _plugged.codes(ctx)
+        for code, word in codes.items():
+            if code not in known:
+                meant = suggest(code.lower(), SEVERITIES) or suggest(code, known)
+                hint = f"did you mean '{meant}'?" if meant else "`rcyaml explain` lists the codes"
+                severity = f"{', '.join(SEVERITIES[:-1])} or {SEVERITIES[-1]}"
+                raise click.BadParameter(f"'{word}' is neither {severity} nor the code of a diagnostic; {hint}")
+    least = max(severities, key=SEVERITIES.index, default=ERROR)
+    return FailOn(least, frozenset(codes), ",".join(words))
+
+
+fail_on = click.option(
+    "--fail-on", "fail_on", multiple=True, metavar="WHAT", callback=_fail_on,
+    help="Exit with 1 for these too: warning, note, or codes such as RC2007,RC3107; may be repeated.",
+)  # fmt: skip
 
 
 def colored(ctx: click.Context, stream: Any = None) -> bool:
@@ -39,19 +90,36 @@ def colored(ctx: click.Context, stream: Any = None) -> bool:
 
 
 @contextmanager
-def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None]]:
+def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None] | None]:
     """A bar on standard error that counts documents, where someone watches and there are many."""
-    if not sys.stderr.isatty():
-        yield lambda path: None
-        return
-    from robocomp_yaml.source.discover import documents_below
+    if sys.stderr.isatty():
+        from robocomp_yaml.source.discover import documents_below
 
-    total = sum(1 for path in paths if os.path.isdir(path) for _ in documents_below(path))
-    if total < MANY:
-        yield lambda path: None
-        return
-    with click.progressbar(length=total, label=label, file=sys.stderr, update_min_steps=50) as bar:
-        yield lambda path: bar.update(1)
+        total = sum(1 for path in paths if os.path.isdir(path) for _ in documents_below(path))
+        if total >= MANY:
+            with click.progressbar(length=total, label=label, file=sys.stderr, update_min_steps=50) as bar:
+                yield lambda path: bar.update(1)
+            return
+    yield None
+
+
+@contextmanager
+def writing(path: str = "") -> Iterator[None]:
+    """Ends the command where a file cannot be written: this one, or the one that the error names."""
+    try:
+        yield
+    except OSError as error:
+        named = path or error.filename or ""
+        reason = (error.strerror or str(error)).lower()
+        raise click.ClickException(f"cannot write {named}: {reason}" if named else f"cannot write: {reason}") from error
+
+
+def report_file(done: str, what: str) -> None:
+    """Says what `init` and `new` did with one file, or what there is to note."""
+    if done == "note":
+        terminal.say(f"note: {what}", err=True)
+    elif click.get_current_context().obj.verbosity >= 0:
+        terminal.say(f"{done:<5} {what}")
 
 
 async def ask(text: str, answers: tuple[str, ...]) -> str:
@@ -80,8 +148,8 @@ async def ask(text: str, answers: tuple[str, ...]) -> str:
 
 
 def report(
-    ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], documents: int, fail_on: FailOn = ERRORS
-) -> None:  # fmt: skip
+    ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], documents: int, fail_on: FailOn = FailOn()
+) -> NoReturn:  # fmt: skip
     """Prints the diagnostics and ends the command: with 1 where one is an error, or what `fail_on` says, else with
     0."""
     told = list(diagnostics)

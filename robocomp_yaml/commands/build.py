@@ -1,12 +1,27 @@
-"""`rcyaml build`: components to programs."""
+"""`rcyaml build`: components to programs, and how a build is shown while it goes on."""
 
 from __future__ import annotations
 
-import click
+from collections import Counter
+from collections.abc import Callable
+from typing import TypeVar
 
-from robocomp_yaml.building.job import RELEASE, TYPES
-from robocomp_yaml.commands import _options
+import click
+import msgspec
+
+from robocomp_yaml.api import building
+from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, RELEASE, TYPES, Event, Result, Step
+from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands._progress import Live
+from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.diagnostic import Diagnostic
+from robocomp_yaml.diag.render import text
+from robocomp_yaml.diag.render.json import as_data, dumps
+from robocomp_yaml.pipeline import analyse
+
+T = TypeVar("T")
+_COLORS = {BUILT: "32", FAILED: "31", CURRENT: "2"}
 
 
 @click.command(cls=Command, short_help="Build components; only what is not what it is made of.")
@@ -18,7 +33,7 @@ from robocomp_yaml.commands._command import Command
 @click.option("-D", "defines", multiple=True, metavar="NAME=VALUE", help="A variable for CMake; may be repeated.")
 @click.option("--clean", is_flag=True, help="Take the build trees away, and build nothing.")
 @_options.include
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@_options.text_or_json
 @click.pass_context
 def command(
     ctx: click.Context, components: tuple[str, ...], type_: str | None, jobs: int | None, defines: tuple[str, ...],
@@ -29,8 +44,64 @@ def command(
     C++ is built with CMake and Ninja, all components of a workspace in one tree, build/TYPE/; Java with the JDK; Python
     is compiled to bytecode and imported once. A component that fails keeps no other from being built.
     """
-    from robocomp_yaml.commands import _building
-
+    documents = building.documents(components)
+    analysis = analyse(documents, include)
     if clean:
-        _building.clean(ctx, components, include, type_, format_)
-    _building.build(ctx, components, include, type_ or RELEASE, jobs, defines, format_)
+        gone = building.clean(analysis, documents, type_, everything=not components)
+        if format_ == "json":
+            terminal.data(dumps({"removed": gone}), json=True)
+        elif ctx.obj.verbosity >= 0:
+            terminal.say(*(f"removed  {folder}/" for folder in gone) if gone else ["there is no build tree"])
+        return
+    built = run(ctx, format_, lambda report: building.build(
+        analysis, documents, build_type=type_ or RELEASE, jobs=jobs, defines=defines, report=report,
+    ), "interrupted: what was built stays, and the next build goes on from there")  # fmt: skip
+    if format_ == "json":
+        data = msgspec.to_builtins({"type": built.type, "components": built.components, "cpu": built.cpu})
+        terminal.data(dumps({**data, "diagnostics": [as_data(one) for one in built.diagnostics]}), json=True)
+    elif ctx.obj.verbosity >= 0:
+        terminal.say(_summary(built))
+    ctx.exit(1 if built.has_errors else 0)
+
+
+def run(ctx: click.Context, format_: str, work: Callable[[Callable[[Event], None]], T], on_interrupt: str) -> T:
+    """A build that is shown; Ctrl-C ends the command."""
+    try:
+        with _View(ctx, format_) as view:
+            return work(view.report)
+    except KeyboardInterrupt as error:
+        terminal.say(on_interrupt, err=True)
+        ctx.exit(_signals.code_of(error))
+
+
+def _summary(built: building.Built) -> str:
+    counts = Counter(one.state for one in built.components)
+    told = ", ".join(f"{counts[state]} {state}" for state in (BUILT, CURRENT, FAILED) if counts[state])
+    total = len(built.components)
+    return f"{total} component{'' if total == 1 else 's'}: {told}" if total else "there is no component"
+
+
+class _View(Live):
+    """On a terminal the step that is being taken; a line for each component that is built or fails, and what compilers
+    say, as soon as they say it."""
+
+    def __init__(self, ctx: click.Context, format_: str) -> None:
+        self._is_text, self._verbosity = format_ == "text", ctx.obj.verbosity
+        self._color = _options.colored(ctx)
+        super().__init__(self._is_text and self._verbosity >= 0)
+
+    def report(self, event: Event) -> None:
+        if not self._is_text:
+            return
+        self.pause()
+        if isinstance(event, Step):
+            self.draw([f"[{event.done}/{event.total}] {event.what}" if event.total else event.what])
+        elif isinstance(event, Diagnostic):
+            terminal.say(*text.each([event], self._color)[0], "")
+        elif self._verbosity >= (1 if event.state == CURRENT else 0):
+            terminal.say(_line(event, self._color))
+
+
+def _line(result: Result, color: bool) -> terminal.Shown:
+    word = terminal.paint(terminal.pad(result.state, len(CURRENT)), _COLORS[result.state], color)
+    return terminal.line(word, "  ", result.program if result.state != FAILED else result.name)

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
-from robocomp_yaml.commands import _fail_on, _options
+from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Command
-
-if TYPE_CHECKING:
-    from robocomp_yaml.commands._fail_on import FailOn
 
 
 @click.command(cls=Command, short_help="Report everything that is wrong with the documents.")
@@ -19,13 +14,13 @@ if TYPE_CHECKING:
 @click.option("--fix", is_flag=True, help="Apply the fixes that leave only one possible meaning.")
 @click.option("--unsafe-fixes", is_flag=True, help="Apply the others, too: what was probably meant.")
 @click.option("--diff", is_flag=True, help="Show what the fixes would change, and write nothing.")
-@_fail_on.fail_on
+@_options.fail_on
 @_options.include
 @_options.format_
 @click.pass_context
 def command(
     ctx: click.Context, paths: tuple[str, ...], environment: bool, fix: bool, unsafe_fixes: bool, diff: bool,
-    fail_on: FailOn, include: tuple[str, ...], format_: str,
+    fail_on: _options.FailOn, include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Report everything that is wrong with the documents at PATHS (by default, below this folder).
 

@@ -2,16 +2,35 @@
 
 from __future__ import annotations
 
+import os
+from collections import Counter
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import click
 
-from robocomp_yaml.commands import _fail_on, _options
+from robocomp_yaml.api.outcome import CHANGED, WRITTEN, File, Outcome
+from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Command
 from robocomp_yaml.commands._plugged import Plugged
+from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.render import tell
+from robocomp_yaml.diag.render.json import dumps, run_as_data
 
 if TYPE_CHECKING:
     from robocomp_yaml.plugins import Plugins
+
+SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
+
+_DONE = {
+    "create": "wrote", "update": "updated", "adopt": "took over", "edited": "rewrote", "remove": "removed",
+    "merge": "merged", "kept": "kept", "left": "left", "unchanged": "unchanged",
+}  # fmt: skip
+_WOULD = {
+    "create": "would write", "update": "would update", "adopt": "would take over", "edited": "would rewrite",
+    "remove": "would remove", "merge": "would merge", "kept": "would keep", "left": "would leave",
+    "unchanged": "unchanged",
+}  # fmt: skip
 
 
 def _targets(plugins: Plugins) -> list[str]:
@@ -30,13 +49,13 @@ def _targets(plugins: Plugins) -> list[str]:
 @click.option("--check", is_flag=True, help="Write nothing; exit with 1 if anything would change (for CI).")
 @click.option("--adopt", is_flag=True, help="Take over files that rcyaml did not write; keep them as .orig.")
 @click.option("--merge", is_flag=True, help="Bring your files in src/ up to date, by a three-way merge.")
-@_fail_on.fail_on
+@_options.fail_on
 @_options.include
 @_options.format_
 @click.pass_context
 def command(
     ctx: click.Context, paths: tuple[str, ...], output: str | None, standalone: bool, targets: tuple[str, ...],
-    dry_run: bool, diff: bool, check: bool, adopt: bool, merge: bool, fail_on: _fail_on.FailOn,
+    dry_run: bool, diff: bool, check: bool, adopt: bool, merge: bool, fail_on: _options.FailOn,
     include: tuple[str, ...], format_: str,
 ) -> None:  # fmt: skip
     """Compile the documents at PATHS (by default, below this folder).
@@ -45,14 +64,14 @@ def command(
     folder: generated/ is always rewritten, src/ is yours and written only once. What your class lacks after an
     interface changed is named, with the text to paste; --merge puts it in.
     """
-    from robocomp_yaml.api import made_already
-    from robocomp_yaml.commands import _outcome
+    from robocomp_yaml.api import compile_stamps
 
     paths = paths or (".",)
     look_only = dry_run or diff or check
     outcome = None
     if not (diff or merge or ctx.obj.verbosity > 0):
-        outcome = made_already.outcome(paths, include, output, targets, standalone=standalone, planned=look_only)
+        arguments = compile_stamps.Arguments(paths, include, output, targets, standalone)
+        outcome = compile_stamps.earlier_outcome(arguments, planned=look_only)
     if outcome is None:
         from robocomp_yaml import api
 
@@ -60,4 +79,92 @@ def command(
             workspace = api.load(*paths, include=include, on_read=on_read)
         plan = workspace.compile(output=output, targets=targets, adopt=adopt, merge=merge, standalone=standalone)
         outcome = plan.look(with_diff=diff) if look_only else plan.apply()
-    _outcome.report(ctx, outcome, format_, diff=diff, check=check, fail_on=fail_on)
+    _report(ctx, outcome, format_, fail_on, diff=diff, check=check)
+
+
+def _report(
+    ctx: click.Context, outcome: Outcome, format_: str, fail_on: _options.FailOn, *, diff: bool, check: bool
+) -> None:  # fmt: skip
+    """Prints what happened to the files and what is wrong, and ends the command."""
+    told, color = outcome.diagnostics, _options.colored(ctx)
+    if format_ == "json":
+        files = [
+            {"path": file.path, "action": file.action, **({"orig": file.orig} if file.orig else {})}
+            for file in outcome.files
+        ]
+        to_build = {"build": list(outcome.to_build)} if outcome.to_build else {}
+        terminal.data(dumps({**run_as_data(told, outcome.documents), "files": files, **to_build}), json=True)
+    elif format_ == "sarif":
+        tell("sarif", told, outcome.documents)
+    else:
+        if diff:
+            terminal.diff((file.diff for file in outcome.files), color)
+        elif ctx.obj.verbosity >= 0 or check:
+            terminal.say(*_listed(outcome, verbose=ctx.obj.verbosity > 0))
+        if told:
+            tell("text", told, outcome.documents, color)
+        if ctx.obj.verbosity >= 0 and not diff:
+            terminal.say(*_left_out(outcome), _summary(outcome), *_to_build(outcome))
+        fail_on.explain(told)
+    ctx.exit(1 if check and outcome.dirty else fail_on.code(told))
+
+
+def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
+    """One line a file; of many alike in one folder of a component, or in what components share, one line for all. What
+    did not change is for the curious, and so is what is the user's, where nothing beside it changed."""
+    words = _WOULD if outcome.planned else _DONE
+    changed = {file.root for file in outcome.files if file.action in CHANGED}
+    listed = [file for file in outcome.files if _is_listed(file, changed, verbose=verbose)]
+    if not listed:
+        return
+    from robocomp_yaml.emit.layout import GENERATED  # a run with nothing to do imports little
+
+    tops = {file: os.path.relpath(file.path, file.root).partition("/") for file in listed}
+    parted = {file.root for file, (top, _, _) in tops.items() if top == GENERATED}
+    groups: dict[tuple[str, str, str], list[File]] = {}
+    for file, (top, slash, _) in tops.items():
+        folder = os.path.normpath(os.path.join(file.root, top)) if slash and file.root in parted else file.root
+        groups.setdefault((file.root, file.action, folder), []).append(file)
+    width = max(11 if outcome.planned else 7, *(len(words[action]) for _, action, _ in groups), 0)
+    for (_, action, folder), group in groups.items():
+        if len(group) > SHOWN and not verbose:
+            yield f"{words[action]:<{width}}  {folder}/ ({len(group)} files)"
+            continue
+        for file in group:
+            kept = f" (yours is {file.orig})" if file.orig else " (yours)" if action == "kept" else ""
+            yield f"{words[action]:<{width}}  {file.path}{kept}"
+
+
+def _is_listed(file: File, changed: set[str], *, verbose: bool) -> bool:
+    idle = file.action == "unchanged" or (file.action == "kept" and file.root not in changed)
+    return file.action != "refused" and (verbose or not idle)
+
+
+def _summary(outcome: Outcome) -> str:
+    counts = Counter(file.action for file in outcome.files)
+    written = sum(counts[action] for action in WRITTEN)
+    parts = [f"{written} file{'' if written == 1 else 's'} {'to write' if outcome.planned else 'written'}"]
+    for action, words in (("remove", "removed"), ("unchanged", "unchanged"), ("kept", "yours")):
+        if counts[action]:
+            parts.append(f"{counts[action]} {words}")
+    compiled = outcome.asked - len(outcome.left_out)
+    left_out = f", {len(outcome.left_out)} left out" if outcome.left_out else ""
+    return f"{compiled} document{'' if compiled == 1 else 's'} compiled{left_out}: {', '.join(parts)}"
+
+
+def _to_build(outcome: Outcome) -> Iterator[str]:
+    names = outcome.to_build
+    if names:
+        more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+        command = terminal.typed("rcyaml", "build", *(names if len(names) == 1 else ()))
+        yield f"build again: {', '.join(names[:SHOWN])}{more}: `{command}`"
+
+
+def _left_out(outcome: Outcome) -> Iterator[str]:
+    """Which documents were not compiled, and why: nobody has to look for them."""
+    for is_faulty, why in ((True, "has errors"), (False, "what it needs or belongs to has errors")):
+        paths = [path for path, itself in outcome.left_out.items() if itself == is_faulty]
+        for path in paths[:SHOWN]:
+            yield f"left out: {path} ({why})"
+        if len(paths) > SHOWN:
+            yield f"left out: {len(paths) - SHOWN} more"

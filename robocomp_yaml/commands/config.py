@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import os
+import sys
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Command, Group
+from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.render.json import dumps
+
+if TYPE_CHECKING:
+    from robocomp_yaml.parameters.editing.show import Value
+    from robocomp_yaml.source.tree import Node
 
 
 def _meant(ctx: click.Context, param: click.Parameter, said: str) -> str:
@@ -28,9 +36,6 @@ class _FileMayLack(Command):
 
 
 file = click.argument("file", metavar="[FILE]", default="", callback=_meant)
-format_ = click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text",
-                       help="How to print it.")  # fmt: skip
-
 reveal = click.option("--reveal", is_flag=True, help="Show secrets too.")
 
 
@@ -53,9 +58,11 @@ def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
     also be the values document to be written, NAME.config.yaml, for the component beside it or one folder up.
 
     Values and connections that the component's etc/config has are taken over."""
-    from robocomp_yaml.commands import _values
+    from robocomp_yaml.api.values import write_new
 
-    _values.new(ctx, file, include)
+    target = write_new(file, include)
+    if ctx.obj.verbosity >= 0:
+        terminal.say(f"wrote {target}", f"next: {terminal.typed('rcyaml', 'config', 'check', target)}")
 
 
 @command.command(short_help="Everything that is wrong with the values.")
@@ -65,23 +72,29 @@ def new(ctx: click.Context, file: str, include: tuple[str, ...]) -> None:
 @click.pass_context
 def check(ctx: click.Context, file: str, include: tuple[str, ...], format_: str) -> None:
     """Report everything that is wrong with the values in FILE and the layers it builds on, at line and column."""
-    from robocomp_yaml.commands import _values
+    from robocomp_yaml.api.values import Values
 
-    _values.check(ctx, file, include, format_)
+    values = Values(file, include)
+    _options.report(ctx, format_, values.diagnostics, values.documents_read)
 
 
 @command.command(short_help="Every effective value, and where it comes from.")
 @file
 @reveal
 @_options.include
-@format_
+@_options.text_or_json
 @click.pass_context
 def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], format_: str) -> None:
     """Print every effective value with the file and line that set it, and what it overrode. Secrets are hidden.
     References to the environment and to files are shown as such: their values are never read here."""
-    from robocomp_yaml.commands import _values
+    from robocomp_yaml.api.values import Values
 
-    _values.show(ctx, file, include, format_, reveal=reveal)
+    rows = Values(file, include).rows(reveal=reveal)
+    if format_ == "json":
+        terminal.data(dumps({"values": [_as_json(row) for row in rows]}), json=True)
+        return
+    width = max((min(len(_assignment(row)), 50) for row in rows), default=0)
+    terminal.data("".join(f"{_assignment(row):<{width}}  # {_origin(row)}\n" for row in rows))
 
 
 @command.command(short_help="One effective value.", cls=_FileMayLack)
@@ -89,30 +102,32 @@ def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], 
 @click.argument("path")
 @reveal
 @_options.include
-@format_
+@_options.text_or_json
 @click.pass_context
 def get(
     ctx: click.Context, file: str, path: str, reveal: bool, include: tuple[str, ...], format_: str
 ) -> None:  # fmt: skip
     """Print the effective value at PATH, such as motors[0].vel. A secret is hidden."""
-    from robocomp_yaml.commands import _values
+    from robocomp_yaml.api.values import Values
+    from robocomp_yaml.source.yaml_text import flow
 
-    _values.get(ctx, file, path, include, format_, reveal=reveal)
+    data = Values(file, include).get(path, reveal=reveal)
+    if data is None:
+        terminal.say(f"{path} has no value", err=True)
+        ctx.exit(1)
+    if format_ == "json":
+        terminal.data(dumps({"path": path, "value": data}), json=True)
+        return
+    terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
 
 
-@command.command(
-    "set",
-    short_help="Change one value; all else stays as it is.",
-    cls=_FileMayLack,
-    context_settings={
-        "ignore_unknown_options": True,
-    },
-)
+@command.command("set", short_help="Change one value; all else stays as it is.", cls=_FileMayLack,
+                 context_settings={"ignore_unknown_options": True})  # fmt: skip
 @file
 @click.argument("path")
 @click.argument("value")
 @_options.include
-@format_
+@_options.text_or_json
 @click.pass_context
 def set_(
     ctx: click.Context, file: str, path: str, value: str, include: tuple[str, ...], format_: str
@@ -120,9 +135,14 @@ def set_(
     """Give the parameter at PATH another VALUE in FILE, checked by its type and limits. Text needs no quotes; null
     returns to the default, and {env: NAME} or {file: PATH} is what the environment or a file has when the component
     starts. Comments, order and layout of the document stay, byte for byte."""
-    from robocomp_yaml.commands import _values
+    from robocomp_yaml.api.values import Values
 
-    _values.set_value(ctx, file, path, value, include, format_)
+    change = Values(file, include).set(path, value)
+    change.apply()
+    if format_ == "json":
+        terminal.data(dumps({"path": path, "value": change.value, "was": change.was or None}), json=True)
+    elif ctx.obj.verbosity >= 0:
+        terminal.say(f"{path} = {change.value}" + (f" (was {change.was})" if change.was else ""))
 
 
 @command.command(short_help="The values as Ice properties or TOML.")
@@ -134,6 +154,47 @@ def set_(
 def export(ctx: click.Context, file: str, form: str, reveal: bool, include: tuple[str, ...]) -> None:
     """Print all effective values as an Ice property file, from which a component runs that knows nothing of YAML, or as
     TOML. Secrets are hidden on a terminal, and go into a pipe or a file."""
-    from robocomp_yaml.commands import _values
+    from robocomp_yaml.api.values import Values
 
-    _values.export(ctx, file, form, include, reveal=reveal)
+    terminal.data(Values(file, include).export(form, reveal=reveal or not sys.stdout.isatty()))
+
+
+def _assignment(row: Value) -> str:
+    return f"{row.path} = {row.text}" + (f" {row.unit}" if row.unit else "")
+
+
+def _origin(row: Value) -> str:
+    if row.node is None:
+        where = f", {_place(row.default)}" if row.default is not None else ""
+        return f"default{where}"
+    overrode = "".join(f", overrides {_said(row, node)} ({_place(node)})" for node in row.overrode)
+    return f"{_place(row.node)}{overrode}"
+
+
+def _said(row: Value, node: Node) -> str:
+    from robocomp_yaml.source.tree import Scalar
+    from robocomp_yaml.source.yaml_text import flow
+
+    data = row.hide(node.data)
+    text = node.lexeme if isinstance(node, Scalar) and data == node.data else flow(data)
+    return text if len(text) <= 40 else text[:39] + "…"
+
+
+def _place(node: Node) -> str:
+    return f"{node.span.file}:{node.span.line}"
+
+
+def _as_json(row: Value) -> dict[str, Any]:
+    return {
+        "path": row.path,
+        "value": row.data,
+        "unit": row.unit,
+        "editable": row.editable,
+        "default": row.node is None,
+        **_json_place(row.node or row.default),
+        "overrode": [{"value": row.hide(node.data), **_json_place(node)} for node in row.overrode],
+    }
+
+
+def _json_place(node: Node | None) -> dict[str, Any]:
+    return {"file": node.span.file if node else None, "line": node.span.line if node else None}

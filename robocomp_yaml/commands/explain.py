@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import click
 
-from robocomp_yaml.commands import _plugged
+from robocomp_yaml.commands import _options, _plugged
 from robocomp_yaml.commands._command import Command
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.code import Code
@@ -18,7 +18,7 @@ _OF_A_PLUGIN = re.compile(r"(?!RC\d)[A-Z]{2,}\d{3,4}")
 
 @click.command(cls=Command, short_help="Say what a diagnostic means, with examples.")
 @click.argument("code", required=False)
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@_options.text_or_json
 @click.pass_context
 def command(ctx: click.Context, code: str | None, format_: str) -> None:
     """Say what the diagnostic CODE means, such as RC2003; without a code, list them all."""

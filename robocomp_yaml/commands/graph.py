@@ -44,14 +44,8 @@ def command(
     if output is None:
         terminal.data(text, json=form == "json")
     else:
-        _save(output, text)
+        with _options.writing(output):
+            whole_file.replace(output, terminal.as_bytes(text))
     if told and not (output is None and form in ("text", "json")):  # which tell them themselves
         tell(format_, told, workspace.documents_read, _options.colored(ctx, sys.stderr), err=True)
     ctx.exit(1 if has_errors(told) else 0)
-
-
-def _save(path: str, text: str) -> None:
-    try:
-        whole_file.replace(path, terminal.as_bytes(text))
-    except OSError as error:
-        raise click.ClickException(f"{path} cannot be written: {(error.strerror or str(error)).lower()}") from error

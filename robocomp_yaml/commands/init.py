@@ -6,7 +6,7 @@ import os
 
 import click
 
-from robocomp_yaml.commands import _workspace
+from robocomp_yaml.commands import _options
 from robocomp_yaml.diag import terminal
 
 
@@ -21,8 +21,8 @@ def command(ctx: click.Context, folder: str, bare: bool) -> None:
     """
     from robocomp_yaml.api.new import workspace
 
-    with _workspace.writing():
-        workspace.init(folder, _workspace.tell, bare=bare)
+    with _options.writing():
+        workspace.init(folder, _options.report_file, bare=bare)
     if ctx.obj.verbosity >= 0:
         is_here = os.path.realpath(folder) == os.getcwd()
         there = "" if is_here else f"{terminal.typed('cd', os.path.normpath(folder))}, then "

@@ -106,23 +106,18 @@ def _refuse_to_overwrite(path: str) -> None:
     """A report replaces an earlier report, and nothing else that stands there."""
     if not os.path.isfile(path):
         return
-    try:
-        with open(path, "rb") as file:
-            words = file.read(40).split()
-    except OSError as error:
-        raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
+    with _options.writing(path), open(path, "rb") as file:
+        words = file.read(40).split()
     if words and words[:2] != [b"{", b'"files":']:
         raise click.UsageError(f"--report does not overwrite {path}, which is no report of an earlier run")
 
 
 def _save(path: str, text: str) -> None:
-    try:
-        if path == "-":
-            terminal.data(text, json=True)
-        else:
+    if path == "-":
+        terminal.data(text, json=True)
+    else:
+        with _options.writing(path):
             whole_file.replace(path, text.encode("utf-8", "backslashreplace"))
-    except OSError as error:
-        raise click.ClickException(f"the report cannot be written to {path}: {error.strerror}") from error
 
 
 def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, err: bool) -> None:

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from robocomp_yaml import languages
-from robocomp_yaml.api import new
-from robocomp_yaml.commands import _options, _workspace
+from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Group
 from robocomp_yaml.commands._plugged import Plugged
 from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
+    from robocomp_yaml.api.new.documents import NewDocument
     from robocomp_yaml.plugins import Plugins
 
 
@@ -32,7 +32,9 @@ def command() -> None:
 @click.pass_context
 def interface(ctx: click.Context, name: str) -> None:
     """Write interfaces/NAME.idsl.yaml: a module with an interface NAME."""
-    _create(ctx, lambda root: new.interface_document(root, name))
+    from robocomp_yaml.api.new.documents import interface_document
+
+    _create(ctx, lambda root: interface_document(root, name))
 
 
 def _names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[str]:
@@ -71,7 +73,9 @@ def component(
     INTERFACE is the name of an interface or topic that a document of the workspace defines, or Module.Interface where
     several do.
     """
-    _create(ctx, lambda root: new.component_document(root, name, language, uses, include))
+    from robocomp_yaml.api.new.documents import component_document
+
+    _create(ctx, lambda root: component_document(root, name, language, uses, include))
 
 
 @command.command(short_help="A new document of a component's parameters.")
@@ -79,7 +83,9 @@ def component(
 @click.pass_context
 def parameters(ctx: click.Context, name: str) -> None:
     """Write the parameters' document of the component NAME, beside the component's."""
-    _create(ctx, lambda root: new.parameters_document(root, name))
+    from robocomp_yaml.api.new.documents import parameters_document
+
+    _create(ctx, lambda root: parameters_document(root, name))
 
 
 @command.command(short_help="A new deployment document.")
@@ -87,13 +93,15 @@ def parameters(ctx: click.Context, name: str) -> None:
 @click.pass_context
 def deployment(ctx: click.Context, name: str) -> None:
     """Write deployments/NAME.ddsl.yaml (in lower case): the components of the workspace, on this machine."""
-    _create(ctx, lambda root: new.deployment_document(root, name), "deploy plan")
+    from robocomp_yaml.api.new.deployment import deployment_document
+
+    _create(ctx, lambda root: deployment_document(root, name), "deploy plan")
 
 
-def _create(ctx: click.Context, make: Callable[[str], new.NewDocument], next_: str = "compile") -> None:
+def _create(ctx: click.Context, make: Callable[[str], NewDocument], next_: str = "compile") -> None:
     from robocomp_yaml.api.new import workspace
 
-    with _workspace.writing():
-        path = workspace.create(make, _workspace.tell)
+    with _options.writing():
+        path = workspace.create(make, _options.report_file)
     if ctx.obj.verbosity >= 0:
         terminal.say(f"next: {terminal.typed('rcyaml', *next_.split(), path)}")

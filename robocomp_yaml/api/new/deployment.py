@@ -4,13 +4,21 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
-if TYPE_CHECKING:
-    from robocomp_yaml.link.program import LinkedComponent, Port
-    from robocomp_yaml.parameters.types import Parameters
+from robocomp_yaml.api.new.documents import NewDocument, free, require_name
+from robocomp_yaml.emit.render import render
+from robocomp_yaml.link.documents import Documents
+from robocomp_yaml.link.linker import Linker
+from robocomp_yaml.link.program import LinkedComponent, Port
+from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.link.workspace_files import modeline
+from robocomp_yaml.parameters.types import Parameters
+from robocomp_yaml.pipeline import search_folders
+from robocomp_yaml.source.discover import of_kind
+from robocomp_yaml.source.yaml_text import flow
 
 _SUFFIX = "comp"
 
@@ -23,28 +31,20 @@ class DeploymentView(msgspec.Struct, frozen=True):
     has_components: bool
 
 
-def deployment_document(root: str, name: str) -> tuple[str, str]:
-    """Path and text: in the workspace's folder of deployments."""
-    from robocomp_yaml.emit.render import render
-    from robocomp_yaml.link.workspace_files import modeline
-
-    path = os.path.join(root, "deployments", f"{name.lower()}.ddsl.yaml")
+def deployment_document(root: str, name: str) -> NewDocument:
+    """In the workspace's folder of deployments."""
+    require_name(name)
+    path = free(os.path.join(root, "deployments", f"{name.lower()}.ddsl.yaml"))
     components = _components(root)
     names = _names(components)
     rows = [row for linked in components for row in _entry(linked, path, names, components)]
     has_topics = any(linked.component.publishes or linked.component.subscribes for linked in components)
     view = DeploymentView(modeline("ddsl", path, root), name, rows, has_topics, bool(components))
-    return path, render("new/deployment.ddsl.yaml.j2", view)
+    return NewDocument(path, render("new/deployment.ddsl.yaml.j2", view))
 
 
 def _components(root: str) -> list[LinkedComponent]:
     """The components of a workspace that have no errors, in the order of their paths."""
-    from robocomp_yaml.link.documents import Documents
-    from robocomp_yaml.link.linker import Linker
-    from robocomp_yaml.link.workspace import Search
-    from robocomp_yaml.pipeline import search_folders
-    from robocomp_yaml.source.discover import of_kind
-
     program = Linker(Documents(), Search(search_folders(()))).link(of_kind(root, "cdsl"))
     sound = (linked for linked in program.components.values() if not linked.broken)
     return sorted(sound, key=lambda linked: linked.component.path)
@@ -70,8 +70,6 @@ def _entry(
     yield f"    component: {document}"
     missing = {} if _has_values(linked) else _required(linked.parameters.parameters)
     if missing:
-        from robocomp_yaml.source.yaml_text import flow
-
         yield f"    set: {flow(missing)}  # examples: these have no default"
     connect = list(_connections(linked, names, components))
     if connect:

@@ -5,22 +5,20 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 
+from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
+from robocomp_yaml.link.workspace import read
+from robocomp_yaml.pipeline import analyse, search_folders
 
 
 def interface_folder(root: str) -> str:
     """The folder for new interfaces: the first that the workspace declares."""
-    from robocomp_yaml.link.workspace import read
-
     declared = read(root)[0].interfaces
     return declared[0] if declared else os.path.join(root, "interfaces")
 
 
 def interfaces_of(root: str, include: Sequence[str] = ()) -> dict[str, list[tuple[str, str]]]:
     """The interfaces and topics that documents of the workspace define: name to (module, path), sorted."""
-    from robocomp_yaml.link.workspace import read
-    from robocomp_yaml.pipeline import analyse
-
     folders = [root, *read(root)[0].interfaces, *include]
     program = analyse([folder for folder in folders if os.path.isdir(folder)], include).program
     found: dict[str, set[tuple[str, str]]] = {}
@@ -41,17 +39,12 @@ def imports_for(root: str, document: str, wanted: Sequence[str], include: Sequen
 
 
 def _searched(root: str, include: Sequence[str]) -> Iterator[str]:
-    from robocomp_yaml.link.workspace import read
-    from robocomp_yaml.pipeline import search_folders
-
     yield from read(root)[0].interfaces
     yield from search_folders(include)
 
 
 def _defining(wanted: str, known: dict[str, list[tuple[str, str]]]) -> str:
     """The document that defines an interface, given as `Interface` or `Module.Interface`."""
-    from robocomp_yaml.diag.suggest import suggest
-
     module, _, name = wanted.rpartition(".")
     candidates = [
         (defining, path)
@@ -59,9 +52,8 @@ def _defining(wanted: str, known: dict[str, list[tuple[str, str]]]) -> str:
         if not module or module in (defining, os.path.basename(path).removesuffix(".idsl.yaml"))
     ]
     if not candidates:
-        meant = suggest(name, known)
-        hint = f"did you mean '{meant}'?" if meant else "`rcyaml new interface NAME` writes one"
-        raise Refused(f"no document of this workspace defines an interface '{wanted}'; {hint}")
+        hint = meant(name, known, "`rcyaml new interface NAME` writes one")
+        raise Refused(f"no document of this workspace defines an interface '{wanted}'{hint}")
     if len(candidates) > 1:
         named = " or ".join(f"{defining}.{name}" for defining, _ in candidates)
         raise Refused(f"several documents define an interface '{wanted}': say {named}")

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 import msgspec
 
 from robocomp_yaml import languages, resources
-from robocomp_yaml.api import new
+from robocomp_yaml.api.new.documents import NewDocument, component_document, interface_document
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.link import workspace_files
 from robocomp_yaml.link.workspace import root_above
@@ -31,12 +31,12 @@ def init(folder: str, report: Report, *, bare: bool = False) -> None:
     is_empty = not os.path.isdir(folder) or not list(documents_below(folder))
     _make(folder, report)
     if is_empty and not bare:
-        _write(new.interface_document(folder, EXAMPLE), report)
+        _write(interface_document(folder, EXAMPLE), report)
         example = {"implements": [EXAMPLE]}
-        _write(new.component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example), report)
+        _write(component_document(folder, f"{EXAMPLE}Comp", languages.DEFAULT, example), report)
 
 
-def create(make: Callable[[str], new.NewDocument], report: Report) -> str:
+def create(make: Callable[[str], NewDocument], report: Report) -> str:
     """Writes a document into the workspace of this folder, which becomes one where there is none; its path. `make`
     gives it for the folder of a workspace: what it refuses leaves none behind. Raises OSError as `init` does."""
     root = root_above(".")
@@ -66,7 +66,7 @@ def _make(folder: str, report: Report) -> None:
         report(NOTE, problem)
 
 
-def _write(document: new.NewDocument, report: Report) -> None:
+def _write(document: NewDocument, report: Report) -> None:
     """Writes a document where nothing stands yet."""
     os.makedirs(os.path.dirname(document.path) or ".", exist_ok=True)
     whole_file.create(document.path, document.text)

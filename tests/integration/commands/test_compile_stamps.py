@@ -10,7 +10,7 @@ import pytest
 
 from conftest import write_tree
 from robocomp_yaml import api
-from robocomp_yaml.api import made_already
+from robocomp_yaml.api import compile_stamps
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import table
 from robocomp_yaml.diag.page import Files, Repeated
@@ -46,11 +46,11 @@ def test_documents_with_errors(row: Code, tmp_path: Path, monkeypatch: pytest.Mo
     paths = _paths(row)
     _run(paths)
     again = _run(paths)
-    kept = made_already.outcome(paths, ())
+    kept = compile_stamps.earlier_outcome(compile_stamps.Arguments(paths, ()))
     assert kept is not None, "every run is made again"
     assert _told(kept) == _told(again)
     for name in {*row.wrong} - {*row.right}:
         if os.path.lexists(name):
             os.unlink(name) if not os.path.isdir(name) or os.path.islink(name) else os.rmdir(name)
     write_tree(tmp_path, {name: it for name, it in _plain(row.right).items() if row.wrong.get(name) != it})
-    assert made_already.outcome(paths, ()) is None, "an error stays though its cause has gone"
+    assert compile_stamps.earlier_outcome(compile_stamps.Arguments(paths, ())) is None, "an error stays though its cause has gone"

@@ -81,7 +81,7 @@ def test_it_goes_into_a_file(rcyaml: Run, tmp_path: Path, form: str) -> None:
 @pytest.mark.usefixtures("robot")
 def test_a_file_that_cannot_be_written(rcyaml: Run) -> None:
     result = rcyaml("graph", "head.ddsl.yaml", "-o", "no/such/folder/picture")
-    assert result.exit_code == 1 and "cannot be written: no such file or directory" in result.output
+    assert result.exit_code == 1 and "cannot write no/such/folder/picture: no such file or directory" in result.output
 
 
 def test_problems_are_red(rcyaml: Run, tmp_path: Path) -> None:

@@ -114,7 +114,7 @@ def test_what_cannot_be_written_is_said(rcyaml: Run, tmp_path: Path, monkeypatch
 
     monkeypatch.setattr(whole_file, "create", refuse)
     said = rcyaml("init")
-    assert (said.exit_code, said.stderr) == (1, "Error: cannot write rcyaml.yaml: Permission denied\n")
+    assert (said.exit_code, said.stderr) == (1, "Error: cannot write rcyaml.yaml: permission denied\n")
 
 
 def test_quiet_says_nothing(rcyaml: Run) -> None:
