@@ -13,6 +13,7 @@ import os
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from types import SimpleNamespace
 from typing import Any
 
 import click
@@ -35,13 +36,6 @@ COMMANDS = {
     "schema": "Print the JSON Schema of a kind of document.",
     "explain": "Say what a diagnostic means, with examples.",
 }
-
-
-class Options:
-    """What holds for every command. `verbosity`: -1 quiet, 0, 1 verbose; `color`: None = as the terminal wants."""
-
-    def __init__(self, color: bool | None, verbosity: int) -> None:
-        self.color, self.verbosity = color, verbosity
 
 
 class _ReaderGone(Exception):
@@ -122,7 +116,7 @@ def group(ctx: click.Context, color: str, quiet: bool, verbose: bool) -> None:
     if wanted is None and os.environ.get("NO_COLOR"):
         wanted = False
     ctx.color = wanted
-    ctx.obj = Options(wanted, -1 if quiet else int(verbose))
+    ctx.obj = SimpleNamespace(verbosity=-1 if quiet else int(verbose))
 
 
 def _tell(error: click.ClickException) -> None:
@@ -190,9 +184,8 @@ class _End:
 def _make_streams_usable() -> None:
     """Standard streams that are closed swallow what they are given, and no character is refused: what an old encoding
     lacks leaves as a question mark."""
-    if sys.stdout is None:
-        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (for the whole run)
-    if sys.stderr is None:
-        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 (for the whole run)
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")

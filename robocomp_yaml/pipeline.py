@@ -103,14 +103,14 @@ def search_folders(given: Iterable[str]) -> tuple[str, ...]:
 def analyse(
     paths: Iterable[str],
     extra: Iterable[str] = (),
-    on_read: Callable[[str], None] = lambda path: None,
+    on_read: Callable[[str], None] | None = None,
     overlay: Mapping[str, bytes] | None = None,
 ) -> Analysis:
     """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
     document that is read. `overlay` has contents, by path, that count instead of the disk's."""
     disk = Disk(overlay)
     found = discover(list(paths), disk)
-    linker = Linker(Documents(disk, on_read), Search(search_folders(extra), disk))
+    linker = Linker(Documents(disk, on_read or (lambda path: None)), Search(search_folders(extra), disk))
     program = linker.link(found.documents)
     derived = networks_of(program)
     said = [*found.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]

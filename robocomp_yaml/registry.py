@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import importlib
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from types import ModuleType
+from typing import Any
 
 import msgspec
 
@@ -46,6 +47,19 @@ class Modules(msgspec.Struct, frozen=True):
         if name not in modules:
             raise ValueError(f"there is no {self.what} '{name}'")
         return importlib.import_module(modules[name])
+
+
+def lazily(module: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
+    """A module's `__getattr__`: its names, each with the module that defines it, are imported when they are first
+    asked for."""
+    home_of = {name: home for home, names in homes.items() for name in names.split()}
+
+    def attribute(name: str) -> Any:
+        if name not in home_of:
+            raise AttributeError(f"module '{module}' has no attribute '{name}'")
+        return member(f"robocomp_yaml.{home_of[name]}:{name}")
+
+    return attribute
 
 
 def member(path: str) -> object:

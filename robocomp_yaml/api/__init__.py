@@ -16,11 +16,12 @@ docs/api.md says more. All else in `robocomp_yaml` may change at any time. The c
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic, Related
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.registry import lazily
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
@@ -45,11 +46,11 @@ __all__ = [
 ]  # fmt: skip
 
 _HOMES = {
-    "Attached": "deploy.attached", "Built": "api.building", "Change": "api.values", "Compilation": "api.compiling",
-    "Deployment": "api.deploying", "File": "api.outcome", "Fixing": "api.fixing", "Line": "deploy.engine",
-    "Migration": "api.migrating", "Network": "network.network", "Outcome": "api.outcome", "Plan": "deploy.plan",
-    "Result": "deploy.operations", "Status": "deploy.operations", "Value": "parameters.editing.show",
-    "Values": "api.values", "Workspace": "api.workspace",
+    "api.building": "Built", "api.compiling": "Compilation", "api.deploying": "Deployment", "api.fixing": "Fixing",
+    "api.migrating": "Migration", "api.outcome": "File Outcome", "api.values": "Change Values",
+    "api.workspace": "Workspace", "deploy.attached": "Attached", "deploy.engine": "Line",
+    "deploy.operations": "Result Status", "deploy.plan": "Plan", "network.network": "Network",
+    "parameters.editing.show": "Value",
 }  # fmt: skip
 
 
@@ -81,12 +82,5 @@ def migrate(
     return Migration(paths, output, tuple(include), force=force, exact=exact)
 
 
-if not TYPE_CHECKING:  # which would believe in any name
-
-    def __getattr__(name: str) -> Any:
-        """Types are imported when somebody asks for them: what a command does not need, it does not load."""
-        if name not in _HOMES:
-            raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-        from importlib import import_module
-
-        return getattr(import_module(f"robocomp_yaml.{_HOMES[name]}"), name)
+if not TYPE_CHECKING:  # mypy would accept any name
+    __getattr__ = lazily(__name__, _HOMES)

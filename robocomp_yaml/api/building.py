@@ -37,18 +37,10 @@ class Built(msgspec.Struct, frozen=True):
         return has_errors(self.diagnostics) or any(one.state == FAILED for one in self.components)
 
 
-def units(analysis: Analysis, documents: Iterable[str] = ()) -> list[Unit]:
-    """The components of these documents, but for those that cannot be read; without any, all that were asked for."""
-    return [_unit(analysis, linked) for linked in _components(analysis, documents)]
-
-
-def every_unit(analysis: Analysis) -> list[Unit]:
-    """All components that were read."""
-    return [_unit(analysis, linked) for linked in analysis.program.components.values()]
-
-
-def _unit(analysis: Analysis, linked: LinkedComponent) -> Unit:
-    return unit_of(linked, analysis.linker.workspace_of(linked.component.path))
+def units(analysis: Analysis, components: Iterable[LinkedComponent] | None = None) -> list[Unit]:
+    """These components as they are built; by default, all that were asked for."""
+    chosen = _components(analysis) if components is None else components
+    return [unit_of(linked, analysis.linker.workspace_of(linked.component.path)) for linked in chosen]
 
 
 def _components(analysis: Analysis, documents: Iterable[str] = ()) -> list[LinkedComponent]:
@@ -80,7 +72,7 @@ def build(
     if documents and not components:
         raise Faulty(analysis.diagnostics, analysis.program.documents)
     job.tell([*_unread(analysis, documents), *outdated_components(components)])
-    found = builder.build(job, [_unit(analysis, linked) for linked in components])
+    found = builder.build(job, units(analysis, components))
     return Built(build_type, tuple(found), tuple(analysis.veiled(job.told)), round(_cpu() - before, 2))
 
 
@@ -112,12 +104,8 @@ def documents(names: Sequence[str]) -> list[str]:
 
 
 def clean(
-    analysis: Analysis,
-    documents: Sequence[str],
-    build_type: str | None = None,
-    *,
-    everything: bool = False,
+    analysis: Analysis, documents: Sequence[str], build_type: str | None = None, *, everything: bool = False
 ) -> list[str]:
     """Takes the build trees of these components away; the folders that are gone. Of `everything` that was asked for,
     whole trees."""
-    return builder.clean(units(analysis, documents), everything, build_type)
+    return builder.clean(units(analysis, _components(analysis, documents)), everything, build_type)

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from msgspec.structs import replace
 
-from robocomp_yaml.api import compile_stamps
+from robocomp_yaml.api.compile_stamps import Arguments, keep
 from robocomp_yaml.api.neighbours import ports
 from robocomp_yaml.api.outcome import File, Outcome
 from robocomp_yaml.diag.codes.files import PLUGIN_FAILED
@@ -35,19 +35,15 @@ class Compilation:
     `apply` would do; it writes what the documents were when they were loaded.
     """
 
-    def __init__(
-        self, analysis: Analysis, paths: Sequence[str], include: Sequence[str], output: str | None,
-        targets: Sequence[str], *, adopt: bool, merge: bool, standalone: bool = False,
-    ) -> None:  # fmt: skip
-        self._analysis, self._adopt, self._merge = analysis, adopt, merge
-        self._paths, self._output = tuple(paths), output
-        self._arguments = compile_stamps.Arguments(self._paths, include, output, targets, standalone)
+    def __init__(self, analysis: Analysis, arguments: Arguments, *, adopt: bool, merge: bool) -> None:
+        self._analysis, self._arguments, self._adopt, self._merge = analysis, arguments, adopt, merge
+        self._output = arguments.output
         options = Options(
-            output, analysis.found.folders, frozenset(targets), analysis.linker.workspace_of, ports(analysis),
-            standalone=standalone,
+            self._output, analysis.found.folders, frozenset(arguments.targets), analysis.linker.workspace_of,
+            ports(analysis), standalone=arguments.standalone,
         )  # fmt: skip
         self._built = build(analysis.program, analysis.diagnostics, options)
-        Fences(self._paths, output).keep_inside(self._built)
+        Fences(arguments.paths, self._output).keep_inside(self._built)
 
     @cached_property
     def outcome(self) -> Outcome:
@@ -92,7 +88,7 @@ class Compilation:
         if not self._merge and not has_errors(one for one in told if one not in lasting):
             taken = self._stamp(own, changes, schemas, outcome.settled(lasting, changes))
             if taken is not None:
-                compile_stamps.keep(taken, self._arguments)
+                keep(taken, self._arguments)
         return replace(outcome, to_build=self._to_build()) if outcome.dirty and self._output is None else outcome
 
     def _to_build(self) -> tuple[str, ...]:
@@ -120,7 +116,7 @@ class Compilation:
         """Brings the schemas up to date that editors read; their contents by path. A workspace that cannot be written
         to has compiled all the same."""
         found: dict[str, bytes] = {}
-        fences = Fences(self._paths, None)
+        fences = Fences(self._arguments.paths, None)
         for workspace in self._analysis.linker.workspaces.values():
             if not fences.hold(workspace.root):
                 continue

@@ -105,17 +105,14 @@ class Deployment:
     def stale(self, *names: str) -> list[Stale]:
         """The components whose programs are not there, or are older than what they are made of, of those that are
         built and start here; of NAMEs, with all that they need."""
-        from robocomp_yaml.api.building import every_unit
+        from robocomp_yaml.api.building import units
         from robocomp_yaml.deploy.stale import stale
 
         wanted = with_dependences(self.network, self.chosen(names)) if names else self.enabled
-        return stale(self.network, every_unit(self._analysis), wanted)
+        return stale(self.network, units(self._analysis, self._analysis.program.components.values()), wanted)
 
     def build(
-        self,
-        *names: str,
-        build_type: str | None = None,
-        report: Callable[[Event], None] | None = None,
+        self, *names: str, build_type: str | None = None, report: Callable[[Event], None] | None = None
     ) -> list[Built]:
         """Builds what is `stale`, each as it was built last unless `build_type` says how; what came of it, for each
         type."""

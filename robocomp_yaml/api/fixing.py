@@ -3,19 +3,32 @@
 from __future__ import annotations
 
 import os
+import stat
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+import msgspec
+
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.fixing.files import Written, write
-from robocomp_yaml.fixing.rounds import MISSHAPEN, UNDERSTOOD, UNREADABLE, Done, Look, mend
+from robocomp_yaml.fixing import MISSHAPEN, UNDERSTOOD, UNREADABLE, Done, Look, mend
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.source.regular import whole
+from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.workspace import Workspace
+
+
+class Written(msgspec.Struct, frozen=True):
+    """A document that was fixed, or, with a reason, was not. `before` and `after` are its contents."""
+
+    path: str
+    before: bytes
+    after: bytes
+    reason: str = ""
 
 
 class Fixing:
@@ -79,9 +92,17 @@ class Fixing:
         self._remaining = None
 
     def _write(self, *, look_only: bool) -> tuple[Written, ...]:
-        contents = self._before.analysis.disk.contents
-        changed = ((path, contents[path], after) for path, after in sorted(self._changed.items()))
-        return tuple(write(self._paths, changed, look_only=look_only))
+        return tuple(self._written(path, after, look_only) for path, after in sorted(self._changed.items()))
+
+    def _written(self, path: str, after: bytes, look_only: bool) -> Written:
+        before = self._before.analysis.disk.contents[path]
+        try:
+            reason = _refusal(self._paths, path, before)
+            if not reason and not look_only:
+                whole_file.replace(path, after)
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+        return Written(path, before, after, reason)
 
     def _look(self, changed: Mapping[str, bytes]) -> Look:
         workspace = self._load(changed) if changed else self._before
@@ -112,3 +133,14 @@ def _asked(analysis: Analysis) -> set[str]:
 
 def _text(content: bytes) -> str:
     return content.decode("utf-8", "surrogateescape")
+
+
+def _refusal(paths: Sequence[str], path: str, before: bytes) -> str:
+    """Why a document is left as it is, or ''. Raises OSError where it cannot be read."""
+    real = os.path.realpath(path)
+    named = {os.path.realpath(asked) for asked in paths}
+    if real not in named and not any(stays_inside(asked, real) for asked in paths if os.path.isdir(asked)):
+        return f"a link leads out of what was asked for, to {real}: name that file to have it fixed"
+    if not os.stat(real).st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH) or not os.access(real, os.W_OK):
+        return "it is read-only"
+    return "" if whole(real)[0] == before else "it was changed meanwhile: check again"

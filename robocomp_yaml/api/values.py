@@ -183,14 +183,9 @@ class Values:
         self._refuse_bad(type_, steps, value, _place_of(root, ["parameters", *steps]), is_text=is_text)
         try:
             change = edit(
-                self.file,
-                text,
-                root,
-                ["parameters", *steps],
-                value,
-                is_text=is_text and value != "null",
+                self.file, text, root, ["parameters", *steps], value, is_text=is_text and value != "null",
                 lines_above=lambda way: lines_above(of, way[1:]),
-            )
+            )  # fmt: skip
         except NotEditable as refused:
             raise Refused(f"{path} cannot be set in {self.file}:{refused.node.span.line}: {refused}") from None
         bom = raw[:3] if raw.startswith(b"\xef\xbb\xbf") else b""

@@ -4,8 +4,8 @@ one. All of these raise Refused where none is meant, or several are."""
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NoReturn
 
 from robocomp_yaml.api.refusals import meant
 from robocomp_yaml.diag.errors import Refused
@@ -50,14 +50,22 @@ def _of_folder(folder: str) -> str:
     """The component of a folder: the only one in it, else the only one below it."""
     beside = References(Disk()).beside
     nearest = (beside(folder, "cdsl"), beside(folder, "pdsl"), of_kind(folder, "cdsl"), of_kind(folder, "pdsl"))
-    for found in nearest:
-        if len(found) == 1:
-            return found[0]
-        if found:
-            several = "there are several components here" if not folder else f"'{folder}' has several components"
-            raise Refused(f"{several}: {_listed(found)}; name one of them")
-    raise Refused(f"there is no component {f'in {folder!r}' if folder else 'here'}; "
-                           "`rcyaml new component NAME` writes one")  # fmt: skip
+    several = f"'{folder}' has several components" if folder else "there are several components here"
+    missing = f"there is no component {f'in {folder!r}' if folder else 'here'}"
+    return _only(nearest, several) or _refuse(f"{missing}; `rcyaml new component NAME` writes one")
+
+
+def _only(nearest: Iterable[list[str]], several: str) -> str | None:
+    """The only element of the first list that has one; None if all lists are empty. Raises Refused if it has more."""
+    found = next(filter(None, nearest), [])
+    if len(found) > 1:
+        more = f" and {len(found) - 10} more" if len(found) > 10 else ""
+        raise Refused(f"{several}: {', '.join(found[:10])}{more}; name one of them")
+    return found[0] if found else None
+
+
+def _refuse(message: str) -> NoReturn:
+    raise Refused(message)
 
 
 def _named(name: str) -> str:
@@ -69,32 +77,22 @@ def _named(name: str) -> str:
         path: (component_in(path), stem(path), os.path.basename(os.path.dirname(path)))
         for path in of_kind(root, "cdsl")
     }
-    same: list[Callable[[str], bool]] = [lambda other: other == name, lambda other: other.lower() == name.lower()]
-    for is_same in same:
-        found = [path for path, known in names.items() if any(map(is_same, known))]
-        if len(found) == 1:
-            return found[0]
-        if found:
-            raise Refused(f"several components are called '{name}': {_listed(found)}; name one of them")
-    known = [called for called, *_ in names.values() if called]
-    raise Refused(f"there is no component '{name}'{meant(name, known)}")
-
-
-def _listed(paths: list[str]) -> str:
-    return ", ".join(paths[:10]) + (f" and {len(paths) - 10} more" if len(paths) > 10 else "")
+    same = [path for path, known in names.items() if name in known]
+    alike = [path for path, known in names.items() if name.lower() in map(str.lower, known)]
+    components = [called for called, *_ in names.values() if called]
+    return _only((same, alike), f"several components are called '{name}'") or _refuse(
+        f"there is no component '{name}'{meant(name, components)}"
+    )
 
 
 def component_near(values_document: str) -> str:
     """The only component beside a values document, or one folder up."""
     folder = os.path.dirname(values_document)
-    for where in (folder, os.path.normpath(os.path.join(folder, os.pardir))):
-        for kind in ("cdsl", "pdsl"):
-            found = References(Disk()).beside(where, kind)
-            if len(found) == 1:
-                return found[0]
-            if found:
-                raise Refused(f"there are several components here: {', '.join(found)}; name one of them")
-    raise Refused(f"there is no component beside {values_document}, nor one folder up")
+    folders = (folder, os.path.normpath(os.path.join(folder, os.pardir)))
+    nearest = (References(Disk()).beside(where, kind) for where in folders for kind in ("cdsl", "pdsl"))
+    return _only(nearest, "there are several components here") or _refuse(
+        f"there is no component beside {values_document}, nor one folder up"
+    )
 
 
 def deployment(path: str, include: tuple[str, ...]) -> str:

@@ -34,7 +34,7 @@ class Workspace:
         on_read: Callable[[str], None] | None = None,
     ) -> None:  # fmt: skip
         self._paths, self._include, self._overlay = tuple(paths), tuple(include), overlay
-        self.analysis: Analysis = analyse(self._paths, self._include, on_read or _ignore, overlay)
+        self.analysis: Analysis = analyse(self._paths, self._include, on_read, overlay)
 
     @property
     def documents(self) -> tuple[str, ...]:
@@ -52,29 +52,17 @@ class Workspace:
         return self.analysis.whole(found, environment=environment)
 
     def compile(
-        self,
-        *,
-        output: str | None = None,
-        targets: Sequence[str] = (),
-        adopt: bool = False,
-        merge: bool = False,
+        self, *, output: str | None = None, targets: Sequence[str] = (), adopt: bool = False, merge: bool = False,
         standalone: bool = False,
-    ) -> Compilation:
+    ) -> Compilation:  # fmt: skip
         """What compiling comes to; nothing is written before its `apply`. `output` is a folder to write below;
         `targets` limits what is written (`slice`, `python`, `cpp`, `config`, `docs`); `adopt` takes over files that
         rcyaml did not write, `merge` brings the user's files up to date."""
+        from robocomp_yaml.api.compile_stamps import Arguments
         from robocomp_yaml.api.compiling import Compilation
 
-        return Compilation(
-            self.analysis,
-            self._paths,
-            self._include,
-            output,
-            targets,
-            adopt=adopt,
-            merge=merge,
-            standalone=standalone,
-        )
+        arguments = Arguments(self._paths, self._include, output, targets, standalone)
+        return Compilation(self.analysis, arguments, adopt=adopt, merge=merge)
 
     def build(
         self, *names: str, build_type: str = "Release", jobs: int | None = None, defines: Sequence[str] = (),
@@ -157,12 +145,9 @@ class Workspace:
 
     def _deployment_at(self, path: str) -> str:
         """The document of the deployment that is meant, if it comes to a network."""
-        program = self.analysis.program
-        wanted = (
-            {os.path.realpath(path)}
-            if path
-            else {real for real, linked in program.deployments.items() if not linked.is_included}
-        )
+        deployments = self.analysis.program.deployments
+        top = {real for real, linked in deployments.items() if not linked.is_included}
+        wanted = {os.path.realpath(path)} if path else top
         read = self.analysis.linker.documents.read
         found = [read[real].path for real in self.analysis.networks if real in wanted]
         if found:
@@ -209,7 +194,3 @@ class Workspace:
         from robocomp_yaml.emit.environment import missing
 
         return missing(self.analysis.program.components.values(), self.analysis.linker.workspace_of)
-
-
-def _ignore(path: str) -> None:
-    """Nobody wants to be told of what is read."""

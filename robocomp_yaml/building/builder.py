@@ -5,16 +5,21 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 
-from robocomp_yaml.building import commands, stamps
+from robocomp_yaml.building import stamps
 from robocomp_yaml.building.inputs import Inputs
-from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, Builder, Job, Made, Result
+from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, Builder, Job, Made, Result, Step
+from robocomp_yaml.building.said import Said
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
+from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.emit.layout import GENERATED, SOURCES
 from robocomp_yaml.languages.record import TargetLanguage
+
+_LAST = 10  # lines that are shown of what failed without a word that is understood
 
 
 def build(job: Job, units: Sequence[Unit]) -> list[Result]:
@@ -70,7 +75,7 @@ def _made(job: Job, language: TargetLanguage, units: list[Unit], inputs: Inputs)
     """Has the language build them, and keeps the stamps of those that are."""
     taken = {unit: stamps.take(unit, inputs, job.type) for unit in units}
     began = time.time_ns()
-    builder: Builder = language.part("building").build if language.has_building else commands.build
+    builder: Builder = language.part("building").build if language.has_building else _run_commands
     done = builder(job, units)
     for unit, made in done.items():
         if made.is_built and _still(made.read, began):
@@ -88,3 +93,46 @@ def _still(files: Iterable[str], began: int) -> bool:
 
 def _result(unit: Unit, state: str, cpu: float = 0.0) -> Result:
     return Result(unit.name, unit.language.name, unit.folder, unit.program, state, round(cpu, 2))
+
+
+def _run_commands(job: Job, units: list[Unit]) -> dict[Unit, Made]:
+    """Builds them by the commands that their language's record names, some at a time."""
+    done: dict[Unit, Made] = {}
+    with ThreadPoolExecutor(job.jobs) as pool:
+        running = {unit: pool.submit(_run, job, unit) for unit in units}
+        try:
+            for number, (unit, future) in enumerate(running.items()):
+                job.report(Step(number, len(units), f"Building {unit.name}"))
+                done[unit] = _made_of(job, unit, future)
+        except BaseException:
+            job.processes.end()
+            raise
+    return done
+
+
+def _made_of(job: Job, unit: Unit, future: Future[tuple[int, float, list[str]]]) -> Made:
+    try:
+        code, cpu, lines = future.result()
+    except OSError as error:
+        job.failed(unit, (error.strerror or str(error)).lower())
+        return Made(False)
+    found = list(Said(unit.folder, f"the {unit.language.title} compiler").diagnostics(lines))
+    job.tell(found)
+    if code == 0 and os.path.exists(unit.program):
+        return Made(True, cpu)
+    if not has_errors(found):
+        reason = f"its build ended with exit code {code}" if code else f"its build left no {unit.program}"
+        job.failed(unit, reason, more=lines[-_LAST:])
+    return Made(False, cpu)
+
+
+def _run(job: Job, unit: Unit) -> tuple[int, float, list[str]]:
+    lines: list[str] = []
+    cpu = 0.0
+    for words in unit.language.build:
+        command = [word.format(folder=os.path.abspath(unit.folder)) for word in words]
+        ended = job.processes.run(command, lines.append)
+        cpu += ended.cpu
+        if ended.code:
+            return ended.code, cpu, lines
+    return 0, cpu, lines

@@ -64,9 +64,7 @@ class Said:
 
     def _is_one(self, placed: re.Match[str]) -> bool:
         """What names a place without saying what it is, is an error of the Slice compilers, or of the linker."""
-        return (
-            bool(placed["kind"]) or placed["file"].endswith(_SLICE) or placed["text"].startswith("undefined reference")
-        )
+        return bool(placed["kind"]) or self._tool(placed) != self._compiler
 
     def _span(self, placed: re.Match[str]) -> Span:
         file, number = self._path(placed["file"]), int(placed["line"])
@@ -76,8 +74,7 @@ class Said:
 
     def _marked(self, span: Span, marks: re.Match[str]) -> Span:
         """With the length that marks have; those of javac tell the column, too."""
-        has_rail = "|" in marks["lead"]
-        if not has_rail:
+        if "|" not in marks["lead"]:
             column = self._character(span.file, span.line, len(marks["lead"]) + len(marks["before"]) + 1)
             return replace(span, column=column, end_column=column + len(marks["marks"]))
         return replace(span, end_column=span.column + len(marks["marks"]) - marks["marks"].index("^"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from itertools import islice
 
 import msgspec
 
@@ -54,17 +55,12 @@ def unit_of(linked: LinkedComponent, workspace: Workspace) -> Unit:
     folder = os.path.dirname(component.path) or "."
     target = component.language.target
     runtime = runtime_folder(workspace, target) if target.runtime and workspace.declared else ""
+    root = (workspace.root or ".") if workspace.declared else folder
     return Unit(
-        component.name,
-        target,
-        component.path,
-        folder,
-        workspace.root or "." if workspace.declared else folder,
-        not workspace.declared,
-        runtime if os.path.isdir(runtime) else "",
-        tuple(_slices(linked, workspace, folder)),
-        tuple(_sources(linked, workspace, folder)),
-    )
+        component.name, target, component.path, folder, root, is_alone=not workspace.declared,
+        runtime=runtime if os.path.isdir(runtime) else "",
+        slices=tuple(_slices(linked, workspace, folder)), sources=tuple(_sources(linked, workspace, folder)),
+    )  # fmt: skip
 
 
 def _slices(linked: LinkedComponent, workspace: Workspace, folder: str) -> Iterator[str]:
@@ -87,6 +83,4 @@ def _sources(linked: LinkedComponent, workspace: Workspace, folder: str) -> Iter
         heads = ("", "classes", "Classes") if source.is_class else ("",)
         below = [os.path.join(folder, place, head) for place in places(linked, workspace, folder) for head in heads]
         paths = (os.path.normpath(os.path.join(place, source.path)) for place in below)
-        found = next(filter(os.path.exists, paths), None)
-        if found is not None:
-            yield found
+        yield from islice(filter(os.path.exists, paths), 1)

@@ -8,7 +8,7 @@ from collections.abc import Collection, Sequence
 from typing import Any
 
 from robocomp_yaml.deploy.differences import shown_path
-from robocomp_yaml.deploy.engine import OWN, Line
+from robocomp_yaml.deploy.engine import OWN, Line, Running
 from robocomp_yaml.deploy.operations import KEEP_GOING, ROLL_BACK, Result, Status
 from robocomp_yaml.deploy.plan import CHANGE, KEEP, RESTART, START, STOP, Plan, Step
 from robocomp_yaml.deploy.probe import Found
@@ -114,25 +114,21 @@ def _state(one: Status) -> str:
 
 
 def status_data(network: Network, found: Sequence[Status]) -> list[dict[str, Any]]:
-    return [
-        {
-            "name": one.name,
-            "host": one.host,
-            "state": one.state if one.running else "not started",
-            "ready": one.is_ready,
-            "pid": one.running.pid if one.running else 0,
-            "uptime": round(one.running.uptime, 3) if one.running else 0,
-            "restarts": one.running.restarts if one.running else 0,
-            "last_exit": one.running.last_exit if one.running else "",
-            "memory": one.running.memory if one.running else 0,
-            "cpu": one.running.cpu if one.running else 0,
-            "endpoints": [
-                {"interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text}
-                for endpoint in (network.processes[one.name].endpoints if one.name in network.processes else ())
-            ],
-        }
-        for one in found
-    ]
+    return [_status_data(network, one, one.running) for one in found]
+
+
+def _status_data(network: Network, one: Status, running: Running | None) -> dict[str, Any]:
+    process = network.processes.get(one.name)
+    return {
+        "name": one.name, "host": one.host, "state": one.state if running else "not started", "ready": one.is_ready,
+        "pid": running.pid if running else 0, "uptime": round(running.uptime, 3) if running else 0,
+        "restarts": running.restarts if running else 0, "last_exit": running.last_exit if running else "",
+        "memory": running.memory if running else 0, "cpu": running.cpu if running else 0,
+        "endpoints": [
+            {"interface": endpoint.interface, "identity": endpoint.identity, "endpoint": endpoint.text}
+            for endpoint in (process.endpoints if process else ())
+        ],
+    }  # fmt: skip
 
 
 def probe_lines(found: Sequence[Found], color: bool) -> list[Shown]:

@@ -38,7 +38,8 @@ class Plugged(click.ParamType):  # type: ignore[type-arg]  # older ones are not 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         choices = self.choices(ctx)
         if value not in choices:
-            _tell_of_plugins(ctx)
+            for path in _paths(ctx):
+                here(path)  # raises Faulty if the choice may be that of a plug-in that is missing
         return str(click.Choice(choices).convert(value, param, ctx))
 
     def choices(self, ctx: click.Context | None) -> list[str]:
@@ -86,20 +87,14 @@ def _may_name_some(path: str) -> bool:
     from robocomp_yaml.source.discover import WORKSPACE_FILE
     from robocomp_yaml.source.regular import regular
 
-    here = os.path.abspath(path)
-    for end in (len(here), *(at for at in range(len(here) - 1, -1, -1) if here[at] == "/")):
-        folder = here[:end] or "/"
+    folder, below = os.path.abspath(path), ""
+    while folder != below:
         with suppress(OSError), open(os.path.join(folder, WORKSPACE_FILE), "rb", opener=regular) as file:
             return b"plugins" in file.read()
+        folder, below = os.path.dirname(folder), folder
     return False
 
 
 def _paths(ctx: click.Context | None) -> list[str]:
     words = ctx.meta.get(_WORDS, ()) if ctx is not None else ()
     return [word for word in words if os.path.exists(word)] or ["."]
-
-
-def _tell_of_plugins(ctx: click.Context | None) -> None:
-    """What is not known may be that of a plug-in that cannot be had: then it is told why."""
-    for path in _paths(ctx):
-        here(path)

@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
 import click
 
 from robocomp_yaml.commands import _options
 from robocomp_yaml.commands._command import Command
+from robocomp_yaml.diag import terminal
+from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
+from robocomp_yaml.diag.render import tell
+from robocomp_yaml.diag.render.json import dumps, fix_as_data, run_as_data
+
+if TYPE_CHECKING:
+    from robocomp_yaml.api.fixing import Fixing
+    from robocomp_yaml.fixing import Done
 
 
 @click.command(cls=Command, short_help="Report everything that is wrong with the documents.")
@@ -30,11 +41,76 @@ def command(
 
     paths = paths or (".",)
     if fix or unsafe_fixes or diff:
-        from robocomp_yaml.commands import _fixing
-
         fixing = api.load(*paths, include=include).fix(unsafe=unsafe_fixes, environment=environment)
-        _fixing.report(ctx, fixing, format_, fail_on, look_only=diff)
+        _fix(ctx, fixing, format_, fail_on, look_only=diff)
     with _options.progress("reading", paths) as on_read:
         workspace = api.load(*paths, include=include, on_read=on_read)
     told = workspace.check(environment=environment)
     _options.report(ctx, format_, told, workspace.documents_read, fail_on)
+
+
+def _fix(ctx: click.Context, fixing: Fixing, format_: str, fail_on: _options.FailOn, *, look_only: bool) -> None:
+    """Fixes, unless it is to be looked at only, prints what was fixed and what remains, and ends the command: with 1
+    too where a document could not be written."""
+    if not look_only:
+        fixing.apply()
+    told, documents, color = fixing.diagnostics, fixing.remaining.documents_read, _options.colored(ctx)
+    if format_ == "json":
+        terminal.data(dumps(_as_data(fixing, told, documents, look_only)), json=True)
+    elif format_ == "sarif":
+        tell(format_, told, documents)
+    elif look_only:
+        terminal.diff(fixing.diffs(), color)
+        terminal.say(*_left(fixing), _would(fixing, told), err=True)
+    else:
+        if ctx.obj.verbosity >= 0:
+            terminal.say(*(f"fixed  {_said(one)}" for one in fixing.fixed))
+        terminal.say(*_left(fixing))
+        if ctx.obj.verbosity >= 0 or told:
+            tell(format_, told, documents, color)
+        fail_on.explain(told)
+    ctx.exit(1 if fixing.refused else fail_on.code(told))
+
+
+def _left(fixing: Fixing) -> Iterator[str]:
+    files = fixing.refused
+    yield from (f"left   {_said(one)}: {one.reason}" for one in fixing.left if one.diagnostic.span.file not in files)
+    yield from (f"left   {one.path}: {one.reason}" for one in fixing.written if one.reason)
+
+
+def _said(one: Done) -> str:
+    span = one.diagnostic.span
+    return f"{span.file}:{span.line}:{span.column}: {one.fix.title} ({one.diagnostic.code})"
+
+
+def _would(fixing: Fixing, told: list[Diagnostic]) -> str:
+    counts = [
+        f"{n} {severity}{'' if n == 1 else 's'}"
+        for severity in SEVERITIES if (n := sum(one.severity == severity for one in told))
+    ]  # fmt: skip
+    count = len(fixing.fixed)
+    return f"{count} fix{'' if count == 1 else 'es'} to apply: {', '.join(counts) or 'nothing'} would remain"
+
+
+def _as_data(fixing: Fixing, told: list[Diagnostic], documents: int, look_only: bool) -> dict[str, Any]:
+    diffs = iter(fixing.diffs()) if look_only else None
+    files = []
+    for one in fixing.written:
+        files.append({
+            "path": one.path, "action": "refused" if one.reason else "fix" if look_only else "fixed",
+            **({"reason": one.reason} if one.reason else {"diff": next(diffs)} if diffs is not None else {}),
+        })  # fmt: skip
+    return {
+        **run_as_data(told, documents),
+        "fixed": [_done_as_data(one) for one in fixing.fixed],
+        "not_fixed": [{**_done_as_data(one), "reason": one.reason} for one in fixing.left],
+        "files": files,
+    }
+
+
+def _done_as_data(one: Done) -> dict[str, Any]:
+    span = one.diagnostic.span
+    return {
+        "code": one.diagnostic.code, "file": span.file, "line": span.line, "column": span.column,
+        **fix_as_data(one.fix),
+    }  # fmt: skip

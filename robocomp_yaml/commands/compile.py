@@ -22,14 +22,10 @@ if TYPE_CHECKING:
 
 SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
 
-_DONE = {
-    "create": "wrote", "update": "updated", "adopt": "took over", "edited": "rewrote", "remove": "removed",
-    "merge": "merged", "kept": "kept", "left": "left", "unchanged": "unchanged",
-}  # fmt: skip
-_WOULD = {
-    "create": "would write", "update": "would update", "adopt": "would take over", "edited": "would rewrite",
-    "remove": "would remove", "merge": "would merge", "kept": "would keep", "left": "would leave",
-    "unchanged": "unchanged",
+_WORDS = {  # what was done, and what would be done
+    "create": ("wrote", "would write"), "update": ("updated", "would update"), "edited": ("rewrote", "would rewrite"),
+    "adopt": ("took over", "would take over"), "remove": ("removed", "would remove"), "left": ("left", "would leave"),
+    "merge": ("merged", "would merge"), "kept": ("kept", "would keep"), "unchanged": ("unchanged", "unchanged"),
 }  # fmt: skip
 
 
@@ -112,7 +108,7 @@ def _report(
 def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
     """One line a file; of many alike in one folder of a component, or in what components share, one line for all. What
     did not change is for the curious, and so is what is the user's, where nothing beside it changed."""
-    words = _WOULD if outcome.planned else _DONE
+    words = {action: pair[outcome.planned] for action, pair in _WORDS.items()}
     changed = {file.root for file in outcome.files if file.action in CHANGED}
     listed = [file for file in outcome.files if _is_listed(file, changed, verbose=verbose)]
     if not listed:

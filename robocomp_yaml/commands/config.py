@@ -186,14 +186,10 @@ def _place(node: Node) -> str:
 
 def _as_json(row: Value) -> dict[str, Any]:
     return {
-        "path": row.path,
-        "value": row.data,
-        "unit": row.unit,
-        "editable": row.editable,
-        "default": row.node is None,
+        "path": row.path, "value": row.data, "unit": row.unit, "editable": row.editable, "default": row.node is None,
         **_json_place(row.node or row.default),
         "overrode": [{"value": row.hide(node.data), **_json_place(node)} for node in row.overrode],
-    }
+    }  # fmt: skip
 
 
 def _json_place(node: Node | None) -> dict[str, Any]:

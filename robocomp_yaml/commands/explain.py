@@ -81,36 +81,32 @@ def _tree(files: Files) -> str:
     """A small tree of files as text; of long texts, the beginning."""
     out = []
     for path, content in files.items():
-        if content is None:
+        text = _text(content)
+        if text is None:
             out.append(f"  {path}/  (an empty folder)")
-        elif isinstance(content, str) and content.startswith("-> "):
-            out.append(f"  {path} {content}  (a link)")
+        elif isinstance(content, str) and text.startswith("-> "):
+            out.append(f"  {path} {text}  (a link)")
         else:
-            text = content.decode("utf-8", "backslashreplace") if isinstance(content, bytes) else str(content)
             lines = [line if len(line) <= 100 else line[:97] + "…" for line in text.splitlines()]
             out.append("\n".join([f"  # {path}", *(f"  {line}".rstrip() for line in lines)]))
     return "\n".join(out)
 
 
+def _text(content: str | bytes | Repeated | None) -> str | None:
+    """The content of a file in an example; None for a folder."""
+    if isinstance(content, bytes):
+        return content.decode("utf-8", "backslashreplace")
+    return None if content is None else str(content)
+
+
 def _as_json(rows: list[Code]) -> str:
     from robocomp_yaml.diag.render.json import dumps
 
-    def text(content: str | bytes | Repeated | None) -> str | None:
-        if content is None:
-            return None
-        return content.decode("utf-8", "backslashreplace") if isinstance(content, bytes) else str(content)
-
-    data = [
+    return dumps([
         {
-            "code": row.id,
-            "severity": row.severity,
-            "message": row.messages[0],
-            "messages": row.messages,
-            "why": row.why,
-            "wrong": {path: text(content) for path, content in row.wrong.items()},
-            "right": {path: text(content) for path, content in row.right.items()},
-            "command": row.command,
+            "code": row.id, "severity": row.severity, "message": row.messages[0], "messages": row.messages,
+            "why": row.why, "wrong": {path: _text(content) for path, content in row.wrong.items()},
+            "right": {path: _text(content) for path, content in row.right.items()}, "command": row.command,
         }
         for row in rows
-    ]
-    return dumps(data)
+    ])  # fmt: skip

@@ -26,34 +26,21 @@ LONG = 50
 
 @click.command(cls=Command, short_help="Carry legacy files over to YAML, losing nothing.")
 @click.argument("paths", nargs=-1, required=True, type=click.Path(exists=True))
-@click.option(
-    "-o",
-    "--output",
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="Write below DIR, in the folders of the sources. Default: beside each source.",
-)
+@click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False),
+              help="Write below DIR, in the folders of the sources. Default: beside each source.")  # fmt: skip
 @click.option("--dry-run", is_flag=True, help="Write nothing; say what would be written.")
 @click.option("--diff", "show_diff", is_flag=True, help="Show what changes, as a unified diff.")
-@click.option(
-    "--report",
-    "report",
-    metavar="FILE",
-    type=click.Path(dir_okay=False, allow_dash=True),
-    help="Write what became of each line of each file, as JSON.",
-)
+@click.option("--report", metavar="FILE", type=click.Path(dir_okay=False, allow_dash=True),
+              help="Write what became of each line of each file, as JSON.")  # fmt: skip
 @click.option("--strict", is_flag=True, help="Fail when a line of a source is lost.")
 @click.option("--force", is_flag=True, help="Overwrite documents that were edited since, showing the difference first.")
 @click.option("--exact", is_flag=True, help="Keep the blanks around the separators of records and lists.")
 @click.option(
     "--names", multiple=True, metavar="KEY=a,b,c", help="What the columns of the rows KEY0, KEY1… are called."
 )
-@click.option(
-    "--rules",
-    metavar="FILE",
-    type=click.Path(exists=True, dir_okay=False),
-    help="Corrections of what is guessed: `names:` and `types:` by key, `text:` for keys that are no lists.",
-)
+@click.option("--rules", metavar="FILE", type=click.Path(exists=True, dir_okay=False),
+              help="Corrections of what is guessed: `names:` and `types:` by key, "
+                   "`text:` for keys that are no lists.")  # fmt: skip
 @_options.include
 @_options.format_
 @click.pass_context
@@ -67,10 +54,9 @@ def command(
     A folder means all legacy files below it, and becomes a workspace. Comments come along. Nothing that you wrote or
     edited is overwritten, and the sources stay as they are.
     """
+    from robocomp_yaml.api.migrating import Migration
     from robocomp_yaml.legacy.ledger import as_json
-    from robocomp_yaml.legacy.migration import look_back, migrate
     from robocomp_yaml.legacy.settings.corrections import Wrong, corrections
-    from robocomp_yaml.pipeline import search_folders
 
     try:
         guesses = corrections(names, rules)
@@ -78,20 +64,20 @@ def command(
         raise click.UsageError(str(error)) from None
     if report is not None:
         _refuse_to_overwrite(report)
-    run = migrate(paths, output, search_folders(include), force=force, progress=_progress, guesses=guesses, exact=exact)
+    migration = Migration(paths, output, include, force=force, progress=_progress, guesses=guesses, exact=exact)
+    run = migration.run
     shown = run.changes() if show_diff else run.forced()
     for path, change in list(shown):
         terminal.data(change.diff(path), err=format_ != "text" or report == "-")
     if not dry_run:
-        run.write()
-        look_back(run, include)
-    lost = sum(entry.lines()["lost"] for entry in run.entries)
+        migration.apply()
+    lost = migration.lost
     _print(ctx, run, format_, dry_run, err=report == "-")
     if report is not None:
         _save(report, as_json(run.entries))
     if strict and lost:
         terminal.say(f"{lost} line{'s are' if lost > 1 else ' is'} lost, and --strict does not allow that", err=True)
-    ctx.exit(1 if run.failed or (strict and lost) else 0)
+    ctx.exit(1 if migration.has_errors or (strict and lost) else 0)
 
 
 def _progress(files: Sequence[LegacyFile]) -> Iterator[LegacyFile]:

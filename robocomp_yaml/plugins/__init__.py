@@ -6,7 +6,9 @@ repository is not decided by what else is installed. Where none is named, nobody
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import importlib
+import re
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from types import ModuleType
 from typing import Any
@@ -20,6 +22,61 @@ from robocomp_yaml.diag.span import Span
 from robocomp_yaml.languages.record import TargetLanguage
 
 LANGUAGES, EXPORTS, CHECKS, FORMATS, GRAPHS = "languages", "exports", "checks", "formats", "graphs"
+_NAME = re.compile(r"[a-z][a-z0-9_-]*")
+KINDS_OF_CHECKS = ("idsl", "cdsl", "machine", "pdsl", "ddsl")
+
+
+class Kind(msgspec.Struct, frozen=True):
+    """`group` is that of entry points, `called` what one of them is, `needs` what its module has. `home` is the module
+    whose `built_in()` names what rcyaml itself has, none of which can be replaced, `taken` other names that are gone.
+    """
+
+    name: str
+    called: str
+    needs: tuple[str, ...]
+    home: str = ""
+    taken: tuple[str, ...] = ()
+
+    @property
+    def group(self) -> str:
+        return f"rcyaml.{self.name}"
+
+    def built_in(self) -> Collection[str]:
+        own = importlib.import_module(f"robocomp_yaml.{self.home}").built_in() if self.home else ()
+        return {*own, *self.taken}
+
+    def problem(self, name: str, module: object) -> str:
+        """What is wrong with a module that a plug-in adds, '' if nothing."""
+        if not isinstance(module, ModuleType):
+            return "its entry point does not name a module"
+        if self.home and not _NAME.fullmatch(name):
+            return "its name has other characters than lower-case letters, digits, _ and -"
+        if lacking := [attribute for attribute in self.needs if not hasattr(module, attribute)]:
+            return f"{module.__name__} has no {' and no '.join(lacking)}"
+        return self._odd(name, module)
+
+    def _odd(self, name: str, module: ModuleType) -> str:
+        if uncalled := [one for one in self.needs if one.islower() and not callable(getattr(module, one))]:
+            return f"{uncalled[0]} is no function"
+        if self.name == LANGUAGES:
+            record = module.LANGUAGE
+            if not isinstance(record, TargetLanguage):
+                return "LANGUAGE is no TargetLanguage"
+            if record.name != name:
+                return f"LANGUAGE is called '{record.name}'"
+        if self.name == CHECKS and module.KIND not in KINDS_OF_CHECKS:
+            return f"KIND is {module.KIND!r}, and is to be one of {', '.join(KINDS_OF_CHECKS)}"
+        return ""
+
+
+KINDS = (
+    Kind(LANGUAGES, "language", ("LANGUAGE",), "languages", ("slice", "config", "docs")),
+    Kind(EXPORTS, "export", ("export",), "emit.exports"),
+    Kind(CHECKS, "check", ("KIND", "check")),
+    Kind(FORMATS, "legacy format", ("RULES", "convert"), "legacy.rules"),
+    Kind(GRAPHS, "picture", ("draw",), "emit.graphs.forms"),
+)
+BY_GROUP = {kind.group: kind for kind in KINDS}
 
 
 class Plugin(msgspec.Struct, frozen=True, eq=False):
@@ -48,17 +105,9 @@ class Plugin(msgspec.Struct, frozen=True, eq=False):
         except (Faulty, Refused, passing):
             raise
         except Exception as error:
-            where = _place_of(error)
+            hint = f"in {_place_of(error)}: tell its authors, or take it out of `plugins:`"
             raise Faulty(
-                [
-                    codes.PLUGIN_FAILED.at(
-                        self.span,
-                        name=self.name,
-                        what=what,
-                        reason=reason_of(error),
-                        hint=f"in {where}: tell its authors, or take it out of `plugins:`",
-                    )
-                ]
+                [codes.PLUGIN_FAILED.at(self.span, name=self.name, what=what, reason=reason_of(error), hint=hint)]
             ) from error
 
 

@@ -16,8 +16,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import meaning, suggest
-from robocomp_yaml.plugins import LANGUAGES, Plugin, Plugins, codes_in, reason_of
-from robocomp_yaml.plugins.kinds import BY_GROUP, Kind
+from robocomp_yaml.plugins import BY_GROUP, LANGUAGES, Kind, Plugin, Plugins, codes_in, reason_of
 from robocomp_yaml.source.digest import digest, states
 
 _OURS = re.compile(r"RC\d")

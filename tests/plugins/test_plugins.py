@@ -13,7 +13,7 @@ import pytest
 
 from conftest import read_tree, write_tree
 from plugins.wheels import ROOT, SAMPLES, Run, build, install
-from robocomp_yaml.plugins.kinds import KINDS
+from robocomp_yaml.plugins import KINDS
 
 pytestmark = pytest.mark.slow
 

@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 
 from robocomp_yaml.api.new.documents import NewDocument, free, require_name
+from robocomp_yaml.api.which import VALUES
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
@@ -68,17 +69,14 @@ def _entry(
     document = os.path.relpath(linked.component.path, os.path.dirname(path))
     yield f"  {names[linked]}:"
     yield f"    component: {document}"
-    missing = {} if _has_values(linked) else _required(linked.parameters.parameters)
+    values = os.path.join(os.path.dirname(linked.component.path), VALUES)
+    missing = {} if os.path.isfile(values) else _required(linked.parameters.parameters)
     if missing:
         yield f"    set: {flow(missing)}  # examples: these have no default"
     connect = list(_connections(linked, names, components))
     if connect:
         yield "    connect:"
         yield from connect
-
-
-def _has_values(linked: LinkedComponent) -> bool:
-    return os.path.isfile(os.path.join(os.path.dirname(linked.component.path), "etc", "config.yaml"))
 
 
 def _required(parameters: Parameters) -> dict[str, Any]:
@@ -99,7 +97,10 @@ def _connections(
 ) -> Iterator[str]:
     """What has to be said: who serves it where several do, and where it is where nobody does."""
     for port in linked.requires:
-        serving = [other for other in components if other is not linked for p in other.implements if _equal(p, port)]
+        serving = [
+            other for other in components if other is not linked
+            for own in other.implements if _interface(own) == _interface(port)
+        ]  # fmt: skip
         if len(serving) == 1:
             continue
         if serving:
@@ -110,6 +111,5 @@ def _connections(
             yield f"      {port.name}: {where}  # no component here implements it: where is it?"
 
 
-def _equal(port: Port, other: Port) -> bool:
-    mine, theirs = (port.scope.module.name, port.interface.name), (other.scope.module.name, other.interface.name)
-    return mine == theirs
+def _interface(port: Port) -> tuple[str, str]:
+    return port.scope.module.name, port.interface.name

@@ -53,4 +53,6 @@ def test_documents_with_errors(row: Code, tmp_path: Path, monkeypatch: pytest.Mo
         if os.path.lexists(name):
             os.unlink(name) if not os.path.isdir(name) or os.path.islink(name) else os.rmdir(name)
     write_tree(tmp_path, {name: it for name, it in _plain(row.right).items() if row.wrong.get(name) != it})
-    assert compile_stamps.earlier_outcome(compile_stamps.Arguments(paths, ())) is None, "an error stays though its cause has gone"
+    assert compile_stamps.earlier_outcome(compile_stamps.Arguments(paths, ())) is None, (
+        "an error stays though its cause has gone"
+    )

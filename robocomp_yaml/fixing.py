@@ -38,6 +38,9 @@ class Look(msgspec.Struct):
         return Counter(_key(told) for told in self.diagnostics if told.severity == ERROR)
 
 
+LookAt = Callable[[Mapping[str, bytes]], Look]
+
+
 class Done(msgspec.Struct, frozen=True):
     """A fix that was applied, with the diagnostic as it was before; or one that was not, and why."""
 
@@ -55,7 +58,7 @@ class Mended(msgspec.Struct):
     left: list[Done] = []
 
 
-def mend(look: Callable[[Mapping[str, bytes]], Look], may_change: Collection[str], *, unsafe: bool) -> Mended:
+def mend(look: LookAt, may_change: Collection[str], *, unsafe: bool) -> Mended:
     """Applies what can be applied to the documents that may change. `look` looks at the documents with some contents
     instead of the disk's."""
     rounds = _Rounds(look, may_change, unsafe)
@@ -75,9 +78,7 @@ class _Doubted(msgspec.Struct, frozen=True):
 
 
 class _Rounds:
-    def __init__(
-        self, look: Callable[[Mapping[str, bytes]], Look], may_change: Collection[str], unsafe: bool
-    ) -> None:  # fmt: skip
+    def __init__(self, look: LookAt, may_change: Collection[str], unsafe: bool) -> None:
         self.look, self.may_change, self.unsafe = look, may_change, unsafe
         self.mended = Mended(look({}))
         self.looks = 1
@@ -93,19 +94,19 @@ class _Rounds:
             for told, fix in batch:
                 self._leave(told, fix, "it was not tried: there is too much to fix at once")
             return self._took_back()
-        after = self.look(changed | _applied([fix for _, fix in batch], now.contents))
+        changed_next = changed | _applied([fix for _, fix in batch], now.contents)
+        after = self.look(changed_next)
         self.looks += 1
-        verdict = _verdict(now, after, batch)
-        if verdict.reason and len(batch) > 1:
+        reason, is_doubtful = _verdict(now, after, batch)
+        if reason and len(batch) > 1:
             self.most = len(batch) // 2
-        elif verdict.reason:
-            self._leave(*batch[0], verdict.reason)
+        elif reason:
+            self._leave(*batch[0], reason)
             self.most = 8
         else:
-            if verdict.is_doubtful:
+            if is_doubtful:
                 self.doubted.append(_Doubted(*batch[0], now, changed, len(self.mended.fixed)))
-            self.mended.look = after
-            self.mended.changed = changed | _applied([fix for _, fix in batch], now.contents)
+            self.mended.look, self.mended.changed = after, changed_next
             self.mended.fixed += [Done(told, fix) for told, fix in batch]
             self.most = max(self.most, 2) * 2
         return True
@@ -134,15 +135,8 @@ class _Rounds:
             if (fix.safe or self.unsafe) and fix.is_spelled and (_key(told), fix) not in self.refused
             and all(edit.span.file in self.may_change for edit in fix.edits)
         ]  # fmt: skip
-        yield from sorted({_place(told): (told, fix) for told, fix in reversed(found)}.values(), key=_rank)
-
-
-def _place(told: Diagnostic) -> tuple[object, ...]:
-    return (told.span, told.code, told.facts)
-
-
-def _rank(wanted: tuple[Diagnostic, Fix]) -> tuple[object, ...]:
-    return (not wanted[1].safe, *wanted[0].sort_key)
+        best = {(told.span, told.code, told.facts): (told, fix) for told, fix in reversed(found)}
+        yield from sorted(best.values(), key=lambda one: (not one[1].safe, *one[0].sort_key))
 
 
 def _apart(wanted: Iterator[tuple[Diagnostic, Fix]], most: int) -> Iterator[tuple[Diagnostic, Fix]]:
@@ -191,32 +185,27 @@ def _key(told: Diagnostic) -> Key:
     return (told.span.file, told.code, tuple(fact for fact in told.facts if fact[0] != "meant"))
 
 
-class _Verdict(msgspec.Struct, frozen=True):
-    """Why fixes are not to be applied, or ''; one may be doubtful until it is seen whether its errors can be mended."""
-
-    reason: str = ""
-    is_doubtful: bool = False
-
-
-def _verdict(before: Look, after: Look, batch: list[tuple[Diagnostic, Fix]]) -> _Verdict:
+def _verdict(before: Look, after: Look, batch: list[tuple[Diagnostic, Fix]]) -> tuple[str, bool]:
+    """Why fixes are not to be applied, or '', and whether one is doubtful: until it is seen whether its errors can be
+    mended."""
     files = {edit.span.file for _, fix in batch for edit in fix.edits}
     steps = [after.levels.get(file, UNDERSTOOD) - before.levels.get(file, UNDERSTOOD) for file in files]
     if any(step < 0 for step in steps):
-        return _Verdict("the document could not be understood any more")
+        return "the document could not be understood any more", False
     were, are = Counter(map(_key, before.diagnostics)), Counter(map(_key, after.diagnostics))
     wanted = Counter(_key(told) for told, _ in batch if not _is_later(before, after, told))
     if any(are[key] > were[key] - count for key, count in wanted.items()):
-        return _Verdict("it would not mend this")
+        return "it would not mend this", False
     if len(batch) > 1:
         seen = {file for file, step in zip(files, steps, strict=True) if step > 0 and batch[0][1].safe}
         worse = [key for key in after.errors - before.errors if key[0] not in seen]
-        return _Verdict("they do not go together" if worse else "")
+        return "they do not go together" if worse else "", False
     (_, fix), reason = batch[0], _more(before, after)
     is_blind = any(before.levels.get(file) == UNREADABLE for file in files)  # only a first error was seen
     if not reason or not any(steps):
-        return _Verdict(reason)
+        return reason, False
     is_understood = all(after.levels.get(file, UNDERSTOOD) == UNDERSTOOD for file in files)
-    return _Verdict(is_doubtful=not (fix.safe or is_blind or is_understood))
+    return "", not (fix.safe or is_blind or is_understood)
 
 
 def _is_later(before: Look, after: Look, told: Diagnostic) -> bool:
