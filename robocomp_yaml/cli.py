@@ -20,7 +20,7 @@ import click
 
 from robocomp_yaml import __version__
 from robocomp_yaml.commands import _signals
-from robocomp_yaml.commands._command import Group
+from robocomp_yaml.commands._command import CommandGroup
 from robocomp_yaml.diag import terminal
 
 COMMANDS = {
@@ -42,7 +42,7 @@ class _ReaderGone(Exception):
     """Whoever reads what is printed has had enough, which click takes for a failure."""
 
 
-class LazyGroup(Group):
+class LazyGroup(CommandGroup):
     """A group whose commands live in `robocomp_yaml.commands.NAME.command`."""
 
     def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
@@ -140,11 +140,11 @@ def _tell(error: click.ClickException) -> None:
 def main() -> None:
     """Run rcyaml; the exit code is 0 (fine), 1 (the documents have errors), 2 (wrong usage), or what signals give."""
     gc.set_threshold(200_000, 20, 100)  # a run is short, and most of what it makes lives to its end
-    end = _End()
+    end = _ProcessEnd()
     atexit.register(end.at_once)  # the first to be registered is the last to be called
     _make_streams_usable()
     try:
-        with _signals.heeded():
+        with _signals.handled():
             end.code = group(prog_name="rcyaml", standalone_mode=False)
     except KeyboardInterrupt as error:  # on the way out
         end.code = _signals.code_of(error)
@@ -167,7 +167,7 @@ def _output_failed(error: OSError) -> int:
     return 1
 
 
-class _End:
+class _ProcessEnd:
     """The end of the process, with the exit code once it is known."""
 
     code: int | None = None

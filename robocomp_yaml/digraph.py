@@ -12,7 +12,7 @@ from typing import TypeVar
 Node = TypeVar("Node", bound=Hashable)
 
 
-def reached(starts: Iterable[Node], following: Callable[[Node], Iterable[Node]]) -> dict[Node, None]:
+def reachable(starts: Iterable[Node], following: Callable[[Node], Iterable[Node]]) -> dict[Node, None]:
     """These nodes and all that follow them, directly or not, the nearest first. What follows a node is asked once."""
     found = dict.fromkeys(starts)
     todo = list(found)
@@ -24,7 +24,7 @@ def reached(starts: Iterable[Node], following: Callable[[Node], Iterable[Node]])
     return found
 
 
-def inner_first(starts: Iterable[Node], inner: Callable[[Node], Iterable[Node]]) -> Iterator[Node]:
+def postorder(starts: Iterable[Node], inner: Callable[[Node], Iterable[Node]]) -> Iterator[Node]:
     """These nodes and all below them, each once and behind those below it; where a line closes a circle, behind as many
     as can be."""
     entered: set[Node] = set()
@@ -42,7 +42,7 @@ def inner_first(starts: Iterable[Node], inner: Callable[[Node], Iterable[Node]])
                 path.append((other, iter(inner(other))))
 
 
-def waves(after: Mapping[Node, Iterable[Node]]) -> list[tuple[Node, ...]] | None:
+def generations(after: Mapping[Node, Iterable[Node]]) -> list[tuple[Node, ...]] | None:
     """The nodes in waves, each wave behind all that it is after; None where there is a circle."""
     sorter = TopologicalSorter(after)
     try:
@@ -56,7 +56,7 @@ def waves(after: Mapping[Node, Iterable[Node]]) -> list[tuple[Node, ...]] | None
     return found
 
 
-def knots(graph: Mapping[Node, Iterable[Node]]) -> list[set[Node]]:
+def cyclic_components(graph: Mapping[Node, Iterable[Node]]) -> list[set[Node]]:
     """The nodes that lie on circles, each set with all that share circles. `graph` has what follows each node."""
     try:
         TopologicalSorter(graph).prepare()
@@ -69,7 +69,7 @@ def knots(graph: Mapping[Node, Iterable[Node]]) -> list[set[Node]]:
     return [knot for knot in found if len(knot) > 1 or any(whole.has_edge(node, node) for node in knot)]
 
 
-def circle(graph: Mapping[Node, Iterable[Node]], knot: set[Node], start: Node) -> list[Node]:
+def cycle_through(graph: Mapping[Node, Iterable[Node]], knot: set[Node], start: Node) -> list[Node]:
     """A circle through a node of a knot, from this node on: by the first that follows it, and the shortest way back."""
     import networkx
 

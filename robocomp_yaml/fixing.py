@@ -25,7 +25,7 @@ Key = tuple[str, str, object]
 UNREADABLE, MISSHAPEN, UNDERSTOOD = 0, 1, 2
 
 
-class Look(msgspec.Struct):
+class CheckedDocuments(msgspec.Struct):
     """What a check finds: `contents` are the bytes of each document by its path, `levels` say how far each could be
     understood: UNREADABLE, MISSHAPEN or UNDERSTOOD."""
 
@@ -38,10 +38,10 @@ class Look(msgspec.Struct):
         return Counter(_key(told) for told in self.diagnostics if told.severity == ERROR)
 
 
-LookAt = Callable[[Mapping[str, bytes]], Look]
+CheckWith = Callable[[Mapping[str, bytes]], CheckedDocuments]
 
 
-class Done(msgspec.Struct, frozen=True):
+class AttemptedFix(msgspec.Struct, frozen=True):
     """A fix that was applied, with the diagnostic as it was before; or one that was not, and why."""
 
     diagnostic: Diagnostic
@@ -49,42 +49,42 @@ class Done(msgspec.Struct, frozen=True):
     reason: str = ""
 
 
-class Mended(msgspec.Struct):
+class FixResult(msgspec.Struct):
     """`changed` are contents by the documents' paths; `look` is what is found then."""
 
-    look: Look
+    look: CheckedDocuments
     changed: dict[str, bytes] = {}
-    fixed: list[Done] = []
-    left: list[Done] = []
+    fixed: list[AttemptedFix] = []
+    left: list[AttemptedFix] = []
 
 
-def mend(look: LookAt, may_change: Collection[str], *, unsafe: bool) -> Mended:
+def apply_fixes(look: CheckWith, may_change: Collection[str], *, unsafe: bool) -> FixResult:
     """Applies what can be applied to the documents that may change. `look` looks at the documents with some contents
     instead of the disk's."""
-    rounds = _Rounds(look, may_change, unsafe)
+    rounds = _FixRounds(look, may_change, unsafe)
     while rounds.one():
         pass
     return rounds.mended
 
 
-class _Doubted(msgspec.Struct, frozen=True):
+class _UncertainFix(msgspec.Struct, frozen=True):
     """A guess after which more errors are seen, with all as it was before."""
 
     told: Diagnostic
     fix: Fix
-    look: Look
+    look: CheckedDocuments
     changed: dict[str, bytes]
     fixed: int
 
 
-class _Rounds:
-    def __init__(self, look: LookAt, may_change: Collection[str], unsafe: bool) -> None:
+class _FixRounds:
+    def __init__(self, look: CheckWith, may_change: Collection[str], unsafe: bool) -> None:
         self.look, self.may_change, self.unsafe = look, may_change, unsafe
-        self.mended = Mended(look({}))
+        self.mended = FixResult(look({}))
         self.looks = 1
         self.most = 1 << 20  # so many are tried at once; fewer where they do not go together
         self.refused: set[tuple[Key, Fix]] = set()
-        self.doubted: list[_Doubted] = []
+        self.doubted: list[_UncertainFix] = []
 
     def one(self) -> bool:
         """Whether there was something to try."""
@@ -105,15 +105,15 @@ class _Rounds:
             self.most = 8
         else:
             if is_doubtful:
-                self.doubted.append(_Doubted(*batch[0], now, changed, len(self.mended.fixed)))
+                self.doubted.append(_UncertainFix(*batch[0], now, changed, len(self.mended.fixed)))
             self.mended.look, self.mended.changed = after, changed_next
-            self.mended.fixed += [Done(told, fix) for told, fix in batch]
+            self.mended.fixed += [AttemptedFix(told, fix) for told, fix in batch]
             self.most = max(self.most, 2) * 2
         return True
 
     def _leave(self, told: Diagnostic, fix: Fix, reason: str) -> None:
         self.refused.add((_key(told), fix))
-        self.mended.left.append(Done(told, fix, reason))
+        self.mended.left.append(AttemptedFix(told, fix, reason))
 
     def _took_back(self) -> bool:
         """Whether a guess was taken back, since there are more errors in the end: the rest is tried again without."""
@@ -185,7 +185,9 @@ def _key(told: Diagnostic) -> Key:
     return (told.span.file, told.code, tuple(fact for fact in told.facts if fact[0] != "meant"))
 
 
-def _verdict(before: Look, after: Look, batch: list[tuple[Diagnostic, Fix]]) -> tuple[str, bool]:
+def _verdict(
+    before: CheckedDocuments, after: CheckedDocuments, batch: list[tuple[Diagnostic, Fix]]
+) -> tuple[str, bool]:
     """Why fixes are not to be applied, or '', and whether one is doubtful: until it is seen whether its errors can be
     mended."""
     files = {edit.span.file for _, fix in batch for edit in fix.edits}
@@ -208,12 +210,12 @@ def _verdict(before: Look, after: Look, batch: list[tuple[Diagnostic, Fix]]) -> 
     return "", not (fix.safe or is_blind or is_understood)
 
 
-def _is_later(before: Look, after: Look, told: Diagnostic) -> bool:
+def _is_later(before: CheckedDocuments, after: CheckedDocuments, told: Diagnostic) -> bool:
     """Whether a text that is no YAML, of which only the first fault is seen, has the same one further on."""
     places = [one.span for one in after.diagnostics if _key(one) == _key(told)]
     return before.levels.get(told.span.file) == UNREADABLE and bool(places) and min(places) > told.span
 
 
-def _more(before: Look, after: Look) -> str:
+def _more(before: CheckedDocuments, after: CheckedDocuments) -> str:
     count, now = before.errors.total(), after.errors.total()
     return f"there would be {now} errors instead of {count}" if now > count else ""

@@ -47,7 +47,7 @@ class Analysis(msgspec.Struct, frozen=True):
 
     program: Program
     linker: Linker
-    found: Found
+    discovered: Found
     disk: Disk
     derived: Derived
     texts: Texts
@@ -62,27 +62,29 @@ class Analysis(msgspec.Struct, frozen=True):
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics with some that were found elsewhere, as users get them."""
-        return in_order([*self.diagnostics, *self.shown(self.judged(diagnostics).told)])
+        return in_order([*self.diagnostics, *self.for_users(self.without_suppressed(diagnostics).told)])
 
-    def whole(self, diagnostics: Iterable[Diagnostic], *, environment: bool = False) -> list[Diagnostic]:
+    def complete(self, diagnostics: Iterable[Diagnostic], *, environment: bool = False) -> list[Diagnostic]:
         """The same, where these are all that there is: then it is known, too, which comments allow what nobody said, of
         the documents asked for."""
-        more, read = self.judged(diagnostics), self.linker.documents.read
+        more, read = self.without_suppressed(diagnostics), self.linker.documents.read
         asked = [read[real].path for real in self.program.asked if real in read]
         files = {*asked, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
-        vain = self.judged(self.allowed.in_vain(sorted(files), self.used | more.used, environment=environment))
-        return in_order([*self.diagnostics, *self.shown((*more.told, *vain.told))])
+        vain = self.without_suppressed(
+            self.allowed.in_vain(sorted(files), self.used | more.used, environment=environment)
+        )
+        return in_order([*self.diagnostics, *self.for_users((*more.told, *vain.told))])
 
-    def judged(self, diagnostics: Iterable[Diagnostic]) -> Judged:
+    def without_suppressed(self, diagnostics: Iterable[Diagnostic]) -> Judged:
         """Diagnostics without those that comments allow."""
         return self.allowed.judge(diagnostics, lambda file: self.linker.workspace_of(file).lint)
 
-    def shown(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    def for_users(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics as users get them: at the severities that the workspaces ask for, with fixes that say what to
         write, and without secrets."""
-        return self.veiled(spelled(_with_lint(diagnostics, self.linker), self.texts))
+        return self.redacted(spelled(_with_lint(diagnostics, self.linker), self.texts))
 
-    def veiled(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    def redacted(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics without the secrets that the documents hold."""
         told = list(diagnostics)
         hidden = self.hidden({span.file for one in told for span in (one.span, *(r.span for r in one.related))})
@@ -102,15 +104,15 @@ def search_folders(given: Iterable[str]) -> tuple[str, ...]:
 
 def analyse(
     paths: Iterable[str],
-    extra: Iterable[str] = (),
+    include: Iterable[str] = (),
     on_read: Callable[[str], None] | None = None,
     overlay: Mapping[str, bytes] | None = None,
 ) -> Analysis:
-    """All about the documents at these paths; `extra` are folders to look for imports in, `on_read` is told of each
+    """All about the documents at these paths; `include` are folders to look for imports in, `on_read` is told of each
     document that is read. `overlay` has contents, by path, that count instead of the disk's."""
     disk = Disk(overlay)
     found = discover(list(paths), disk)
-    linker = Linker(Documents(disk, on_read or (lambda path: None)), Search(search_folders(extra), disk))
+    linker = Linker(Documents(disk, on_read or (lambda path: None)), Search(search_folders(include), disk))
     program = linker.link(found.documents)
     derived = networks_of(program)
     said = [*found.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
@@ -121,8 +123,8 @@ def analyse(
     texts = Texts(disk.contents, linker.documents.trees())
     allowed = Allowed.of(texts, program.plugins_of)
     analysis = Analysis(program, linker, found, disk, derived, texts, allowed)
-    judged = analysis.judged([*said, *analysis.allowed.said])
-    return replace(analysis, diagnostics=tuple(in_order(analysis.shown(judged.told))), used=judged.used)
+    judged = analysis.without_suppressed([*said, *analysis.allowed.said])
+    return replace(analysis, diagnostics=tuple(in_order(analysis.for_users(judged.told))), used=judged.used)
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

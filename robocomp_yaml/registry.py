@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 
 
-def named(folders: Iterable[str], *, packages: bool = False) -> list[str]:
+def module_names(folders: Iterable[str], *, packages: bool = False) -> list[str]:
     """The modules in the folders of a package (its `__path__`), or the packages there, sorted; those with an underscore
     at first are nobody's business. `pkgutil` asks every loader how files may be called: that takes longer than to
     import some of them."""
@@ -34,7 +34,7 @@ class Modules(msgspec.Struct, frozen=True):
 
     def table(self) -> dict[str, str]:
         """The module of each."""
-        names = named(importlib.import_module(self.package).__path__)
+        names = module_names(importlib.import_module(self.package).__path__)
         return {name: f"{self.package}.{name}" for name in names}
 
     def every(self) -> list[ModuleType]:
@@ -49,7 +49,7 @@ class Modules(msgspec.Struct, frozen=True):
         return importlib.import_module(modules[name])
 
 
-def lazily(module: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
+def lazy_attributes(module: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
     """A module's `__getattr__`: its names, each with the module that defines it, are imported when they are first
     asked for."""
     home_of = {name: home for home, names in homes.items() for name in names.split()}
@@ -57,12 +57,12 @@ def lazily(module: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
     def attribute(name: str) -> Any:
         if name not in home_of:
             raise AttributeError(f"module '{module}' has no attribute '{name}'")
-        return member(f"robocomp_yaml.{home_of[name]}:{name}")
+        return import_member(f"robocomp_yaml.{home_of[name]}:{name}")
 
     return attribute
 
 
-def member(path: str) -> object:
+def import_member(path: str) -> object:
     """What `package.module:name` leads to."""
     module, _, name = path.partition(":")
     return getattr(importlib.import_module(module), name)

@@ -34,15 +34,15 @@ def files(source: str) -> Iterator[tuple[str, str]]:
     """The names and the texts of the files that stand directly in a folder of rcyaml's own."""
     for name in sorted(os.listdir(source)):
         if os.path.isfile(path := os.path.join(source, name)):
-            yield name, whole(path)
+            yield name, read(path)
 
 
 def text(path: str) -> str:
     """The text of one data file, such as `schemas/idsl.schema.json`."""
-    return whole(_of(path))
+    return read(_of(path))
 
 
-def whole(path: str) -> str:
+def read(path: str) -> str:
     """The text of a file of rcyaml's own."""
     with open(path, encoding="utf-8") as file:
         return file.read()

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, WARNING, Diagnostic, Related
 from robocomp_yaml.diag.errors import Faulty, Refused
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.registry import lazily
+from robocomp_yaml.registry import lazy_attributes
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
@@ -83,4 +83,4 @@ def migrate(
 
 
 if not TYPE_CHECKING:  # mypy would accept any name
-    __getattr__ = lazily(__name__, _HOMES)
+    __getattr__ = lazy_attributes(__name__, _HOMES)

@@ -11,7 +11,7 @@ import msgspec
 from robocomp_yaml.api.refusals import require
 from robocomp_yaml.building import builder, stamps
 from robocomp_yaml.building.inputs import Inputs
-from robocomp_yaml.building.job import FAILED, RELEASE, TYPES, Event, Job, Result
+from robocomp_yaml.building.job import FAILED, RELEASE, TYPES, BuildEvent, BuildResult, Job
 from robocomp_yaml.building.unit import Unit, unit_of
 from robocomp_yaml.deploy.outdated import outdated_components
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
@@ -28,7 +28,7 @@ class Built(msgspec.Struct, frozen=True):
     seconds of processors that it took."""
 
     type: str
-    components: tuple[Result, ...]
+    components: tuple[BuildResult, ...]
     diagnostics: tuple[Diagnostic, ...]
     cpu: float
 
@@ -58,22 +58,22 @@ def _unread(analysis: Analysis, documents: Iterable[str]) -> list[Diagnostic]:
 
 def build(
     analysis: Analysis, documents: Sequence[str], *, build_type: str = RELEASE, jobs: int | None = None,
-    defines: Sequence[str] = (), report: Callable[[Event], None] | None = None,
+    defines: Sequence[str] = (), report: Callable[[BuildEvent], None] | None = None,
 ) -> Built:  # fmt: skip
     require("build type", build_type, TYPES)
     before = _cpu()
 
-    def told(event: Event) -> None:
+    def told(event: BuildEvent) -> None:
         if report is not None:
-            report(analysis.veiled([event])[0] if isinstance(event, Diagnostic) else event)
+            report(analysis.redacted([event])[0] if isinstance(event, Diagnostic) else event)
 
     job = Job(build_type, jobs or len(os.sched_getaffinity(0)), told, tuple(defines))
     components = _components(analysis, documents)
     if documents and not components:
         raise Faulty(analysis.diagnostics, analysis.program.documents)
-    job.tell([*_unread(analysis, documents), *outdated_components(components)])
+    job.add([*_unread(analysis, documents), *outdated_components(components)])
     found = builder.build(job, units(analysis, components))
-    return Built(build_type, tuple(found), tuple(analysis.veiled(job.told)), round(_cpu() - before, 2))
+    return Built(build_type, tuple(found), tuple(analysis.redacted(job.diagnostics)), round(_cpu() - before, 2))
 
 
 def to_build(analysis: Analysis) -> list[str]:
@@ -82,7 +82,7 @@ def to_build(analysis: Analysis) -> list[str]:
     return [
         unit.name
         for unit in units(analysis)
-        if unit.language.build and (found := stamps.look(unit, inputs)).is_there and found.changed
+        if unit.language.build and (found := stamps.inspect(unit, inputs)).is_there and found.changed
     ]
 
 

@@ -12,7 +12,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.transactions import stamp
 
 
-class Arguments(msgspec.Struct, frozen=True):
+class CompileArguments(msgspec.Struct, frozen=True):
     """The arguments of a compile that decide what it writes: each combination has a stamp of its own."""
 
     paths: Sequence[str]
@@ -29,22 +29,22 @@ class Arguments(msgspec.Struct, frozen=True):
         return self.output or (first if os.path.isdir(first) else os.path.dirname(first)) or ".", name
 
 
-def earlier_outcome(arguments: Arguments, *, planned: bool = False) -> Outcome | None:
+def earlier_outcome(arguments: CompileArguments, *, planned: bool = False) -> Outcome | None:
     """What the same compile would report and do; None if the stamp is stale or missing."""
     kept = stamp.load(*arguments.location())
     if kept is None or not stamp.is_current(kept):
         return None
     if kept.plugins:
-        from robocomp_yaml.plugins import finding  # the diagnostics in the stamp may use its codes
+        from robocomp_yaml.plugins import loading  # the diagnostics in the stamp may use its codes
 
-        finding.load(kept.plugins)
+        loading.load(kept.plugins)
     return Outcome.of_data(kept.replay, planned=planned)
 
 
 def diagnostics_of_code(paths: Sequence[str], include: Sequence[str]) -> list[Diagnostic] | None:
     """What the last compile of these paths reported about the user's code; None if a file that it read has changed
     since, or there is no stamp. Whether its generated files were edited does not matter."""
-    kept = stamp.load(*Arguments(paths, include).location())
+    kept = stamp.load(*CompileArguments(paths, include).location())
     if kept is None or not stamp.reads_the_same(kept):
         return None
     from robocomp_yaml.diag.code import Code
@@ -54,6 +54,6 @@ def diagnostics_of_code(paths: Sequence[str], include: Sequence[str]) -> list[Di
     return [one for one in Outcome.of_data(kept.replay).diagnostics if one.code in of_code]
 
 
-def keep(taken: stamp.Stamp, arguments: Arguments) -> None:
+def keep(taken: stamp.Stamp, arguments: CompileArguments) -> None:
     """Writes the stamp of a compile with these arguments."""
     stamp.save(*arguments.location(), taken)

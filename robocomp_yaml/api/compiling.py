@@ -8,7 +8,7 @@ from functools import cached_property
 
 from msgspec.structs import replace
 
-from robocomp_yaml.api.compile_stamps import Arguments, keep
+from robocomp_yaml.api.compile_stamps import CompileArguments, keep
 from robocomp_yaml.api.neighbours import ports
 from robocomp_yaml.api.outcome import File, Outcome
 from robocomp_yaml.diag.codes.files import PLUGIN_FAILED
@@ -35,11 +35,11 @@ class Compilation:
     `apply` would do; it writes what the documents were when they were loaded.
     """
 
-    def __init__(self, analysis: Analysis, arguments: Arguments, *, adopt: bool, merge: bool) -> None:
+    def __init__(self, analysis: Analysis, arguments: CompileArguments, *, adopt: bool, merge: bool) -> None:
         self._analysis, self._arguments, self._adopt, self._merge = analysis, arguments, adopt, merge
         self._output = arguments.output
         options = Options(
-            self._output, analysis.found.folders, frozenset(arguments.targets), analysis.linker.workspace_of,
+            self._output, analysis.discovered.folders, frozenset(arguments.targets), analysis.linker.workspace_of,
             ports(analysis), standalone=arguments.standalone,
         )  # fmt: skip
         self._built = build(analysis.program, analysis.diagnostics, options)
@@ -105,7 +105,7 @@ class Compilation:
 
     def _other_roots(self) -> list[str]:
         """The folders in which a document that is gone may have left something."""
-        found = self._analysis.found
+        found = self._analysis.discovered
         others = list(found.roots)
         if self._output is not None and found.folders and os.path.isdir(self._output):
             for _ in documents_below(self._output, others):

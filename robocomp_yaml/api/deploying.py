@@ -32,7 +32,7 @@ from robocomp_yaml.pipeline import Analysis
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.building import Built
-    from robocomp_yaml.building.job import Event
+    from robocomp_yaml.building.job import BuildEvent
     from robocomp_yaml.deploy.stale import Stale
 
 T = TypeVar("T")
@@ -84,7 +84,7 @@ class Deployment:
     def placed(self, told: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Diagnostics of what runs as users get them: engines know the document by its whole path, which is not how it
         was named, and nothing of secrets."""
-        return self._analysis.veiled(
+        return self._analysis.redacted(
             replace(one, span=replace(one.span, file=self.path)) if one.span.file == self.network.path else one
             for one in told
         )
@@ -112,7 +112,7 @@ class Deployment:
         return stale(self.network, units(self._analysis, self._analysis.program.components.values()), wanted)
 
     def build(
-        self, *names: str, build_type: str | None = None, report: Callable[[Event], None] | None = None
+        self, *names: str, build_type: str | None = None, report: Callable[[BuildEvent], None] | None = None
     ) -> list[Built]:
         """Builds what is `stale`, each as it was built last unless `build_type` says how; what came of it, for each
         type."""
@@ -129,7 +129,7 @@ class Deployment:
         from robocomp_yaml.deploy import stale
 
         found = [one.as_severity(severity) for one in stale.told(self.network, self.stale(*names))]
-        told = self._analysis.shown(self._analysis.judged(found).told)
+        told = self._analysis.for_users(self._analysis.without_suppressed(found).told)
         self._told += told
         return has_errors(told)
 

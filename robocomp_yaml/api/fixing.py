@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.fixing import MISSHAPEN, UNDERSTOOD, UNREADABLE, Done, Look, mend
+from robocomp_yaml.fixing import MISSHAPEN, UNDERSTOOD, UNREADABLE, AttemptedFix, CheckedDocuments, apply_fixes
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.inside import stays_inside
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.workspace import Workspace
 
 
-class Written(msgspec.Struct, frozen=True):
+class FixedDocument(msgspec.Struct, frozen=True):
     """A document that was fixed, or, with a reason, was not. `before` and `after` are its contents."""
 
     path: str
@@ -43,20 +43,20 @@ class Fixing:
         *, unsafe: bool, environment: bool,
     ) -> None:  # fmt: skip
         self._before, self._load, self._paths, self._environment = before, load, tuple(paths), environment
-        mended = mend(self._look, _asked(before.analysis), unsafe=unsafe)
+        mended = apply_fixes(self._look, _asked(before.analysis), unsafe=unsafe)
         self._changed, self._fixed, self._left = mended.changed, mended.fixed, mended.left
-        self.written: tuple[Written, ...] = self._write(look_only=True)
+        self.written: tuple[FixedDocument, ...] = self._write(look_only=True)
         self._remaining: Workspace | None = None
 
     @property
-    def fixed(self) -> list[Done]:
+    def fixed(self) -> list[AttemptedFix]:
         refused = self.refused
         return [one for one in self._fixed if one.diagnostic.span.file not in refused]
 
     @property
-    def left(self) -> list[Done]:
+    def left(self) -> list[AttemptedFix]:
         reasons = {one.path: one.reason for one in self.written if one.reason}
-        kept = [Done(one.diagnostic, one.fix, reasons[one.diagnostic.span.file])
+        kept = [AttemptedFix(one.diagnostic, one.fix, reasons[one.diagnostic.span.file])
                 for one in self._fixed if one.diagnostic.span.file in reasons]  # fmt: skip
         return [*self._left, *kept]
 
@@ -91,10 +91,10 @@ class Fixing:
         self.written = self._write(look_only=False)
         self._remaining = None
 
-    def _write(self, *, look_only: bool) -> tuple[Written, ...]:
+    def _write(self, *, look_only: bool) -> tuple[FixedDocument, ...]:
         return tuple(self._written(path, after, look_only) for path, after in sorted(self._changed.items()))
 
-    def _written(self, path: str, after: bytes, look_only: bool) -> Written:
+    def _written(self, path: str, after: bytes, look_only: bool) -> FixedDocument:
         before = self._before.analysis.disk.contents[path]
         try:
             reason = _refusal(self._paths, path, before)
@@ -102,9 +102,9 @@ class Fixing:
                 whole_file.replace(path, after)
         except OSError as error:
             reason = (error.strerror or str(error)).lower()
-        return Written(path, before, after, reason)
+        return FixedDocument(path, before, after, reason)
 
-    def _look(self, changed: Mapping[str, bytes]) -> Look:
+    def _look(self, changed: Mapping[str, bytes]) -> CheckedDocuments:
         workspace = self._load(changed) if changed else self._before
         analysis = workspace.analysis
         levels = {
@@ -113,7 +113,7 @@ class Fixing:
         }
         # Whether a comment allows something in vain is known once all is checked.
         told = workspace.check(environment=self._environment) if analysis.allowed.by_file else analysis.diagnostics
-        return Look(list(told), analysis.disk.contents, levels)
+        return CheckedDocuments(list(told), analysis.disk.contents, levels)
 
 
 def _asked(analysis: Analysis) -> set[str]:
@@ -125,7 +125,7 @@ def _asked(analysis: Analysis) -> set[str]:
     }
     settings = {
         path for each in analysis.linker.workspaces.values()
-        if any(stays_inside(folder, os.path.abspath(each.root)) for folder in analysis.found.folders)
+        if any(stays_inside(folder, os.path.abspath(each.root)) for folder in analysis.discovered.folders)
         and (path := os.path.normpath(os.path.join(each.root, WORKSPACE_FILE))) in analysis.disk.contents
     }  # fmt: skip
     return {read[real].path for real in program.asked if real in read} | machines | settings

@@ -13,7 +13,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Edit, Fix, Hint, removal, replacing
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.registry import lazily
+from robocomp_yaml.registry import lazy_attributes
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.exports import Unwritable
@@ -42,7 +42,7 @@ __all__ = [
     "removal", "render", "replacing", "token", "trees",
 ]  # fmt: skip
 
-__getattr__ = lazily(__name__, {
+__getattr__ = lazy_attributes(__name__, {
     "emit.exports": "Unwritable", "emit.graphs.picture": "Picture", "emit.render": "render",
     "languages.record": "TargetLanguage", "legacy.document": "List Map Notes Raw",
     "legacy.draft": "ComponentDraft DeploymentDraft ModuleDraft ModuleNames ParametersDraft Reader ValuesDraft",

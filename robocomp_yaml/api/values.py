@@ -101,7 +101,7 @@ class Values:
             told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
             if linked.parameters is not None and check.is_only_layer(linked):
                 told += check.of_document(linked, self._analysis.program, complete=True)
-        return in_order(self._analysis.veiled(told))
+        return in_order(self._analysis.redacted(told))
 
     @property
     def _parameters(self) -> LinkedParameters:
@@ -213,7 +213,7 @@ class Values:
         else:
             found = [replace(fault, span=span, fixes=()) for fault in judge(type_, node, tuple(steps), complete=False)]
         if found:
-            raise Faulty(self._analysis.veiled(found), 1)
+            raise Faulty(self._analysis.redacted(found), 1)
 
 
 def write_new(file: str, include: Sequence[str] = ()) -> str:

@@ -105,10 +105,10 @@ def deployment(path: str, include: tuple[str, ...]) -> str:
         raise Refused(
             f"'{path}' is to have a deployment document; it has none: `rcyaml new deployment NAME` writes one"
         )
-    return one_of(found)
+    return only_deployment(found)
 
 
-def one_of(found: list[str]) -> str:
+def only_deployment(found: list[str]) -> str:
     if len(found) > 1:
         names = ", ".join(sorted(found))
         raise Refused(f"there are several deployments here, of which one is to be named: {names}")

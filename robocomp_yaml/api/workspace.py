@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.api.deploying import Deployment
     from robocomp_yaml.api.fixing import Fixing
     from robocomp_yaml.api.values import Values
-    from robocomp_yaml.building.job import Event
+    from robocomp_yaml.building.job import BuildEvent
     from robocomp_yaml.emit.graphs.picture import Picture
     from robocomp_yaml.network.network import Network
 
@@ -38,7 +38,7 @@ class Workspace:
 
     @property
     def documents(self) -> tuple[str, ...]:
-        return tuple(self.analysis.found.documents)
+        return tuple(self.analysis.discovered.documents)
 
     @property
     def documents_read(self) -> int:
@@ -49,7 +49,7 @@ class Workspace:
         configurations, the programs of deployments), sorted by place. `environment` also looks for the libraries that
         components name, for programs on PATH and for hosts."""
         found = [*self._on_disk(environment), *(self._missing() if environment else ())]
-        return self.analysis.whole(found, environment=environment)
+        return self.analysis.complete(found, environment=environment)
 
     def compile(
         self, *, output: str | None = None, targets: Sequence[str] = (), adopt: bool = False, merge: bool = False,
@@ -58,15 +58,15 @@ class Workspace:
         """What compiling comes to; nothing is written before its `apply`. `output` is a folder to write below;
         `targets` limits what is written (`slice`, `python`, `cpp`, `config`, `docs`); `adopt` takes over files that
         rcyaml did not write, `merge` brings the user's files up to date."""
-        from robocomp_yaml.api.compile_stamps import Arguments
+        from robocomp_yaml.api.compile_stamps import CompileArguments
         from robocomp_yaml.api.compiling import Compilation
 
-        arguments = Arguments(self._paths, self._include, output, targets, standalone)
+        arguments = CompileArguments(self._paths, self._include, output, targets, standalone)
         return Compilation(self.analysis, arguments, adopt=adopt, merge=merge)
 
     def build(
         self, *names: str, build_type: str = "Release", jobs: int | None = None, defines: Sequence[str] = (),
-        report: Callable[[Event], None] | None = None,
+        report: Callable[[BuildEvent], None] | None = None,
     ) -> Built:  # fmt: skip
         """Builds the components that were asked for, or those NAMEs (a component's name, folder or document): those
         that are not what they are made of. `build_type` is CMake's, `jobs` how much is done at once, `defines`
@@ -127,7 +127,7 @@ class Workspace:
 
     def _picture(self, path: str) -> Picture | None:
         """None where the document, or everything in the folder, is too broken to show."""
-        from robocomp_yaml.api.which import deployments_of, one_of
+        from robocomp_yaml.api.which import deployments_of, only_deployment
         from robocomp_yaml.emit.graphs import of_components, of_network
 
         networks, program = self.analysis.networks, self.analysis.program
@@ -138,7 +138,9 @@ class Workspace:
             return of_network.picture_of(network, self.analysis.diagnostics) if network is not None else None
         readable = [one for one in deployments_of(path, analysis=self.analysis) if os.path.realpath(one) in networks]
         if readable:
-            return of_network.picture_of(networks[os.path.realpath(one_of(readable))], self.analysis.diagnostics)
+            return of_network.picture_of(
+                networks[os.path.realpath(only_deployment(readable))], self.analysis.diagnostics
+            )
         if program.deployments or not program.components:
             return None
         return of_components.picture_of(os.path.basename(os.path.abspath(path)), program.components.values())
@@ -151,9 +153,9 @@ class Workspace:
         read = self.analysis.linker.documents.read
         found = [read[real].path for real in self.analysis.networks if real in wanted]
         if found:
-            from robocomp_yaml.api.which import one_of
+            from robocomp_yaml.api.which import only_deployment
 
-            return one_of(found)
+            return only_deployment(found)
         if any(document.kind == "ddsl" and (not path or real in wanted) for real, document in read.items()):
             raise Faulty(self.analysis.diagnostics, self.documents_read)
         raise Refused(f"there is no deployment at '{path}'" if path else "there is no deployment")

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
 from robocomp_yaml.building import stamps
+from robocomp_yaml.building.compiler_output import CompilerOutput
 from robocomp_yaml.building.inputs import Inputs
-from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, Builder, Job, Made, Result, Step
-from robocomp_yaml.building.said import Said
+from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, Builder, BuildResult, BuildStep, ComponentBuild, Job
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import has_errors
@@ -22,9 +22,9 @@ from robocomp_yaml.languages.record import TargetLanguage
 _LAST = 10  # lines that are shown of what failed without a word that is understood
 
 
-def build(job: Job, units: Sequence[Unit]) -> list[Result]:
+def build(job: Job, units: Sequence[Unit]) -> list[BuildResult]:
     """What came of each, in their order."""
-    inputs, done = Inputs(), dict[Unit, Result]()
+    inputs, done = Inputs(), dict[Unit, BuildResult]()
     wanted: list[Unit] = []
     for unit in units:
         if not unit.is_compiled:
@@ -61,17 +61,17 @@ def clean(units: Sequence[Unit], everything: bool, type_: str | None) -> list[st
 
 
 def _is_current(job: Job, unit: Unit, inputs: Inputs) -> bool:
-    found = stamps.look(unit, inputs)
+    found = stamps.inspect(unit, inputs)
     return found.is_current and found.is_known and found.type == job.type
 
 
 def _not_compiled(job: Job, unit: Unit) -> None:
     missing = next(name for name in (GENERATED, SOURCES) if not os.path.isdir(unit.path(name)))
     hint = f"`{typed('rcyaml', 'compile', unit.document)}`"
-    job.tell([codes.NOT_COMPILED.at(Span(unit.document), name=unit.name, folder=unit.path(missing), hint=hint)])
+    job.add([codes.NOT_COMPILED.at(Span(unit.document), name=unit.name, folder=unit.path(missing), hint=hint)])
 
 
-def _made(job: Job, language: TargetLanguage, units: list[Unit], inputs: Inputs) -> Mapping[Unit, Made]:
+def _made(job: Job, language: TargetLanguage, units: list[Unit], inputs: Inputs) -> Mapping[Unit, ComponentBuild]:
     """Has the language build them, and keeps the stamps of those that are."""
     taken = {unit: stamps.take(unit, inputs, job.type) for unit in units}
     began = time.time_ns()
@@ -91,18 +91,18 @@ def _still(files: Iterable[str], began: int) -> bool:
         return False
 
 
-def _result(unit: Unit, state: str, cpu: float = 0.0) -> Result:
-    return Result(unit.name, unit.language.name, unit.folder, unit.program, state, round(cpu, 2))
+def _result(unit: Unit, state: str, cpu: float = 0.0) -> BuildResult:
+    return BuildResult(unit.name, unit.language.name, unit.folder, unit.program, state, round(cpu, 2))
 
 
-def _run_commands(job: Job, units: list[Unit]) -> dict[Unit, Made]:
+def _run_commands(job: Job, units: list[Unit]) -> dict[Unit, ComponentBuild]:
     """Builds them by the commands that their language's record names, some at a time."""
-    done: dict[Unit, Made] = {}
+    done: dict[Unit, ComponentBuild] = {}
     with ThreadPoolExecutor(job.jobs) as pool:
         running = {unit: pool.submit(_run, job, unit) for unit in units}
         try:
             for number, (unit, future) in enumerate(running.items()):
-                job.report(Step(number, len(units), f"Building {unit.name}"))
+                job.report(BuildStep(number, len(units), f"Building {unit.name}"))
                 done[unit] = _made_of(job, unit, future)
         except BaseException:
             job.processes.end()
@@ -110,20 +110,20 @@ def _run_commands(job: Job, units: list[Unit]) -> dict[Unit, Made]:
     return done
 
 
-def _made_of(job: Job, unit: Unit, future: Future[tuple[int, float, list[str]]]) -> Made:
+def _made_of(job: Job, unit: Unit, future: Future[tuple[int, float, list[str]]]) -> ComponentBuild:
     try:
         code, cpu, lines = future.result()
     except OSError as error:
-        job.failed(unit, (error.strerror or str(error)).lower())
-        return Made(False)
-    found = list(Said(unit.folder, f"the {unit.language.title} compiler").diagnostics(lines))
-    job.tell(found)
+        job.add_failure(unit, (error.strerror or str(error)).lower())
+        return ComponentBuild(False)
+    found = list(CompilerOutput(unit.folder, f"the {unit.language.title} compiler").diagnostics(lines))
+    job.add(found)
     if code == 0 and os.path.exists(unit.program):
-        return Made(True, cpu)
+        return ComponentBuild(True, cpu)
     if not has_errors(found):
         reason = f"its build ended with exit code {code}" if code else f"its build left no {unit.program}"
-        job.failed(unit, reason, more=lines[-_LAST:])
-    return Made(False, cpu)
+        job.add_failure(unit, reason, more=lines[-_LAST:])
+    return ComponentBuild(False, cpu)
 
 
 def _run(job: Job, unit: Unit) -> tuple[int, float, list[str]]:

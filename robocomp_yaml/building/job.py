@@ -17,7 +17,7 @@ RELEASE = "Release"
 TYPES = (RELEASE, "Debug", "RelWithDebInfo", "MinSizeRel")
 
 
-class Result(msgspec.Struct, frozen=True):
+class BuildResult(msgspec.Struct, frozen=True):
     """What came of a component: its `state` is `built`, `up to date` or `failed`; `cpu` are the seconds of processors
     that it took, as far as they can be told from those of others."""
 
@@ -29,7 +29,7 @@ class Result(msgspec.Struct, frozen=True):
     cpu: float = 0.0
 
 
-class Step(msgspec.Struct, frozen=True):
+class BuildStep(msgspec.Struct, frozen=True):
     """How far a build is: `done` of `total` steps, and what is being done."""
 
     done: int
@@ -37,10 +37,10 @@ class Step(msgspec.Struct, frozen=True):
     what: str
 
 
-Event = Step | Diagnostic | Result
+BuildEvent = BuildStep | Diagnostic | BuildResult
 
 
-class Made(msgspec.Struct, frozen=True):
+class ComponentBuild(msgspec.Struct, frozen=True):
     """What a language's build made of a component; `read` are files that it read, besides those that are known."""
 
     is_built: bool
@@ -54,23 +54,21 @@ class Job(msgspec.Struct):
 
     type: str
     jobs: int
-    report: Callable[[Event], None]
+    report: Callable[[BuildEvent], None]
     defines: tuple[str, ...] = ()
     processes: Processes = msgspec.field(default_factory=Processes)
-    told: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
 
-    def tell(self, diagnostics: Iterable[Diagnostic]) -> None:
+    def add(self, diagnostics: Iterable[Diagnostic]) -> None:
         for one in diagnostics:
-            if one not in self.told:
-                self.told.append(one)
+            if one not in self.diagnostics:
+                self.diagnostics.append(one)
                 self.report(one)
 
-    def failed(self, unit: Unit, reason: str, *, hint: str = "", more: Iterable[str] = ()) -> None:
+    def add_failure(self, unit: Unit, reason: str, *, hint: str = "", more: Iterable[str] = ()) -> None:
         """Says why a component is not built, where no compiler has."""
-        self.tell(
-            [codes.FAILED.at(Span(unit.document), name=unit.name, reason=reason, hint=hint, more="\n".join(more))]
-        )
+        self.add([codes.FAILED.at(Span(unit.document), name=unit.name, reason=reason, hint=hint, more="\n".join(more))])
 
 
-Builder = Callable[[Job, list[Unit]], Mapping[Unit, Made]]
+Builder = Callable[[Job, list[Unit]], Mapping[Unit, ComponentBuild]]
 """What a language's part `building` has as `build`: makes all of these, and goes on where one fails."""

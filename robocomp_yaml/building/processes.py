@@ -15,7 +15,7 @@ import msgspec
 _POLITE = 5.0  # seconds that a process has to end when it is interrupted, before it is killed
 
 
-class Ended(msgspec.Struct, frozen=True):
+class CompletedCommand(msgspec.Struct, frozen=True):
     """`cpu` are seconds, of the process and all that it waited for."""
 
     code: int
@@ -33,7 +33,7 @@ class Processes:
     def run(
         self, command: Sequence[str], on_line: Callable[[str], None], *, cwd: str | None = None,
         env: Mapping[str, str] | None = None,
-    ) -> Ended:  # fmt: skip
+    ) -> CompletedCommand:  # fmt: skip
         """Runs a command to its end; what it writes, on standard error too, goes to `on_line`. Compilers speak English,
         so that it is known what they say. Raises OSError where it cannot be started."""
         with self._lock:
@@ -60,7 +60,7 @@ class Processes:
                 process.stdout.close()
             with self._lock:
                 self._running.discard(process)
-        return Ended(process.returncode, used.ru_utime + used.ru_stime)
+        return CompletedCommand(process.returncode, used.ru_utime + used.ru_stime)
 
     def end(self) -> None:
         """Ends all of them; none is started any more."""

@@ -24,7 +24,7 @@ FOLDER = ".rcyaml/builds"
 _NAME = f"{FOLDER}/stamp.json"
 
 
-class Stamp(msgspec.Struct, frozen=True):
+class BuildStamp(msgspec.Struct, frozen=True):
     """`program` is the state of what was built, `inputs` the files that it was made of, relative to the component's
     folder, with state and digest; `more` of these are such as only the build knew."""
 
@@ -34,7 +34,7 @@ class Stamp(msgspec.Struct, frozen=True):
     more: tuple[str, ...] = ()
 
 
-class Look(msgspec.Struct, frozen=True):
+class ProgramState(msgspec.Struct, frozen=True):
     """How a component is: whether its program `is_there`, and which files `changed` since it was made. `type` is how
     it was built last, '' where nobody knows; `is_known` says that the program is the one of the last build."""
 
@@ -48,13 +48,13 @@ class Look(msgspec.Struct, frozen=True):
         return self.is_there and not self.changed
 
 
-def look(unit: Unit, inputs: Inputs) -> Look:
+def inspect(unit: Unit, inputs: Inputs) -> ProgramState:
     program, stamp = state(unit.program), load(unit)
     type_ = stamp.type if stamp else ""
     if program is None:
-        return Look(False, type=type_)
+        return ProgramState(False, type=type_)
     if stamp is None or stamp.program != program:
-        return Look(True, tuple(sorted(_younger(unit, inputs, program))), type_)
+        return ProgramState(True, tuple(sorted(_younger(unit, inputs, program))), type_)
     here = {path: os.path.normpath(os.path.join(unit.folder, path)) for path in stamp.inputs}
     now = inputs.of(unit, (here[path] for path in stamp.more))
     changed = set(here.values()) ^ now.keys()
@@ -62,19 +62,19 @@ def look(unit: Unit, inputs: Inputs) -> Look:
         file = here[path]
         if file in now and now[file] != known and inputs.digest(file, now[file]) != known_digest:
             changed.add(file)
-    return Look(True, tuple(sorted(changed)), type_, is_known=True)
+    return ProgramState(True, tuple(sorted(changed)), type_, is_known=True)
 
 
 def _younger(unit: Unit, inputs: Inputs, program: State) -> list[str]:
     return [path for path, (_, changed, _) in inputs.of(unit).items() if changed > program[1]]
 
 
-def take(unit: Unit, inputs: Inputs, type_: str) -> Stamp:
+def take(unit: Unit, inputs: Inputs, type_: str) -> BuildStamp:
     """Of a build that begins now."""
-    return Stamp(type_, (0, 0, 0), _known(unit, inputs, inputs.of(unit)))
+    return BuildStamp(type_, (0, 0, 0), _known(unit, inputs, inputs.of(unit)))
 
 
-def with_more(unit: Unit, taken: Stamp, inputs: Inputs, more: Iterable[str]) -> Stamp:
+def with_more(unit: Unit, taken: BuildStamp, inputs: Inputs, more: Iterable[str]) -> BuildStamp:
     """With files that the build read besides."""
     others = {path: found for path in more if (found := state(path)) is not None}
     known = _known(unit, inputs, others)
@@ -87,7 +87,7 @@ def _known(unit: Unit, inputs: Inputs, files: Mapping[str, State]) -> dict[str, 
     return {os.path.relpath(path, unit.folder): (found, inputs.digest(path, found)) for path, found in files.items()}
 
 
-def keep(unit: Unit, taken: Stamp) -> None:
+def keep(unit: Unit, taken: BuildStamp) -> None:
     """Keeps it, with the program as it is now. Where that cannot be, the next build only looks again."""
     program = state(unit.program)
     if program is None or not stays_inside(unit.folder, _NAME):
@@ -103,10 +103,10 @@ def keep(unit: Unit, taken: Stamp) -> None:
         whole_file.put(unit.path(_NAME), text.encode("utf-8", "surrogateescape"))
 
 
-def load(unit: Unit) -> Stamp | None:
+def load(unit: Unit) -> BuildStamp | None:
     try:
         with open(unit.path(_NAME), "rb", opener=regular) as file:
-            return msgspec.convert(json.loads(file.read().decode("utf-8", "surrogateescape")), Stamp)
+            return msgspec.convert(json.loads(file.read().decode("utf-8", "surrogateescape")), BuildStamp)
     except (OSError, ValueError, RecursionError):
         return None
 

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from robocomp_yaml.commands import _plugged
+from robocomp_yaml.commands import _plugin_choices
 
 if TYPE_CHECKING:
     from robocomp_yaml.diag.errors import Faulty
 
 
-class Command(click.Command):
+class LibraryCommand(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        _plugged.remember(ctx, args)
+        _plugin_choices.remember(ctx, args)
         with _answers(ctx):
             return super().parse_args(ctx, args)
 
@@ -27,10 +27,10 @@ class Command(click.Command):
             return super().invoke(ctx)
 
 
-class Group(click.Group):
+class CommandGroup(click.Group):
     """Its subcommands are such commands; that a word is none of them it says in one way, at every level."""
 
-    command_class = Command
+    command_class = LibraryCommand
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 import click
 import msgspec
 
-from robocomp_yaml.commands import _plugged
+from robocomp_yaml.commands import _plugin_choices
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import ERROR, SEVERITIES, Diagnostic
 from robocomp_yaml.diag.render import FORMATS, tell
@@ -65,7 +65,7 @@ def _fail_on(ctx: click.Context, param: click.Parameter, given: tuple[str, ...])
 
         known = dict(table())
         if not codes.keys() <= known.keys():
-            known |= _plugged.codes(ctx)
+            known |= _plugin_choices.codes(ctx)
         for code, word in codes.items():
             if code not in known:
                 meant = suggest(code.lower(), SEVERITIES) or suggest(code, known)

@@ -15,17 +15,17 @@ from types import FrameType
 INTERRUPTED, READER_GONE = 128 + signal.SIGINT, 128 + signal.SIGPIPE
 
 
-class Ended(KeyboardInterrupt):
+class Terminated(KeyboardInterrupt):
     """Somebody asked the process to end with SIGTERM."""
 
 
 def code_of(error: BaseException | None) -> int:
     """The exit code of a run that this interrupted."""
-    return 128 + signal.SIGTERM if isinstance(error, Ended) else INTERRUPTED
+    return 128 + signal.SIGTERM if isinstance(error, Terminated) else INTERRUPTED
 
 
 @contextmanager
-def heeded() -> Iterator[None]:
+def handled() -> Iterator[None]:
     """Signals raise KeyboardInterrupt in here, and end the process at once from then on. One that is ignored stays so,
     as of what a script runs in the background."""
     numbers = [one for one in (signal.SIGINT, signal.SIGTERM) if signal.getsignal(one) is not signal.SIG_IGN]
@@ -40,7 +40,7 @@ def heeded() -> Iterator[None]:
 
 
 def _terminate(number: int, frame: FrameType | None) -> None:
-    raise Ended
+    raise Terminated
 
 
 def _end(number: int, frame: FrameType | None) -> None:

@@ -10,9 +10,9 @@ import click
 import msgspec
 
 from robocomp_yaml.api import building
-from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, RELEASE, TYPES, Event, Result, Step
+from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, RELEASE, TYPES, BuildEvent, BuildResult, BuildStep
 from robocomp_yaml.commands import _options, _signals
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.commands._progress import Live
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -24,7 +24,7 @@ T = TypeVar("T")
 _COLORS = {BUILT: "32", FAILED: "31", CURRENT: "2"}
 
 
-@click.command(cls=Command, short_help="Build components; only what is not what it is made of.")
+@click.command(cls=LibraryCommand, short_help="Build components; only what is not what it is made of.")
 @click.argument("components", nargs=-1, metavar="[COMPONENT]...")
 @click.option(
     "--type", "type_", type=click.Choice(TYPES, case_sensitive=False), help="How C++ is built; Release, unless said."
@@ -64,7 +64,7 @@ def command(
     ctx.exit(1 if built.has_errors else 0)
 
 
-def run(ctx: click.Context, format_: str, work: Callable[[Callable[[Event], None]], T], on_interrupt: str) -> T:
+def run(ctx: click.Context, format_: str, work: Callable[[Callable[[BuildEvent], None]], T], on_interrupt: str) -> T:
     """A build that is shown; Ctrl-C ends the command."""
     try:
         with _View(ctx, format_) as view:
@@ -90,11 +90,11 @@ class _View(Live):
         self._color = _options.colored(ctx)
         super().__init__(self._is_text and self._verbosity >= 0)
 
-    def report(self, event: Event) -> None:
+    def report(self, event: BuildEvent) -> None:
         if not self._is_text:
             return
         self.pause()
-        if isinstance(event, Step):
+        if isinstance(event, BuildStep):
             self.draw([f"[{event.done}/{event.total}] {event.what}" if event.total else event.what])
         elif isinstance(event, Diagnostic):
             terminal.say(*text.each([event], self._color)[0], "")
@@ -102,6 +102,6 @@ class _View(Live):
             terminal.say(_line(event, self._color))
 
 
-def _line(result: Result, color: bool) -> terminal.Shown:
+def _line(result: BuildResult, color: bool) -> terminal.Shown:
     word = terminal.paint(terminal.pad(result.state, len(CURRENT)), _COLORS[result.state], color)
     return terminal.line(word, "  ", result.program if result.state != FAILED else result.name)

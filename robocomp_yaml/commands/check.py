@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
 from robocomp_yaml.diag.render import tell
@@ -16,10 +16,10 @@ from robocomp_yaml.diag.render.json import dumps, fix_as_data, run_as_data
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.fixing import Fixing
-    from robocomp_yaml.fixing import Done
+    from robocomp_yaml.fixing import AttemptedFix
 
 
-@click.command(cls=Command, short_help="Report everything that is wrong with the documents.")
+@click.command(cls=LibraryCommand, short_help="Report everything that is wrong with the documents.")
 @_options.paths
 @click.option("--environment", is_flag=True, help="Also say which of the libraries they name are not installed.")
 @click.option("--fix", is_flag=True, help="Apply the fixes that leave only one possible meaning.")
@@ -78,7 +78,7 @@ def _left(fixing: Fixing) -> Iterator[str]:
     yield from (f"left   {one.path}: {one.reason}" for one in fixing.written if one.reason)
 
 
-def _said(one: Done) -> str:
+def _said(one: AttemptedFix) -> str:
     span = one.diagnostic.span
     return f"{span.file}:{span.line}:{span.column}: {one.fix.title} ({one.diagnostic.code})"
 
@@ -102,13 +102,13 @@ def _as_data(fixing: Fixing, told: list[Diagnostic], documents: int, look_only: 
         })  # fmt: skip
     return {
         **run_as_data(told, documents),
-        "fixed": [_done_as_data(one) for one in fixing.fixed],
-        "not_fixed": [{**_done_as_data(one), "reason": one.reason} for one in fixing.left],
+        "fixed": [_fix_as_data(one) for one in fixing.fixed],
+        "not_fixed": [{**_fix_as_data(one), "reason": one.reason} for one in fixing.left],
         "files": files,
     }
 
 
-def _done_as_data(one: Done) -> dict[str, Any]:
+def _fix_as_data(one: AttemptedFix) -> dict[str, Any]:
     span = one.diagnostic.span
     return {
         "code": one.diagnostic.code, "file": span.file, "line": span.line, "column": span.column,

@@ -11,8 +11,8 @@ import click
 
 from robocomp_yaml.api.outcome import CHANGED, WRITTEN, File, Outcome
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Command
-from robocomp_yaml.commands._plugged import Plugged
+from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.render import tell
 from robocomp_yaml.diag.render.json import dumps, run_as_data
@@ -35,11 +35,13 @@ def _targets(plugins: Plugins) -> list[str]:
     return ["slice", *languages.table(), *(one.name for one in plugins.languages), "config", "docs"]
 
 
-@click.command(cls=Command, short_help="Write Slice and components; only what changed.")
+@click.command(cls=LibraryCommand, short_help="Write Slice and components; only what changed.")
 @_options.paths
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR.")
 @click.option("--standalone", is_flag=True, help="Give each component all that it needs, in its own folder.")
-@click.option("--target", "targets", multiple=True, type=Plugged(_targets), help="Write only this; may be repeated.")
+@click.option(
+    "--target", "targets", multiple=True, type=PluginChoice(_targets), help="Write only this; may be repeated."
+)
 @click.option("--dry-run", is_flag=True, help="Say what would be written, and write nothing.")
 @click.option("--diff", is_flag=True, help="Show what would change in each file, and write nothing.")
 @click.option("--check", is_flag=True, help="Write nothing; exit with 1 if anything would change (for CI).")
@@ -66,7 +68,7 @@ def command(
     look_only = dry_run or diff or check
     outcome = None
     if not (diff or merge or ctx.obj.verbosity > 0):
-        arguments = compile_stamps.Arguments(paths, include, output, targets, standalone)
+        arguments = compile_stamps.CompileArguments(paths, include, output, targets, standalone)
         outcome = compile_stamps.earlier_outcome(arguments, planned=look_only)
     if outcome is None:
         from robocomp_yaml import api

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Command, Group
+from robocomp_yaml.commands._command import CommandGroup, LibraryCommand
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.render.json import dumps
 
@@ -24,7 +24,7 @@ def _meant(ctx: click.Context, param: click.Parameter, said: str) -> str:
     return which.values(said)
 
 
-class _FileMayLack(Command):
+class _OptionalFile(LibraryCommand):
     """Its first argument may be left out where there is only one document that it can be."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
@@ -39,7 +39,7 @@ file = click.argument("file", metavar="[FILE]", default="", callback=_meant)
 reveal = click.option("--reveal", is_flag=True, help="Show secrets too.")
 
 
-@click.group(cls=Group, short_help="Values of parameters: check, show, change, export.")
+@click.group(cls=CommandGroup, short_help="Values of parameters: check, show, change, export.")
 def command() -> None:
     """The values of a component's parameters: without a build, and without a robot.
 
@@ -97,7 +97,7 @@ def show(ctx: click.Context, file: str, reveal: bool, include: tuple[str, ...], 
     terminal.data("".join(f"{_assignment(row):<{width}}  # {_origin(row)}\n" for row in rows))
 
 
-@command.command(short_help="One effective value.", cls=_FileMayLack)
+@command.command(short_help="One effective value.", cls=_OptionalFile)
 @file
 @click.argument("path")
 @reveal
@@ -121,7 +121,7 @@ def get(
     terminal.data(f"{data if isinstance(data, str) else flow(data)}\n")
 
 
-@command.command("set", short_help="Change one value; all else stays as it is.", cls=_FileMayLack,
+@command.command("set", short_help="Change one value; all else stays as it is.", cls=_OptionalFile,
                  context_settings={"ignore_unknown_options": True})  # fmt: skip
 @file
 @click.argument("path")

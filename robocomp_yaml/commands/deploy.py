@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Group
-from robocomp_yaml.commands._plugged import Plugged
+from robocomp_yaml.commands._command import CommandGroup
+from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.deploy.engines import ENGINES
 from robocomp_yaml.source.discover import of_kind
 
@@ -84,7 +84,7 @@ def _exports(plugins: Plugins) -> list[str]:
     return forms(plugins)
 
 
-@click.group(cls=Group, short_help="A network of components: plan, up, status, logs, down.")
+@click.group(cls=CommandGroup, short_help="A network of components: plan, up, status, logs, down.")
 def command() -> None:
     """Deploy the network that a document (NAME.ddsl.yaml) describes.
 
@@ -180,7 +180,7 @@ def probe(session: Session, host: tuple[str, ...]) -> None:
     "The network in the words of other tools.",
     click.argument("nothing", cls=_DocumentAnd, most=0, expose_value=False),
 )
-@click.option("--as", "form", required=True, type=Plugged(_exports), help="Which tool.")
+@click.option("--as", "form", required=True, type=PluginChoice(_exports), help="Which tool.")
 @click.option(
     "-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR, not to standard output."
 )

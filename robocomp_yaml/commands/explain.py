@@ -7,8 +7,8 @@ from collections.abc import Iterable
 
 import click
 
-from robocomp_yaml.commands import _options, _plugged
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands import _options, _plugin_choices
+from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.page import Files, Repeated
@@ -16,7 +16,7 @@ from robocomp_yaml.diag.page import Files, Repeated
 _OF_A_PLUGIN = re.compile(r"(?!RC\d)[A-Z]{2,}\d{3,4}")
 
 
-@click.command(cls=Command, short_help="Say what a diagnostic means, with examples.")
+@click.command(cls=LibraryCommand, short_help="Say what a diagnostic means, with examples.")
 @click.argument("code", required=False)
 @_options.text_or_json
 @click.pass_context
@@ -26,7 +26,7 @@ def command(ctx: click.Context, code: str | None, format_: str) -> None:
     if code is None:
         chosen = list(rows.values())
     elif (row := rows.get(code.upper())) is None:
-        _plugged.here()  # it may be that of a plug-in that cannot be had
+        _plugin_choices.plugins_at()  # it may be that of a plug-in that cannot be had
         raise click.UsageError(f"no diagnostic is called {code}{_hint(code.upper(), rows)}")
     else:
         chosen = [row]
@@ -50,7 +50,7 @@ def _codes() -> dict[str, Code]:
     """All codes, with those of the plug-ins of this folder's workspace."""
     from robocomp_yaml.diag.codes import table
 
-    return {**table(), **_plugged.codes()}
+    return {**table(), **_plugin_choices.codes()}
 
 
 def _listed(rows: list[Code]) -> str:

@@ -7,16 +7,16 @@ import sys
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Command
-from robocomp_yaml.commands._plugged import Plugged
+from robocomp_yaml.commands._command import LibraryCommand
+from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.emit.graphs.forms import forms
 from robocomp_yaml.transactions import whole_file
 
 
-@click.command(cls=Command, short_help="A picture of a deployment, or of components.")
+@click.command(cls=LibraryCommand, short_help="A picture of a deployment, or of components.")
 @click.argument("path", metavar="[DDSL]", default=".", type=click.Path(exists=True))
-@click.option("--as", "form", type=Plugged(forms), default="text", show_default=True, help="How to draw it.")
+@click.option("--as", "form", type=PluginChoice(forms), default="text", show_default=True, help="How to draw it.")
 @click.option("-o", "--output", metavar="FILE", type=click.Path(dir_okay=False), help="Write it there.")
 @_options.include
 @_options.format_

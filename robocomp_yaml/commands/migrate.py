@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.render import tell
 from robocomp_yaml.transactions import whole_file
@@ -24,7 +24,7 @@ LONG = 50
 """So many files are worth a progress bar."""
 
 
-@click.command(cls=Command, short_help="Carry legacy files over to YAML, losing nothing.")
+@click.command(cls=LibraryCommand, short_help="Carry legacy files over to YAML, losing nothing.")
 @click.argument("paths", nargs=-1, required=True, type=click.Path(exists=True))
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False),
               help="Write below DIR, in the folders of the sources. Default: beside each source.")  # fmt: skip

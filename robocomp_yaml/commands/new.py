@@ -10,8 +10,8 @@ import click
 
 from robocomp_yaml import languages
 from robocomp_yaml.commands import _options
-from robocomp_yaml.commands._command import Group
-from robocomp_yaml.commands._plugged import Plugged
+from robocomp_yaml.commands._command import CommandGroup
+from robocomp_yaml.commands._plugin_choices import PluginChoice
 from robocomp_yaml.diag import terminal
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from robocomp_yaml.plugins import Plugins
 
 
-@click.group(cls=Group, short_help="Write a new interface, component, parameters or deployment document.")
+@click.group(cls=CommandGroup, short_help="Write a new interface, component, parameters or deployment document.")
 def command() -> None:
     """Write a new document that already checks and compiles, commented as a tutorial.
 
@@ -58,7 +58,7 @@ def _uses(name: str, meaning: str) -> Callable[[Any], Any]:
 
 @command.command(short_help="A new component document.")
 @click.argument("name")
-@click.option("--language", type=Plugged(_languages), default=languages.DEFAULT, help="The language of its code.")
+@click.option("--language", type=PluginChoice(_languages), default=languages.DEFAULT, help="The language of its code.")
 @_uses("implements", "interfaces that it serves")
 @_uses("requires", "interfaces of others that it calls")
 @_uses("publishes", "topics that it publishes")

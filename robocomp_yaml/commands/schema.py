@@ -7,8 +7,8 @@ import os
 import click
 from click.shell_completion import CompletionItem
 
-from robocomp_yaml.commands import _plugged
-from robocomp_yaml.commands._command import Command
+from robocomp_yaml.commands import _plugin_choices
+from robocomp_yaml.commands._command import LibraryCommand
 from robocomp_yaml.diag import terminal
 
 
@@ -20,7 +20,7 @@ def _kinds(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
     return kinds or [CompletionItem(incomplete, type="file")]
 
 
-@click.command(cls=Command, short_help="Print the JSON Schema of a kind of document.")
+@click.command(cls=LibraryCommand, short_help="Print the JSON Schema of a kind of document.")
 @click.argument("kind", metavar="[KIND|FILE]", required=False, shell_complete=_kinds)
 @click.pass_context
 def command(ctx: click.Context, kind: str | None) -> None:
@@ -30,7 +30,7 @@ def command(ctx: click.Context, kind: str | None) -> None:
     if kind is None:
         _list()
     elif kind in GLOBS:
-        terminal.data(schema_of(kind, _plugged.here()), json=True)
+        terminal.data(schema_of(kind, _plugin_choices.plugins_at()), json=True)
     else:
         _tell(os.path.normpath(kind))
 
@@ -62,5 +62,5 @@ def _tell(document: str) -> None:
         terminal.say(schema.modeline)
     if schema.is_missing:
         terminal.say(f"that file is missing: {init} writes it again")
-    elif schema.path and schema.is_outdated(_plugged.here(schema.root)):
+    elif schema.path and schema.is_outdated(_plugin_choices.plugins_at(schema.root)):
         terminal.say(f"that file is not this version's schema: {init} writes it again")

@@ -44,7 +44,7 @@ def convert(path: str, known: Formats | None = None) -> Converted:
     said += told
     if rules is None:
         return Converted(path, by_name(path, known), source, diagnostics=tuple(said))
-    with rules.plugin.answering(f"legacy format '{rules.name}'") if rules.plugin else nullcontext():
+    with rules.plugin.guarded(f"legacy format '{rules.name}'") if rules.plugin else nullcontext():
         parsed = parse(source, rules)
         said += parsed.diagnostics
         draft = _draft(parsed, source, rules, said)

@@ -95,7 +95,7 @@ def with_plugins(plugins: Plugins) -> Formats:
     `convert`. Raises Faulty where one of them is not as it should be."""
     found: list[Rules] = []
     for name, (plugin, module) in plugins.of(FORMATS).items():
-        with plugin.answering(f"legacy format '{name}'"):
+        with plugin.guarded(f"legacy format '{name}'"):
             data = _read("RULES", module.RULES)
             if hasattr(module, "GRAMMAR"):
                 data["grammar"] = module.GRAMMAR

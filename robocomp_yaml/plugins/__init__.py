@@ -84,20 +84,20 @@ class Plugin(msgspec.Struct, frozen=True, eq=False):
 
     name: str
     span: Span
-    pieces: dict[tuple[str, str], ModuleType]
+    modules: dict[tuple[str, str], ModuleType]
 
     @property
     def codes(self) -> dict[str, Code]:
         """Its own diagnostics: the codes that stand in its modules."""
-        return {one.id: one for module in self.pieces.values() for one in codes_in(module)}
+        return {one.id: one for module in self.modules.values() for one in codes_in(module)}
 
     def call(self, what: str, function: Callable[..., Any], *arguments: Any) -> Any:
         """What a function of the plug-in answers."""
-        with self.answering(what):
+        with self.guarded(what):
             return function(*arguments)
 
     @contextmanager
-    def answering(self, what: str, passing: type[Exception] = Refused) -> Iterator[None]:
+    def guarded(self, what: str, passing: type[Exception] = Refused) -> Iterator[None]:
         """Whatever goes wrong in a plug-in is told as its fault: `what` names the part. Exceptions that are answers,
         `passing` among them, go on."""
         try:
@@ -124,7 +124,7 @@ class Plugins(msgspec.Struct, frozen=True, eq=False):
         """What they add of a kind, by name, each with whose it is."""
         return {
             name: (plugin, module) for plugin in self.active
-            for (of, name), module in plugin.pieces.items() if of == kind
+            for (of, name), module in plugin.modules.items() if of == kind
         }  # fmt: skip
 
     @property

@@ -24,7 +24,7 @@ from robocomp_yaml.source.yaml_text import flow
 _SUFFIX = "comp"
 
 
-class DeploymentView(msgspec.Struct, frozen=True):
+class NewDeploymentView(msgspec.Struct, frozen=True):
     modeline: str
     name: str
     rows: list[str]
@@ -40,7 +40,7 @@ def deployment_document(root: str, name: str) -> NewDocument:
     names = _names(components)
     rows = [row for linked in components for row in _entry(linked, path, names, components)]
     has_topics = any(linked.component.publishes or linked.component.subscribes for linked in components)
-    view = DeploymentView(modeline("ddsl", path, root), name, rows, has_topics, bool(components))
+    view = NewDeploymentView(modeline("ddsl", path, root), name, rows, has_topics, bool(components))
     return NewDocument(path, render("new/deployment.ddsl.yaml.j2", view))
 
 

@@ -30,19 +30,19 @@ _LISTS = {
 }
 
 
-class InterfaceView(msgspec.Struct, frozen=True):
+class NewInterfaceView(msgspec.Struct, frozen=True):
     modeline: str
     module: str
     name: str
 
 
-class ComponentView(msgspec.Struct, frozen=True):
+class NewComponentView(msgspec.Struct, frozen=True):
     modeline: str
     name: str
     rows: list[str]
 
 
-class ParametersView(msgspec.Struct, frozen=True):
+class NewParametersView(msgspec.Struct, frozen=True):
     modeline: str
     component: str
 
@@ -55,7 +55,7 @@ class NewDocument(msgspec.Struct, frozen=True):
 def interface_document(root: str, name: str) -> NewDocument:
     require_name(name)
     path = free(os.path.join(interface_folder(root), f"{name}.idsl.yaml"))
-    view = InterfaceView(modeline("idsl", path, root), f"RoboComp{name[0].upper()}{name[1:]}", name)
+    view = NewInterfaceView(modeline("idsl", path, root), f"RoboComp{name[0].upper()}{name[1:]}", name)
     document = NewDocument(path, render("new/interface.idsl.yaml.j2", view))
     _refuse_faulty(document, name)
     return document
@@ -70,7 +70,7 @@ def component_document(
         for twice in {n for n in names if list(names).count(n) > 1}:
             raise Refused(f"--{key} {twice} stands twice")
     imports = imports_for(root, path, [name for names in uses.values() for name in names], include)
-    view = ComponentView(modeline("cdsl", path, root), name, list(_rows(language, imports, uses)))
+    view = NewComponentView(modeline("cdsl", path, root), name, list(_rows(language, imports, uses)))
     return NewDocument(path, render("new/component.cdsl.yaml.j2", view))
 
 
@@ -80,7 +80,9 @@ def parameters_document(root: str, name: str) -> NewDocument:
     component = _component(root, name) or os.path.join(root, "components", name.lower(), f"{name.lower()}.cdsl.yaml")
     path = free(component.removesuffix("cdsl.yaml") + "pdsl.yaml")
     shown = os.path.basename(component) if os.path.isfile(component) else name
-    return NewDocument(path, render("new/parameters.pdsl.yaml.j2", ParametersView(modeline("pdsl", path, root), shown)))
+    return NewDocument(
+        path, render("new/parameters.pdsl.yaml.j2", NewParametersView(modeline("pdsl", path, root), shown))
+    )
 
 
 def require_name(name: str) -> None:

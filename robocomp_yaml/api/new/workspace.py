@@ -21,7 +21,7 @@ Report = Callable[[str, str], None]
 """Who is told of each file as it is done, WROTE or KEPT with its path, and what to NOTE."""
 
 
-class WorkspaceView(msgspec.Struct, frozen=True):
+class NewWorkspaceView(msgspec.Struct, frozen=True):
     modeline: str
 
 
@@ -75,6 +75,6 @@ def _write(document: NewDocument, report: Report) -> None:
 
 def _files(folder: str) -> Iterator[tuple[str, str]]:
     path = os.path.normpath(os.path.join(folder, WORKSPACE_FILE))
-    view = WorkspaceView(workspace_files.modeline("workspace", path, folder))
+    view = NewWorkspaceView(workspace_files.modeline("workspace", path, folder))
     yield path, render("new/workspace.yaml.j2", view)
     yield os.path.normpath(os.path.join(folder, ".gitignore")), resources.text("templates/new/gitignore")

@@ -9,7 +9,7 @@ import msgspec
 from lark import Token, Tree
 
 from robocomp_yaml.diag.codes import migration as codes
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import MachineDraft, Reader
 from robocomp_yaml.legacy.grammar import token, trees
@@ -122,7 +122,7 @@ class _Converter:
 
     def _circles(self, top: _Block, inner: list[_Block]) -> None:
         """Every state is somewhere in the machine, not only in itself."""
-        placed = reached(top.states, lambda state: state.states)
+        placed = reachable(top.states, lambda state: state.states)
         for block in inner:
             parent = self.known.get(block.name)
             if parent is not None and parent not in placed:

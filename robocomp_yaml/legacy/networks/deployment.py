@@ -9,7 +9,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import managers as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.legacy.document import List, Map, Notes, Raw
 from robocomp_yaml.legacy.networks.command import LOCAL, LOOPBACK, is_config
 from robocomp_yaml.legacy.networks.components import Known, match
@@ -200,7 +200,7 @@ class _Builder(msgspec.Struct, eq=False):
     def is_in_circle(self, node: Node) -> bool:
         """Whether it waits, by way of others, for itself: a deployment passes over one of these dependences."""
         waits = self.waits
-        return node.name in reached(waits.get(node.name, ()), lambda name: waits.get(name, ()))
+        return node.name in reachable(waits.get(node.name, ()), lambda name: waits.get(name, ()))
 
     def keep_dependences(self, node: Node) -> None:
         """The dependences as the file has them, where `after:` does not say the same."""

@@ -46,13 +46,13 @@ def test_documents_with_errors(row: Code, tmp_path: Path, monkeypatch: pytest.Mo
     paths = _paths(row)
     _run(paths)
     again = _run(paths)
-    kept = compile_stamps.earlier_outcome(compile_stamps.Arguments(paths, ()))
+    kept = compile_stamps.earlier_outcome(compile_stamps.CompileArguments(paths, ()))
     assert kept is not None, "every run is made again"
     assert _told(kept) == _told(again)
     for name in {*row.wrong} - {*row.right}:
         if os.path.lexists(name):
             os.unlink(name) if not os.path.isdir(name) or os.path.islink(name) else os.rmdir(name)
     write_tree(tmp_path, {name: it for name, it in _plain(row.right).items() if row.wrong.get(name) != it})
-    assert compile_stamps.earlier_outcome(compile_stamps.Arguments(paths, ())) is None, (
+    assert compile_stamps.earlier_outcome(compile_stamps.CompileArguments(paths, ())) is None, (
         "an error stays though its cause has gone"
     )

@@ -33,7 +33,7 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Unit:
 
 
 def changed(unit: Unit) -> tuple[str, ...]:
-    return stamps.look(unit, Inputs()).changed
+    return stamps.inspect(unit, Inputs()).changed
 
 
 def built(unit: Unit, *more: str) -> None:
@@ -106,7 +106,7 @@ def test_another_program_is_judged_by_time(arm: Unit) -> None:
     """The stamp does not know it, though it says how the last one was built."""
     built(arm)
     write("arm/bin/ArmComp")
-    found = stamps.look(arm, Inputs())
+    found = stamps.inspect(arm, Inputs())
     assert (found.is_known, found.type, found.changed) == (False, "Debug", ())
     os.utime("arm/bin/ArmComp", (500, 500))
     assert "arm/src/worker.cpp" in changed(arm)
@@ -115,7 +115,7 @@ def test_another_program_is_judged_by_time(arm: Unit) -> None:
 def test_no_program(arm: Unit) -> None:
     built(arm)
     os.unlink("arm/bin/ArmComp")
-    assert not stamps.look(arm, Inputs()).is_there
+    assert not stamps.inspect(arm, Inputs()).is_there
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"type": 1}'])

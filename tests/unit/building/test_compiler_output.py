@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_yaml.building.said import Said
+from robocomp_yaml.building.compiler_output import CompilerOutput
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
 CODE = "#include <x.h>\nint main() {\n\treturn opne(1);\n}\n"
@@ -19,7 +19,7 @@ def said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     (tmp_path / "arm" / "arm.cpp").write_text(CODE, encoding="utf-8")
 
     def read(text: str) -> list[Diagnostic]:
-        return list(Said("build", "the compiler").diagnostics(text.splitlines()))
+        return list(CompilerOutput("build", "the compiler").diagnostics(text.splitlines()))
 
     return read
 

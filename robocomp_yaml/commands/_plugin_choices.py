@@ -23,7 +23,7 @@ def remember(ctx: click.Context, words: Sequence[str]) -> None:
     ctx.meta[_WORDS] = tuple(words)
 
 
-class Plugged(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
+class PluginChoice(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
     """One of what `known` gives for the plug-ins of the workspaces of the paths on the command line; where there is
     none, of that of the working folder. Nothing is looked for before somebody asks."""
 
@@ -39,7 +39,7 @@ class Plugged(click.ParamType):  # type: ignore[type-arg]  # older ones are not 
         choices = self.choices(ctx)
         if value not in choices:
             for path in _paths(ctx):
-                here(path)  # raises Faulty if the choice may be that of a plug-in that is missing
+                plugins_at(path)  # raises Faulty if the choice may be that of a plug-in that is missing
         return str(click.Choice(choices).convert(value, param, ctx))
 
     def choices(self, ctx: click.Context | None) -> list[str]:
@@ -51,7 +51,7 @@ class Plugged(click.ParamType):  # type: ignore[type-arg]  # older ones are not 
         return [CompletionItem(name) for name in self.choices(ctx) if name.startswith(incomplete)]
 
 
-def here(path: str = ".") -> Plugins:
+def plugins_at(path: str = ".") -> Plugins:
     """The plug-ins of the workspace that a path is in. Raises Faulty where one of them cannot be had."""
     from robocomp_yaml.plugins import NONE
 

@@ -29,7 +29,7 @@ _UNDEFINED = "undefined reference"
 _NOTES = 3  # that are shown with an error: of a template, there may be dozens
 
 
-class Said:
+class CompilerOutput:
     """Reads what a compiler writes, whose paths are relative to `folder`; `compiler` is what it is called."""
 
     def __init__(self, folder: str, compiler: str) -> None:

@@ -19,20 +19,20 @@ from robocomp_yaml.diag.suggest import meaning, suggest
 from robocomp_yaml.plugins import BY_GROUP, LANGUAGES, Kind, Plugin, Plugins, codes_in, reason_of
 from robocomp_yaml.source.digest import digest, states
 
-_OURS = re.compile(r"RC\d")
+_OWN_CODE = re.compile(r"RC\d")
 _CODE = re.compile(r"[A-Z]{2,}\d{3,4}")
 
 
-def found(named: Iterable[tuple[str, Span]]) -> tuple[Plugins, list[Diagnostic]]:
+def resolve(named: Iterable[tuple[str, Span]]) -> tuple[Plugins, list[Diagnostic]]:
     """The plug-ins of these names, each with the place that names it, and what is wrong with them."""
     listed = list(named)
     said: list[Diagnostic] = []
     active: list[Plugin] = []
     seen: set[str] = set()
     for name, span in listed:
-        if normal(name) in seen:
+        if normalized(name) in seen:
             continue
-        seen.add(normal(name))
+        seen.add(normalized(name))
         distribution = _distribution(name)
         if distribution is None:
             said.append(codes.NO_PLUGIN.at(span, name=name, hint=_missing(name)))
@@ -41,20 +41,20 @@ def found(named: Iterable[tuple[str, Span]]) -> tuple[Plugins, list[Diagnostic]]
         if not entries:
             said.append(codes.NOT_A_PLUGIN.at(span, name=name, hint=_other(name) or "take it out of `plugins:`"))
             continue
-        plugin = Plugin(normal(name), span, {})
+        plugin = Plugin(normalized(name), span, {})
         for entry in entries:
             said += _add(plugin, entry, active)
         active.append(plugin)
     are_broken = any(one.code in (codes.PLUGIN_BROKEN.id, codes.PLUGIN_CLASH.id) for one in said)
-    return Plugins(tuple(active), tuple(normal(name) for name, _ in listed), not said, are_broken), said
+    return Plugins(tuple(active), tuple(normalized(name) for name, _ in listed), not said, are_broken), said
 
 
 def load(names: Iterable[str]) -> None:
     """Makes what plug-ins say known, where their workspace is not read: what they said in an earlier run is told."""
-    found((name, Span("")) for name in names)
+    resolve((name, Span("")) for name in names)
 
 
-def normal(name: str) -> str:
+def normalized(name: str) -> str:
     """A distribution's name as installers compare it."""
     return re.sub(r"[-_.]+", "-", name).lower()
 
@@ -112,32 +112,32 @@ def _add(plugin: Plugin, entry: metadata.EntryPoint, others: list[Plugin]) -> It
         yield codes.PLUGIN_BROKEN.at(plugin.span, name=plugin.name, what=what, reason=reason_of(error), hint=hint)
         return
     if problem := kind.problem(entry.name, module) or _problem_of_codes(module):
-        yield codes.PLUGIN_BROKEN.at(plugin.span, name=plugin.name, what=what, reason=problem, hint=_LATER)
+        yield codes.PLUGIN_BROKEN.at(plugin.span, name=plugin.name, what=what, reason=problem, hint=_TELL_AUTHORS)
         return
     if clash := _clash(kind, entry.name, module, others):
         thing, other = clash
-        hint = "name one of the two" if other != "rcyaml" else _LATER
+        hint = "name one of the two" if other != "rcyaml" else _TELL_AUTHORS
         yield codes.PLUGIN_CLASH.at(plugin.span, name=plugin.name, what=thing, other=other, hint=hint)
         return
-    plugin.pieces[kind.name, entry.name] = module
+    plugin.modules[kind.name, entry.name] = module
     if kind.name == LANGUAGES:
         languages.add(module.LANGUAGE)
 
 
-_LATER = "tell its authors; another version may be right"
+_TELL_AUTHORS = "tell its authors; another version may be right"
 
 
 def _why_not(error: BaseException, name: str) -> str:
     if isinstance(error, ModuleNotFoundError) and error.name:
         return f"install it again, with all that it needs: `pip install --force-reinstall {name}`"
-    return _LATER
+    return _TELL_AUTHORS
 
 
 def _problem_of_codes(module: ModuleType) -> str:
     for code in codes_in(module):
         if not _CODE.fullmatch(code.id):
             return f"'{code.id}' is no code: two or more capital letters, and three or four digits"
-        if _OURS.match(code.id):
+        if _OWN_CODE.match(code.id):
             continue  # one of ours, which it may give too; or a clash
         try:
             code.severity, code.message, code.entry  # noqa: B018 (to see whether they are there)
@@ -151,10 +151,10 @@ def _clash(kind: Kind, name: str, module: ModuleType, others: list[Plugin]) -> t
     if name in kind.built_in():
         return f"{kind.called} '{name}'", "rcyaml"
     for other in others:
-        if kind.home and (kind.name, name) in other.pieces:
+        if kind.home and (kind.name, name) in other.modules:
             return f"{kind.called} '{name}'", f"plug-in '{other.name}'"
     for code in codes_in(module):
-        if _OURS.match(code.id):
+        if _OWN_CODE.match(code.id):
             from robocomp_yaml.diag.codes import table
 
             if table().get(code.id) != code:
