@@ -405,14 +405,14 @@ def test_a_document_that_is_read_only_stays(rcyaml: Run, tmp_path: Path) -> None
 
 def test_a_document_that_changed_meanwhile_stays(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_tree(tmp_path, {"Laser.idsl.yaml": LASER, IDSL: WRONG})
-    real = fixing.mend
+    real = fixing.apply_fixes
 
     def meanwhile(*args: object, **options: bool) -> object:
         done = real(*args, **options)  # type: ignore[arg-type]
         (tmp_path / IDSL).write_text(WRONG + "# mine\n")
         return done
 
-    monkeypatch.setattr(fixing, "mend", meanwhile)
+    monkeypatch.setattr(fixing, "apply_fixes", meanwhile)
     result = rcyaml("check", "--fix")
     assert (tmp_path / IDSL).read_text() == WRONG + "# mine\n"
     assert "it was changed meanwhile: check again" in result.stdout and result.exit_code == 1
