@@ -9,8 +9,8 @@
     if not plan.has_errors:
         plan.apply()
 
-What `__all__` names here, and its public attributes, keep their names and their meaning within a major version;
-docs/api.md says more. All else in `robocomp_yaml` may change at any time. The command line is made of this.
+The names in `__all__`, and their public attributes, keep their names and their meaning within a major version; see
+docs/api.md. Everything else in `robocomp_yaml` may change at any time. The command line is built on this library.
 """
 
 from __future__ import annotations
@@ -58,12 +58,12 @@ def load(
     *paths: str, include: Iterable[str] = (), overlay: Mapping[str, bytes | str] | None = None,
     on_read: Callable[[str], None] | None = None,
 ) -> Workspace:  # fmt: skip
-    """Reads the documents at some paths, and all that belongs to them; a folder means all documents below it, and no
-    path the working folder. `include` are folders to look for imports in (`-I`). `overlay` has the texts of unsaved
-    documents by path: they count instead of what the disk has, be there such a file or not. `on_read` is told the
-    path of each document that is read.
+    """Reads the documents at these paths, with all that they refer to. A folder means all documents below it; the
+    default is the working folder. `include` are folders to search for imports (`-I`). `overlay` has the texts of
+    unsaved documents by path; they replace the files on the disk, or add to them. `on_read` is called with the path of
+    each document that is read.
 
-    Never raises for what documents say: `Workspace.check` tells what is wrong with them.
+    Returns a workspace whatever the documents contain: `Workspace.check` reports what is wrong with them.
     """
     from robocomp_yaml.api.workspace import Workspace
 
@@ -74,9 +74,10 @@ def load(
 def migrate(
     *paths: str, output: str | None = None, include: Iterable[str] = (), force: bool = False, exact: bool = False
 ) -> Migration:
-    """What carrying legacy files over to documents comes to: those at some paths, or all below a folder. Nothing is
-    written before `Migration.apply`. `output` is a folder to write below, else documents stand beside their sources;
-    `force` overwrites documents that were edited since; `exact` keeps blanks around the separators of lists."""
+    """Converts legacy files to documents: the files at these paths, or all below a folder. Returns the migration;
+    nothing is written before `Migration.apply`. `output` is a folder to write below; by default, documents are written
+    beside their sources. `force` overwrites documents that were edited since, `exact` keeps blanks around the
+    separators of lists."""
     from robocomp_yaml.api.migrating import Migration
 
     return Migration(paths, output, tuple(include), force=force, exact=exact)

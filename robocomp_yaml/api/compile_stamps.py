@@ -1,4 +1,4 @@
-"""The stamps of compiles: a compile whose stamp holds is up to date, and is not run again."""
+"""The stamps of compiles. A compile whose stamp holds is up to date, and is skipped."""
 
 from __future__ import annotations
 

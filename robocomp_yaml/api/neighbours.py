@@ -1,4 +1,4 @@
-"""The ports of a workspace, for the configuration of one of its components, as far as that leaves them open."""
+"""The TCP ports of the components of a workspace, as far as their configurations leave them open."""
 
 from __future__ import annotations
 
@@ -15,22 +15,23 @@ if TYPE_CHECKING:
 
 
 def ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
-    """The ports of a component's workspace, assigned once for each workspace; where a component is in none, those of
-    this run's components."""
+    """A function that returns the ports of a component's workspace, which are assigned once. If a component is in no
+    workspace, the ports are those of the components of this run."""
     known: dict[str, Ports] = {}
 
     def of(linked: LinkedComponent) -> Ports:
         workspace = analysis.linker.workspace_of(linked.component.path)
         key = workspace.root if workspace.declared else ""
         if key not in known:
-            from robocomp_yaml.emit.ports import assign  # a compile of interfaces alone does not need it
+            from robocomp_yaml.emit.ports import assign  # unused if only interfaces are compiled
 
-            around = Program()
-            if workspace.declared:  # what is wrong with neighbours is for their own `check`
+            others = Program()
+            if workspace.declared:
+                # The diagnostics of the others are dropped: their own `check` reports them.
                 linker = Linker(analysis.linker.documents, analysis.linker.search)
-                around = linker.link(of_kind(workspace.root, "cdsl", analysis.disk))
-            values = {**around.values, **analysis.program.values}
-            components = [*around.components.values(), *analysis.program.components.values()]
+                others = linker.link(of_kind(workspace.root, "cdsl", analysis.disk))
+            values = {**others.values, **analysis.program.values}
+            components = [*others.components.values(), *analysis.program.components.values()]
             known[key] = assign(components, analysis.disk, values.values())
         return known[key]
 

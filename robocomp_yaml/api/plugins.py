@@ -1,7 +1,7 @@
-"""What plug-ins are made of: all that their modules import from rcyaml. docs/plugins.md says how one is written.
+"""The library for plug-ins: everything that their modules import from rcyaml. See docs/plugins.md.
 
-The names of `__all__` keep their meaning as those of `robocomp_yaml.api` do. Each is imported when it is asked for, so
-that a module which is loaded for every check costs only what it uses.
+The names in `__all__` keep their meaning as those of `robocomp_yaml.api` do. Each is imported when it is used, so that
+a module that is loaded for every check costs only what it uses.
 """
 
 from __future__ import annotations

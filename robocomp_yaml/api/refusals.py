@@ -1,4 +1,4 @@
-"""What is said of a name that is unknown, and of a file that cannot be written."""
+"""Errors for unknown names, and for files that cannot be written."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from robocomp_yaml.diag.suggest import suggest
 
 
 def meant(word: str, known: Iterable[str], otherwise: str = "") -> str:
-    """The end of a message about an unknown word: `; did you mean 'X'?`, else what helps `otherwise`."""
+    """The end of a message about an unknown word: `; did you mean 'X'?`, or `otherwise` if no known word is near."""
     nearest = suggest(word, known)
     hint = f"did you mean '{nearest}'?" if nearest else otherwise
     return f"; {hint}" if hint else ""
 
 
 def require(what: str, name: str, known: Collection[str], owner: str = "rcyaml") -> None:
-    """Raises Refused if `name` is none of the known names."""
+    """Raises Refused if `name` is unknown. `owner` is what has the known names."""
     if name not in known:
-        all_ = f"there are {', '.join(known)}"
-        raise Refused(f"{owner} has no {what} '{name}'{meant(name, known, all_)}")
+        choices = f"choose one of {', '.join(known)}"
+        raise Refused(f"{owner} has no {what} '{name}'{meant(name, known, choices)}")
 
 
 def cannot_write(path: str, error: OSError) -> Refused:
