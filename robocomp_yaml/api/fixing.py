@@ -1,4 +1,4 @@
-"""The fixes that documents get, and what remains."""
+"""Applying the fixes of diagnostics, and what remains."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 
 class FixedDocument(msgspec.Struct, frozen=True):
-    """A document that was fixed, or, with a reason, was not. `before` and `after` are its contents."""
+    """A document with fixes. `before` and `after` are its contents; `reason` says why it was not written, '' if it
+    was."""
 
     path: str
     before: bytes
@@ -32,7 +33,7 @@ class FixedDocument(msgspec.Struct, frozen=True):
 
 
 class Fixing:
-    """What fixing the documents of a workspace comes to. Nothing is written before `apply`.
+    """The fixes of the documents of a workspace. Nothing is written before `apply`.
 
     `fixed` are the fixes that are applied, each with its diagnostic; `left` those that are not, with the reason;
     `written` the documents that change.
@@ -43,8 +44,8 @@ class Fixing:
         *, unsafe: bool, environment: bool,
     ) -> None:  # fmt: skip
         self._before, self._load, self._paths, self._environment = before, load, tuple(paths), environment
-        mended = apply_fixes(self._look, _asked(before.analysis), unsafe=unsafe)
-        self._changed, self._fixed, self._left = mended.changed, mended.fixed, mended.left
+        result = apply_fixes(self._look, _requested(before.analysis), unsafe=unsafe)
+        self._changed, self._fixed, self._left = result.changed, result.fixed, result.left
         self.written: tuple[FixedDocument, ...] = self._write(look_only=True)
         self._remaining: Workspace | None = None
 
@@ -62,12 +63,12 @@ class Fixing:
 
     @property
     def refused(self) -> set[str]:
-        """The documents that cannot be written."""
+        """The paths of the documents that cannot be written."""
         return {one.path for one in self.written if one.reason}
 
     @property
     def remaining(self) -> Workspace:
-        """The documents as they are when all is applied."""
+        """The workspace after all fixes are applied."""
         if self._remaining is None:
             refused = self.refused
             self._remaining = self._load({path: to for path, to in self._changed.items() if path not in refused})
@@ -75,19 +76,19 @@ class Fixing:
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
-        """What remains."""
+        """The diagnostics that remain."""
         return self.remaining.check(environment=self._environment)
 
     def diffs(self) -> Iterator[str]:
-        """A unified diff of each document that changes, with secrets hidden."""
+        """A unified diff of each document that changes, without secrets."""
         hidden = self._before.analysis.hidden()
         for one in self.written:
             if not one.reason:
                 yield hidden.without(unified(_text(one.before), _text(one.after), f"a/{one.path}", f"b/{one.path}"))
 
     def apply(self) -> None:
-        """Writes the documents, each whole or not at all; one that was changed meanwhile, or cannot be written, stays
-        as it is."""
+        """Writes the documents, each completely or not at all. A document that has changed since it was read, or cannot
+        be written, is kept."""
         self.written = self._write(look_only=False)
         self._remaining = None
 
@@ -111,14 +112,16 @@ class Fixing:
             document.path: UNREADABLE if document.tree is None else MISSHAPEN if document.model is None else UNDERSTOOD
             for document in analysis.linker.documents.read.values()
         }
-        # Whether a comment allows something in vain is known once all is checked.
-        told = workspace.check(environment=self._environment) if analysis.allowed.by_file else analysis.diagnostics
-        return CheckedDocuments(list(told), analysis.disk.contents, levels)
+        # Which comments suppress nothing is known only after a complete check.
+        diagnostics = (
+            workspace.check(environment=self._environment) if analysis.allowed.by_file else analysis.diagnostics
+        )
+        return CheckedDocuments(list(diagnostics), analysis.disk.contents, levels)
 
 
-def _asked(analysis: Analysis) -> set[str]:
-    """The documents that the user named, or that are below the folders that were named, with their state machines and
-    workspaces."""
+def _requested(analysis: Analysis) -> set[str]:
+    """The paths of the requested documents, of those below requested folders, and of their state machines and workspace
+    files."""
     program, read = analysis.program, analysis.linker.documents.read
     machines = {
         path for real, linked in program.components.items() if real in program.asked for path in linked.machine_files
@@ -136,11 +139,11 @@ def _text(content: bytes) -> str:
 
 
 def _refusal(paths: Sequence[str], path: str, before: bytes) -> str:
-    """Why a document is left as it is, or ''. Raises OSError where it cannot be read."""
+    """Why a document is not written, or ''. Raises OSError if it cannot be read."""
     real = os.path.realpath(path)
-    named = {os.path.realpath(asked) for asked in paths}
-    if real not in named and not any(stays_inside(asked, real) for asked in paths if os.path.isdir(asked)):
-        return f"a link leads out of what was asked for, to {real}: name that file to have it fixed"
+    named = {os.path.realpath(one) for one in paths}
+    if real not in named and not any(stays_inside(one, real) for one in paths if os.path.isdir(one)):
+        return f"a link leads to {real}, outside the requested paths: pass that file to fix it"
     if not os.stat(real).st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH) or not os.access(real, os.W_OK):
         return "it is read-only"
-    return "" if whole(real)[0] == before else "it was changed meanwhile: check again"
+    return "" if whole(real)[0] == before else "it has changed meanwhile: run the check again"

@@ -1,5 +1,5 @@
-"""Which document is meant: by its path, its folder or the component's name, or without a word where there is only
-one. All of these raise Refused where none is meant, or several are."""
+"""Which document an argument means: by its path, its folder or the name of its component; without an argument, the only
+one. The functions raise Refused if no document is meant, or more than one."""
 
 from __future__ import annotations
 
@@ -20,38 +20,40 @@ if TYPE_CHECKING:
 VALUES = os.path.join("etc", "config.yaml")
 
 
-def component(said: str) -> str:
+def component(argument: str) -> str:
     """The document of a component, or of parameters without one."""
-    if os.path.isdir(said or "."):
-        return _of_folder(said)
-    if kind_of(said) in ("cdsl", "pdsl") and os.path.isfile(said):
-        return said
-    if os.path.lexists(said) or os.path.basename(said) != said or said.endswith((".yaml", ".yml")):
+    if os.path.isdir(argument or "."):
+        return _of_folder(argument)
+    if kind_of(argument) in ("cdsl", "pdsl") and os.path.isfile(argument):
+        return argument
+    if os.path.lexists(argument) or os.path.basename(argument) != argument or argument.endswith((".yaml", ".yml")):
         raise Refused(
-            f"'{said}' is no component's document" if os.path.lexists(said) else f"there is no document {said}"
+            f"'{argument}' is no document of a component"
+            if os.path.lexists(argument)
+            else f"'{argument}' does not exist"
         )
-    return _named(said)
+    return _named(argument)
 
 
-def values(said: str) -> str:
-    """A values document: itself, or the one of the component that is meant."""
-    if os.path.isfile(said) and kind_of(said) not in ("cdsl", "pdsl"):
-        return said
-    if os.path.basename(said) == "config.yaml" or said.endswith(".config.yaml"):
-        raise Refused(f"there is no document {said}")
-    document = component(said)
+def values(argument: str) -> str:
+    """The values document: the argument itself, or that of the component that it means."""
+    if os.path.isfile(argument) and kind_of(argument) not in ("cdsl", "pdsl"):
+        return argument
+    if os.path.basename(argument) == "config.yaml" or argument.endswith(".config.yaml"):
+        raise Refused(f"'{argument}' does not exist")
+    document = component(argument)
     path = os.path.normpath(os.path.join(os.path.dirname(document), VALUES))
     if not os.path.isfile(path):
-        raise Refused(f"there is no {path} yet: `rcyaml config new {document}` writes it")
+        raise Refused(f"{path} does not exist yet: `rcyaml config new {document}` writes it")
     return path
 
 
 def _of_folder(folder: str) -> str:
-    """The component of a folder: the only one in it, else the only one below it."""
+    """The component of a folder: the only one in it, or else the only one below it."""
     beside = References(Disk()).beside
     nearest = (beside(folder, "cdsl"), beside(folder, "pdsl"), of_kind(folder, "cdsl"), of_kind(folder, "pdsl"))
-    several = f"'{folder}' has several components" if folder else "there are several components here"
-    missing = f"there is no component {f'in {folder!r}' if folder else 'here'}"
+    several = f"'{folder}' has several components" if folder else "this folder has several components"
+    missing = f"'{folder}' has no component" if folder else "this folder has no component"
     return _only(nearest, several) or _refuse(f"{missing}; `rcyaml new component NAME` writes one")
 
 
@@ -69,7 +71,8 @@ def _refuse(message: str) -> NoReturn:
 
 
 def _named(name: str) -> str:
-    """The component that is called so in this workspace; its document or its folder may be, and in another case."""
+    """The component of this workspace with this name. The name of its document or folder is accepted too, in any
+    case."""
     from robocomp_yaml.link.workspace import root_above
 
     root = root_above("") or "."
@@ -80,8 +83,8 @@ def _named(name: str) -> str:
     same = [path for path, known in names.items() if name in known]
     alike = [path for path, known in names.items() if name.lower() in map(str.lower, known)]
     components = [called for called, *_ in names.values() if called]
-    return _only((same, alike), f"several components are called '{name}'") or _refuse(
-        f"there is no component '{name}'{meant(name, components)}"
+    return _only((same, alike), f"several components have the name '{name}'") or _refuse(
+        f"unknown component '{name}'{meant(name, components)}"
     )
 
 
@@ -90,36 +93,33 @@ def component_near(values_document: str) -> str:
     folder = os.path.dirname(values_document)
     folders = (folder, os.path.normpath(os.path.join(folder, os.pardir)))
     nearest = (References(Disk()).beside(where, kind) for where in folders for kind in ("cdsl", "pdsl"))
-    return _only(nearest, "there are several components here") or _refuse(
-        f"there is no component beside {values_document}, nor one folder up"
+    return _only(nearest, "this folder has several components") or _refuse(
+        f"{values_document} has no component beside it, nor one folder up"
     )
 
 
 def deployment(path: str, include: tuple[str, ...]) -> str:
-    """The deployment's document that a path means. Raises Refused where a folder has none, or
-    several."""
+    """The document of the deployment that a path means."""
     if not os.path.isdir(path):
         return path
     found = deployments_of(path, include)
     if not found:
-        raise Refused(
-            f"'{path}' is to have a deployment document; it has none: `rcyaml new deployment NAME` writes one"
-        )
+        raise Refused(f"'{path}' has no deployment document: `rcyaml new deployment NAME` writes one")
     return only_deployment(found)
 
 
 def only_deployment(found: list[str]) -> str:
     if len(found) > 1:
         names = ", ".join(sorted(found))
-        raise Refused(f"there are several deployments here, of which one is to be named: {names}")
+        raise Refused(f"there are several deployments: {names}; name one of them")
     return found[0]
 
 
 def deployments_of(folder: str, include: tuple[str, ...] = (), analysis: Analysis | None = None) -> list[str]:
-    """The deployments of a folder, else those below it; those that others include are parts of these. `analysis` is of
-    the folder, where there is one."""
-    all_of_them, here = of_kind(folder, "ddsl"), os.path.normpath(folder)
-    found = [path for path in all_of_them if (os.path.dirname(path) or ".") == here] or all_of_them
+    """The deployments in a folder, or else below it, without those that another one includes. `analysis` is that of the
+    folder, if there is one."""
+    below, own_folder = of_kind(folder, "ddsl"), os.path.normpath(folder)
+    found = [path for path in below if (os.path.dirname(path) or ".") == own_folder] or below
     if len(found) < 2:
         return found
     if analysis is None:
