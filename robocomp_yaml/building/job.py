@@ -1,4 +1,4 @@
-"""A build: what is asked for, what is told meanwhile, and what came of it."""
+"""A build: its options, its events and its results."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ TYPES = (RELEASE, "Debug", "RelWithDebInfo", "MinSizeRel")
 
 
 class BuildResult(msgspec.Struct, frozen=True):
-    """What came of a component: its `state` is `built`, `up to date` or `failed`; `cpu` are the seconds of processors
-    that it took, as far as they can be told from those of others."""
+    """The result of a component: its `state` is `built`, `up to date` or `failed`; `cpu` is its CPU time in seconds, as
+    far as it can be measured by component."""
 
     name: str
     language: str
@@ -30,7 +30,7 @@ class BuildResult(msgspec.Struct, frozen=True):
 
 
 class BuildStep(msgspec.Struct, frozen=True):
-    """How far a build is: `done` of `total` steps, and what is being done."""
+    """The progress of a build: `done` of `total` steps, and the current step."""
 
     done: int
     total: int
@@ -41,7 +41,7 @@ BuildEvent = BuildStep | Diagnostic | BuildResult
 
 
 class ComponentBuild(msgspec.Struct, frozen=True):
-    """What a language's build made of a component; `read` are files that it read, besides those that are known."""
+    """What the build of a language did with a component; `read` are files that it read besides the known inputs."""
 
     is_built: bool
     cpu: float = 0.0
@@ -49,8 +49,8 @@ class ComponentBuild(msgspec.Struct, frozen=True):
 
 
 class Job(msgspec.Struct):
-    """`defines` are what CMake is told with -D. `told` are the diagnostics so far; all that is new goes to `report`,
-    too."""
+    """A running build. `defines` are the -D options for CMake. `diagnostics` are those so far; `report` gets each new
+    event."""
 
     type: str
     jobs: int
@@ -66,9 +66,9 @@ class Job(msgspec.Struct):
                 self.report(one)
 
     def add_failure(self, unit: Unit, reason: str, *, hint: str = "", more: Iterable[str] = ()) -> None:
-        """Says why a component is not built, where no compiler has."""
+        """Reports why a component is not built, if no compiler did."""
         self.add([codes.FAILED.at(Span(unit.document), name=unit.name, reason=reason, hint=hint, more="\n".join(more))])
 
 
 Builder = Callable[[Job, list[Unit]], Mapping[Unit, ComponentBuild]]
-"""What a language's part `building` has as `build`: makes all of these, and goes on where one fails."""
+"""The `build` of a language's part `building`: builds these components, and continues if one fails."""

@@ -1,8 +1,8 @@
-"""The stamp of a build: what a program was made of, so that one is known that is older than that.
+"""The stamp of a build: what a program was built from, so that a stale program is detected.
 
-It stands in the component's `.rcyaml/builds/`, which no repository holds. Where the program is the one that the stamp
-knows, contents are compared, and a file that was but touched is as it was. Another one, as by CMake itself, must be
-younger than all that it is made of.
+It is in `.rcyaml/builds/` of the component, which is not under version control. If the program is the one of the stamp,
+contents are compared, so that touching a file has no effect. Any other program, such as one that CMake built directly,
+is up to date if it is younger than all its inputs.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ _NAME = f"{FOLDER}/stamp.json"
 
 
 class BuildStamp(msgspec.Struct, frozen=True):
-    """`program` is the state of what was built, `inputs` the files that it was made of, relative to the component's
-    folder, with state and digest; `more` of these are such as only the build knew."""
+    """`program` is the state of the built program, `inputs` are the files that it was built from, relative to the
+    folder of the component, each with state and digest; `more` are those of them that only the build knows."""
 
     type: str
     program: State
@@ -35,8 +35,8 @@ class BuildStamp(msgspec.Struct, frozen=True):
 
 
 class ProgramState(msgspec.Struct, frozen=True):
-    """How a component is: whether its program `is_there`, and which files `changed` since it was made. `type` is how
-    it was built last, '' where nobody knows; `is_known` says that the program is the one of the last build."""
+    """The program of a component: whether it exists (`is_there`), and which inputs have `changed` since it was built.
+    `type` is the last build type, '' if unknown; `is_known` says that the program is the one of the last build."""
 
     is_there: bool
     changed: tuple[str, ...] = ()
@@ -55,11 +55,11 @@ def inspect(unit: Unit, inputs: Inputs) -> ProgramState:
         return ProgramState(False, type=type_)
     if stamp is None or stamp.program != program:
         return ProgramState(True, tuple(sorted(_younger(unit, inputs, program))), type_)
-    here = {path: os.path.normpath(os.path.join(unit.folder, path)) for path in stamp.inputs}
-    now = inputs.of(unit, (here[path] for path in stamp.more))
-    changed = set(here.values()) ^ now.keys()
+    files = {path: os.path.normpath(os.path.join(unit.folder, path)) for path in stamp.inputs}
+    now = inputs.of(unit, (files[path] for path in stamp.more))
+    changed = set(files.values()) ^ now.keys()
     for path, (known, known_digest) in stamp.inputs.items():
-        file = here[path]
+        file = files[path]
         if file in now and now[file] != known and inputs.digest(file, now[file]) != known_digest:
             changed.add(file)
     return ProgramState(True, tuple(sorted(changed)), type_, is_known=True)
@@ -70,12 +70,12 @@ def _younger(unit: Unit, inputs: Inputs, program: State) -> list[str]:
 
 
 def take(unit: Unit, inputs: Inputs, type_: str) -> BuildStamp:
-    """Of a build that begins now."""
+    """The stamp of a build that begins now."""
     return BuildStamp(type_, (0, 0, 0), _known(unit, inputs, inputs.of(unit)))
 
 
 def with_more(unit: Unit, taken: BuildStamp, inputs: Inputs, more: Iterable[str]) -> BuildStamp:
-    """With files that the build read besides."""
+    """A stamp with more files that the build has read."""
     others = {path: found for path in more if (found := state(path)) is not None}
     known = _known(unit, inputs, others)
     return msgspec.structs.replace(
@@ -88,7 +88,8 @@ def _known(unit: Unit, inputs: Inputs, files: Mapping[str, State]) -> dict[str, 
 
 
 def keep(unit: Unit, taken: BuildStamp) -> None:
-    """Keeps it, with the program as it is now. Where that cannot be, the next build only looks again."""
+    """Writes the stamp, with the current state of the program. If it cannot be written, the next build compares
+    times."""
     program = state(unit.program)
     if program is None or not stays_inside(unit.folder, _NAME):
         return

@@ -1,4 +1,4 @@
-"""A component as it is built: where it stands, what it is made of, and what comes of it."""
+"""A component as it is built: its location, its inputs and its program."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from robocomp_yaml.link.workspace import Workspace, named_from_here
 
 
 class Unit(msgspec.Struct, frozen=True):
-    """`document`, `folder` and `root` are as the user named them; `root` is the workspace's, or the component's own
-    where it is in none (`is_alone`). `runtime` is the run time that it shares, '' for its own; `slices` are the Slice
-    files that it needs, `sources` what it names under `uses:`."""
+    """`document`, `folder` and `root` are relative to the working folder, as the user passed them. `root` is the folder
+    of the workspace, or of a component without one (`is_alone`). `runtime` is the shared run time, '' if the component
+    has its own; `slices` are the required Slice files, `sources` the existing files and folders of `uses:`."""
 
     name: str
     language: TargetLanguage
@@ -34,7 +34,7 @@ class Unit(msgspec.Struct, frozen=True):
 
     @property
     def program(self) -> str:
-        """What is started."""
+        """The path of the program."""
         return self.path(self.language.program.format(name=self.name))
 
     @property
@@ -43,7 +43,7 @@ class Unit(msgspec.Struct, frozen=True):
 
     @property
     def command(self) -> str:
-        """How its user has it built."""
+        """The command that builds the component."""
         return typed("rcyaml", "build", named_from_here(self.name, self.document))
 
     def path(self, below: str) -> str:
@@ -64,7 +64,7 @@ def unit_of(linked: LinkedComponent, workspace: Workspace) -> Unit:
 
 
 def _slices(linked: LinkedComponent, workspace: Workspace, folder: str) -> Iterator[str]:
-    """Its own, or those that it shares with others."""
+    """The Slice files of a component: its own, or those that the workspace shares."""
     for module in linked.modules():
         name = file_name(module)
         own = os.path.join(folder, SLICE, name)
@@ -75,7 +75,7 @@ def _slices(linked: LinkedComponent, workspace: Workspace, folder: str) -> Itera
 
 
 def _sources(linked: LinkedComponent, workspace: Workspace, folder: str) -> Iterator[str]:
-    """The files and folders of the repository that are compiled with it, where they are there."""
+    """The existing files and folders of the repository that are compiled with the component."""
     component = linked.component
     for source in component.sources:
         if source.kind not in component.language.target.has:

@@ -1,6 +1,5 @@
-"""A new document of any kind, which already checks and compiles, commented as a tutorial: where it goes, and its text.
+"""New documents of all kinds, which check and compile at once, with comments that explain them.
 
-An interface goes to the workspace's first folder of interfaces, a component to `components/` and a folder of its own,
-which bears its name in lower case; parameters go beside their component, a deployment to `deployments/`. The functions
-raise Refused for what cannot be.
+An interface goes to the first interfaces folder of the workspace, a component to a folder of `components/` with its
+name in lower case, parameters beside their component, a deployment to `deployments/`.
 """

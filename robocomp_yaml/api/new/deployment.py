@@ -1,4 +1,4 @@
-"""The document that `rcyaml new deployment` writes: the components of the workspace, each of them once."""
+"""The document that `rcyaml new deployment` writes: each component of the workspace, once."""
 
 from __future__ import annotations
 
@@ -33,7 +33,8 @@ class NewDeploymentView(msgspec.Struct, frozen=True):
 
 
 def deployment_document(root: str, name: str) -> NewDocument:
-    """In the workspace's folder of deployments."""
+    """The document, in the workspace's folder of deployments. Raises Refused if the name is not possible, or the
+    document exists."""
     require_name(name)
     path = free(os.path.join(root, "deployments", f"{name.lower()}.ddsl.yaml"))
     components = _components(root)
@@ -45,14 +46,14 @@ def deployment_document(root: str, name: str) -> NewDocument:
 
 
 def _components(root: str) -> list[LinkedComponent]:
-    """The components of a workspace that have no errors, in the order of their paths."""
+    """The components of a workspace that have no errors, sorted by path."""
     program = Linker(Documents(), Search(search_folders(()))).link(of_kind(root, "cdsl"))
     sound = (linked for linked in program.components.values() if not linked.broken)
     return sorted(sound, key=lambda linked: linked.component.path)
 
 
 def _names(components: Sequence[LinkedComponent]) -> dict[LinkedComponent, str]:
-    """A name of its own for each, by what the component is called: SpeechComp is `speech`."""
+    """A unique name for each component, from its own name: `speech` for SpeechComp."""
     names: dict[LinkedComponent, str] = {}
     for linked in components:
         plain = linked.component.name.lower()
@@ -80,22 +81,23 @@ def _entry(
 
 
 def _required(parameters: Parameters) -> dict[str, Any]:
-    """A value, for example, of each parameter that needs one."""
+    """An example of a value for each parameter that requires one."""
     from robocomp_yaml.parameters.examples.fitting import fitted
 
     found: dict[str, Any] = {}
     for path, value in fitted(parameters).given.items():
-        here = found
+        node = found
         for step in path[:-1]:
-            here = here.setdefault(step, {})
-        here[path[-1]] = value
+            node = node.setdefault(step, {})
+        node[path[-1]] = value
     return found
 
 
 def _connections(
     linked: LinkedComponent, names: dict[LinkedComponent, str], components: Sequence[LinkedComponent]
 ) -> Iterator[str]:
-    """What has to be said: who serves it where several do, and where it is where nobody does."""
+    """The connections that do not follow from the documents: which of several servers to use, and where an external
+    server is."""
     for port in linked.requires:
         serving = [
             other for other in components if other is not linked
@@ -107,8 +109,8 @@ def _connections(
             others = ", ".join(dict.fromkeys(names[other] for other in serving[1:]))
             yield f"      {port.name}: {names[serving[0]]}  # or {others}"
         else:
-            where = f'"{port.interface.name.lower()}:tcp -h localhost -p 10000"'
-            yield f"      {port.name}: {where}  # no component here implements it: where is it?"
+            proxy = f'"{port.interface.name.lower()}:tcp -h localhost -p 10000"'
+            yield f"      {port.name}: {proxy}  # no component of this workspace implements it: set its proxy"
 
 
 def _interface(port: Port) -> tuple[str, str]:

@@ -1,4 +1,5 @@
-"""The new documents but deployments: where they go, and their text."""
+"""New interface, component and parameters documents: their paths and texts. The functions raise Refused if the name is
+not possible, or the document exists."""
 
 from __future__ import annotations
 
@@ -25,8 +26,8 @@ _LONGEST_NAME = 200
 _LISTS = {
     "implements": ("Speech", "interfaces that it serves to others"),
     "requires": ("Mouth", "interfaces of others that it calls, each through a proxy"),
-    "publishes": ("SpeechEvents", "topics that it tells others about"),
-    "subscribes": ("Asr", "topics that it listens to"),
+    "publishes": ("SpeechEvents", "topics whose events it publishes"),
+    "subscribes": ("Asr", "topics whose events it receives"),
 }
 
 
@@ -68,14 +69,15 @@ def component_document(
     path = free(os.path.join(root, "components", name.lower(), f"{name.lower()}.cdsl.yaml"))
     for key, names in uses.items():
         for twice in {n for n in names if list(names).count(n) > 1}:
-            raise Refused(f"--{key} {twice} stands twice")
+            raise Refused(f"--{key} {twice} is repeated")
     imports = imports_for(root, path, [name for names in uses.values() for name in names], include)
     view = NewComponentView(modeline("cdsl", path, root), name, list(_rows(language, imports, uses)))
     return NewDocument(path, render("new/component.cdsl.yaml.j2", view))
 
 
 def parameters_document(root: str, name: str) -> NewDocument:
-    """Beside the component `name` of the workspace; where there is none, where it would be."""
+    """The parameters document of the component `name`, beside the component; if there is no such component yet, where
+    it would be."""
     require_name(name)
     component = _component(root, name) or os.path.join(root, "components", name.lower(), f"{name.lower()}.cdsl.yaml")
     path = free(component.removesuffix("cdsl.yaml") + "pdsl.yaml")
@@ -88,21 +90,21 @@ def parameters_document(root: str, name: str) -> NewDocument:
 def require_name(name: str) -> None:
     if not _NAME.fullmatch(name):
         raise Refused(
-            f"'{name}' cannot be a name: a name has letters, digits and underscores, and starts with no digit"
+            f"'{name}' is no name: a name has letters, digits and underscores, and does not start with a digit"
         )
     if len(name) > _LONGEST_NAME:
-        raise Refused(f"'{name[:20]}…' is longer than a name may be, {_LONGEST_NAME} letters")
+        raise Refused(f"'{name[:20]}…' is too long: a name has at most {_LONGEST_NAME} characters")
 
 
 def free(path: str) -> str:
     path = os.path.normpath(path)
     if os.path.lexists(path):
-        raise Refused(f"{path} is there already, and stays as it is")
+        raise Refused(f"{path} exists already, and is kept as it is")
     return path
 
 
 def _refuse_faulty(document: NewDocument, name: str) -> None:
-    """Refuses a name that makes a faulty document, such as a reserved word of Slice."""
+    """Raises Refused if a name gives a document with errors, such as a reserved word of Slice."""
     with TemporaryDirectory() as folder:
         path = os.path.join(folder, os.path.basename(document.path))
         with open(path, "w", encoding="utf-8") as file:
@@ -112,11 +114,11 @@ def _refuse_faulty(document: NewDocument, name: str) -> None:
 
 
 def _rows(language: str, imports: Sequence[str], uses: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """The lines of a component document below its name; what it does not have stands there as a comment."""
+    """The lines of a component document below its name. Keys that it does not use are comments."""
     yield _commented(f"language: {language}", f"or {_other(language)}")
     yield ""
     row = f"imports: [{', '.join(imports)}]" if imports else "# imports: [Speech]"
-    yield _commented(row, "the documents that define what is named below")
+    yield _commented(row, "the documents that define the interfaces below")
     for key, (example, meaning) in _LISTS.items():
         names = uses.get(key, ())
         yield _commented(f"{key}: [{', '.join(names)}]" if names else f"# {key}: [{example}]", meaning)
@@ -125,7 +127,7 @@ def _rows(language: str, imports: Sequence[str], uses: Mapping[str, Sequence[str
 
 
 def _other(language: str) -> str:
-    """What may stand there instead."""
+    """The alternatives to a language."""
     standards = languages.language(language).standards
     if len(standards) > 1:
         return f"{{name: {language}, standard: {standards[1]}}}"
@@ -137,26 +139,26 @@ def _commented(row: str, comment: str) -> str:
 
 
 def _component(root: str, name: str) -> str | None:
-    """The component document of this name, by what the component is called or by its file. Where there is none, it is
-    still to come; unless one that has no parameters yet is called nearly so."""
+    """The path of the component document of this name, by the component's name or that of its file; None if there is
+    none yet. Raises Refused if a component without parameters has a similar name, or the component has parameters."""
     documents = Documents()
     found: dict[str, bool] = {}
     without: list[str] = []
     for path in of_kind(root, "cdsl"):
         model = documents.get(path).model
-        called = model.name if isinstance(model, Component) else ""
+        own_name = model.name if isinstance(model, Component) else ""
         stem = os.path.basename(path).removesuffix(".cdsl.yaml")
         has_parameters = isinstance(model, Component) and bool(model.parameters)
-        if name.lower() in (called.lower(), stem.lower()):
+        if name.lower() in (own_name.lower(), stem.lower()):
             found[path] = has_parameters
         elif not has_parameters and not of_kind(os.path.dirname(path), "pdsl"):
-            without += [called, stem]
+            without += [own_name, stem]
     if len(found) > 1:
-        raise Refused(f"several components are called '{name}': {', '.join(found)}")
+        raise Refused(f"several components have the name '{name}': {', '.join(found)}")
     for path, has_parameters in found.items():
         if has_parameters:
-            raise Refused(f"{path} names its parameters' document already")
+            raise Refused(f"{path} has a parameters document already")
         return path
     if hint := meant(name, filter(None, without)):
-        raise Refused(f"there is no component '{name}'{hint} Else `rcyaml new component {name}` comes first")
+        raise Refused(f"unknown component '{name}'{hint} Otherwise `rcyaml new component {name}` comes first")
     return None
