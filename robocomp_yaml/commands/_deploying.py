@@ -1,4 +1,4 @@
-"""How the commands of `rcyaml deploy` call the library, and tell what came of it."""
+"""The commands of `rcyaml deploy`: calls of the library, and their output."""
 
 from __future__ import annotations
 
@@ -35,22 +35,22 @@ Names = tuple[str, ...]
 def open_session(
     ctx: click.Context, ddsl: str, include: tuple[str, ...], format_: str, engine: str | None, *, lenient: bool
 ) -> Session:  # fmt: skip
-    """Reads the document and all that belongs to it. Ends the command where it has errors; `lenient` lets those pass
-    that leave the network readable, and takes what runs where they do not: it can be taken down whatever became of its
-    documents."""
+    """Reads the document with all that it refers to, and opens its deployment. Ends the command if the document has
+    errors. `lenient` accepts errors that leave the network readable; if they do not, the network is that of the running
+    processes, so that these can always be stopped."""
     path = os.path.normpath(which.deployment(ddsl, include))
     try:
         deployment = api.load(path, include=include).deployment(path, engine=engine, lenient=lenient)
     except Faulty as faulty:
         _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
     if deployment.unread:
-        terminal.say(f"{path} cannot be read (see `rcyaml check`): this is about what runs of it", err=True)
+        terminal.say(f"{path} cannot be read (see `rcyaml check`): the running processes are used instead", err=True)
     return Session(ctx, deployment, format_)
 
 
 class Session(msgspec.Struct):
-    """A deployment as a command works on it; of its diagnostics some have been `shown`. `ended_by` is the exit code
-    where the user had enough of what was brought up. Every method but `build` ends the command."""
+    """A deployment, as a command uses it. `shown` are the diagnostics that are printed already; `ended_by` is the exit
+    code if the user ended an attached deployment. All methods but `build` end the command."""
 
     ctx: click.Context
     deployment: api.Deployment
@@ -67,7 +67,7 @@ class Session(msgspec.Struct):
         return _options.colored(self.ctx)
 
     @property
-    def _is_talkative(self) -> bool:
+    def _prints_progress(self) -> bool:
         return self.format_ == "text" and self.ctx.obj.verbosity >= 0
 
     def plan(self, names: Names) -> None:
@@ -78,7 +78,7 @@ class Session(msgspec.Struct):
         self._end()
 
     def build(self, names: Names) -> None:
-        """Ends the command where something cannot be built: nothing is started then."""
+        """Ends the command if a component cannot be built. Then nothing is started."""
         from robocomp_yaml.commands import build
 
         built = build.run(
@@ -89,13 +89,13 @@ class Session(msgspec.Struct):
             if self.format_ == "json":
                 self._print_json({}, [one for each in built for one in each.diagnostics])
             else:
-                terminal.say(f"{self.network.name}: nothing was touched")
+                terminal.say(f"{self.network.name}: nothing was changed")
             self.ctx.exit(1)
 
     def up(
         self, names: Names, on_failure: str, timeout: float | None, *, restart: bool = False, attach: bool = False
     ) -> None:  # fmt: skip
-        is_asked = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and self.format_ == "text"
+        asks_user = on_failure == "ask" and sys.stdin.isatty() and sys.stdout.isatty() and self.format_ == "text"
         progress = self._progress()
 
         async def choose(result: Result) -> str:
@@ -106,23 +106,23 @@ class Session(msgspec.Struct):
                 ("stop", "rollback", "keep"),
             )
 
-        def bring_up() -> Result:
+        def start() -> Result:
             with progress:
                 return self.deployment.up(
                     *names, restart=restart, timeout=timeout, report=progress.report,
-                    on_failure=choose if is_asked else "stop" if on_failure == "ask" else on_failure,
+                    on_failure=choose if asks_user else "stop" if on_failure == "ask" else on_failure,
                     stays=self._attached(progress) if attach else None,
                 )  # fmt: skip
 
-        result = self._run(bring_up, "interrupted: all was taken down" if attach else None)
+        result = self._run(start, "interrupted: all processes were stopped" if attach else None)
         if self.format_ == "json":
             self._end(views.result_data(result))
-        if not attach and self._is_talkative:
+        if not attach and self._prints_progress:
             terminal.say(views.result_text(self.network, result))
         self._end()
 
     def _attached(self, progress: Progress) -> api.Attached:
-        """The user, who sees what the processes print and has enough with Ctrl-C."""
+        """The user who watches the output, and ends the deployment by Ctrl-C."""
         view = views.LogView(self.deployment.enabled, self._color, times=False)
 
         def on_line(line: Line) -> None:
@@ -136,8 +136,8 @@ class Session(msgspec.Struct):
             progress.pause()
             for number in (signal.SIGINT, signal.SIGTERM):
                 asyncio.get_running_loop().add_signal_handler(number, stop, number)
-            if self._is_talkative:
-                terminal.say(f"{self.network.name}: Ctrl-C takes it down")
+            if self._prints_progress:
+                terminal.say(f"{self.network.name}: Ctrl-C stops it")
 
         return api.Attached(on_up, on_line if self.format_ == "text" else None)
 
@@ -151,8 +151,8 @@ class Session(msgspec.Struct):
         self._end(code=code)
 
     def logs(self, names: Names, last: int, *, follow: bool, times: bool) -> None:
-        wanted = self.deployment.chosen(names) or self.deployment.enabled
-        view = views.LogView(wanted, self._color, times)
+        chosen = self.deployment.chosen(names) or self.deployment.enabled
+        view = views.LogView(chosen, self._color, times)
 
         def on_line(line: Line) -> None:
             if self.format_ == "json":
@@ -163,20 +163,19 @@ class Session(msgspec.Struct):
         self._run(lambda: self.deployment.logs(*names, last=last, follow=follow, on_line=on_line), on_interrupt="")
 
     def down(self, names: Names) -> None:
-        def take_down() -> list[str]:
+        def stop_all() -> list[str]:
             with self._progress() as progress:
                 return self.deployment.down(*names, report=progress.report)
 
-        stopped = self._run(take_down)
+        stopped = self._run(stop_all)
         if self.format_ == "json":
             self._end({"stopped": stopped})
         if not stopped:
-            terminal.say(f"{self.network.name}: nothing ran")
+            terminal.say(f"{self.network.name}: nothing was running")
         self._end()
 
     def probe(self, name: str = "") -> None:
-        """Asks the host of that name, or all of them. The exit code is 1 where one cannot run what the network has for
-        it."""
+        """Probes a host, or all hosts. The exit code is 1 if one of them cannot run its programs."""
         answers = self.deployment.probe(name)
         code = 0 if all(can_run(self.network, host, found) for host, found in answers.items()) else 1
         if self.format_ == "json":
@@ -186,8 +185,7 @@ class Session(msgspec.Struct):
         self._end(code=code)
 
     def export(self, form: str, output: str | None) -> None:
-        """Prints the files, or writes them below `output`. They may hold what a configuration holds: on a terminal
-        secrets are hidden."""
+        """Prints the files, or writes them below `output`. They may contain secrets, which are hidden on a terminal."""
         if output is None:
             before = len(self.deployment.diagnostics)
             files = self._run(lambda: self.deployment.export(form, reveal=not sys.stdout.isatty()))
@@ -200,16 +198,16 @@ class Session(msgspec.Struct):
         written = self._run(lambda: self.deployment.write_export(form, output))
         if self.format_ == "json":
             self._end({"written": written})
-        if self._is_talkative:
+        if self._prints_progress:
             terminal.say(*(f"wrote {path}" for path in written))
         self._end()
 
     def _progress(self) -> Progress:
-        return Progress(self._is_talkative, self._color, self.deployment.enabled)
+        return Progress(self._prints_progress, self._color, self.deployment.enabled)
 
     def _run(self, work: Callable[[], T], on_interrupt: str | None = None) -> T:
-        """What a call gives. What fails it ends the command, and so does Ctrl-C, with a line that says what that means
-        for what runs."""
+        """The result of a call of the library. Errors end the command, and so does Ctrl-C, with a line about the
+        running processes."""
         try:
             return work()
         except Faulty:
@@ -217,27 +215,27 @@ class Session(msgspec.Struct):
         except KeyboardInterrupt as error:
             if on_interrupt is None:
                 stop = terminal.typed("rcyaml", "deploy", "down", self.deployment.path)
-                on_interrupt = f"interrupted: what runs goes on; `{stop}` stops it"
+                on_interrupt = f"interrupted: running processes keep running; `{stop}` stops them"
             if on_interrupt:
                 terminal.say(on_interrupt, err=True)
             self.ctx.exit(_signals.code_of(error))
 
     def _end(self, data: dict[str, object] | None = None, code: int = 0) -> NoReturn:
-        """Tells what is wrong and ends the command: with 1 where one of it is an error."""
-        told = self.deployment.diagnostics
+        """Prints the diagnostics, and ends the command: with 1 if one is an error, else with `code`."""
+        diagnostics = self.deployment.diagnostics
         if self.format_ == "json":
-            self._print_json(data or {}, told)
+            self._print_json(data or {}, diagnostics)
         else:
-            self._show(told)
-        self.ctx.exit(self.ended_by or (1 if has_errors(told) else code))
+            self._show(diagnostics)
+        self.ctx.exit(self.ended_by or (1 if has_errors(diagnostics) else code))
 
-    def _print_json(self, data: dict[str, object], told: Iterable[Diagnostic]) -> None:
+    def _print_json(self, data: dict[str, object], diagnostics: Iterable[Diagnostic]) -> None:
         head = {"deployment": self.network.name, "engine": self.deployment.engine, **data}
-        terminal.data(dumps({**head, "diagnostics": [as_data(one) for one in told]}), json=True)
+        terminal.data(dumps({**head, "diagnostics": [as_data(one) for one in diagnostics]}), json=True)
 
-    def _show(self, told: Iterable[Diagnostic]) -> None:
-        """Prints what was not printed before."""
-        new = [one for one in told if one not in self.shown]
+    def _show(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Prints the diagnostics that are not printed yet."""
+        new = [one for one in diagnostics if one not in self.shown]
         self.shown += new
         if new:
             blocks = text.each(new, _options.colored(self.ctx, sys.stderr))

@@ -1,4 +1,4 @@
-"""Options that several commands share, and how they report."""
+"""Options and output that several commands share."""
 
 from __future__ import annotations
 
@@ -16,47 +16,47 @@ from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import ERROR, SEVERITIES, Diagnostic
 from robocomp_yaml.diag.render import FORMATS, tell
 
-MANY = 300  # documents: fewer are read before a bar could be seen
+MANY = 300  # documents: fewer are read too fast for a progress bar
 
 paths = click.argument("paths", nargs=-1, type=click.Path(exists=True))
 include = click.option(
     "-I", "--include", multiple=True, metavar="DIR", type=click.Path(exists=True, file_okay=False),
-    help="Look for imports here too; may be repeated.",
+    help="Also search DIR for imports; may be repeated.",
 )  # fmt: skip
 format_ = click.option(
-    "--format", "format_", type=click.Choice(FORMATS), default="text", help="How to print diagnostics."
+    "--format", "format_", type=click.Choice(FORMATS), default="text", help="The format of the diagnostics."
 )
 text_or_json = click.option(
-    "--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to print it."
+    "--format", "format_", type=click.Choice(["text", "json"]), default="text", help="The format of the output."
 )
 
 
 class FailOn(msgspec.Struct, frozen=True):
-    """`--fail-on`: which diagnostics besides errors make a run fail. `severity` is the least that fails a run, `codes`
-    fail it whatever their severity is. `text` is as given."""
+    """`--fail-on`: which diagnostics besides errors make a run fail: those of a severity that is at least `severity`,
+    and those with one of the `codes`. `text` is as typed."""
 
     severity: str = ERROR
     codes: frozenset[str] = frozenset()
     text: str = ""
 
-    def code(self, told: Iterable[Diagnostic]) -> int:
-        """The exit code of a run that has told this."""
-        return 1 if any(self._counts(one) for one in told) else 0
+    def code(self, diagnostics: Iterable[Diagnostic]) -> int:
+        """The exit code of a run with these diagnostics."""
+        return 1 if any(self._counts(one) for one in diagnostics) else 0
 
-    def explain(self, told: Iterable[Diagnostic]) -> None:
-        """Says why a run fails that has no errors."""
-        counting = [one for one in told if self._counts(one)]
+    def explain(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Prints why a run without errors fails."""
+        counting = [one for one in diagnostics if self._counts(one)]
         if counting and all(one.severity != ERROR for one in counting):
             codes = ", ".join(sorted({one.code for one in counting}))
-            terminal.say(f"this fails because of {codes} (--fail-on {self.text})", err=True)
+            terminal.say(f"exit code 1 because of {codes} (--fail-on {self.text})", err=True)
 
     def _counts(self, one: Diagnostic) -> bool:
-        worst = SEVERITIES.index(one.severity)  # they are in order, the worst first
+        worst = SEVERITIES.index(one.severity)  # sorted, the worst first
         return worst <= SEVERITIES.index(self.severity) or one.code in self.codes
 
 
-def _fail_on(ctx: click.Context, param: click.Parameter, given: tuple[str, ...]) -> FailOn:
-    words = [word.strip() for text in given for word in text.split(",")]
+def _fail_on(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> FailOn:
+    words = [word.strip() for text in values for word in text.split(",")]
     severities = [word.lower() for word in words if word.lower() in SEVERITIES]
     codes = {word.upper(): word for word in words if word.lower() not in SEVERITIES}
     if codes:
@@ -78,12 +78,12 @@ def _fail_on(ctx: click.Context, param: click.Parameter, given: tuple[str, ...])
 
 fail_on = click.option(
     "--fail-on", "fail_on", multiple=True, metavar="WHAT", callback=_fail_on,
-    help="Exit with 1 for these too: warning, note, or codes such as RC2007,RC3107; may be repeated.",
+    help="Also exit with 1 for these: warning, note, or codes such as RC2007,RC3107; may be repeated.",
 )  # fmt: skip
 
 
 def colored(ctx: click.Context, stream: Any = None) -> bool:
-    """Whether to colour what goes to a stream (standard output unless another is given)."""
+    """Whether output to a stream is coloured; by default, to standard output."""
     if ctx.color is not None:
         return ctx.color
     return bool((stream or sys.stdout).isatty())
@@ -91,7 +91,8 @@ def colored(ctx: click.Context, stream: Any = None) -> bool:
 
 @contextmanager
 def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None] | None]:
-    """A bar on standard error that counts documents, where someone watches and there are many."""
+    """A progress bar on standard error that counts documents, if it is a terminal and there are many documents. Yields
+    the function to call for each document, or None."""
     if sys.stderr.isatty():
         from robocomp_yaml.source.discover import documents_below
 
@@ -105,7 +106,7 @@ def progress(label: str, paths: Iterable[str]) -> Iterator[Callable[[str], None]
 
 @contextmanager
 def writing(path: str = "") -> Iterator[None]:
-    """Ends the command where a file cannot be written: this one, or the one that the error names."""
+    """Ends the command with exit code 1 if a file cannot be written: this one, or the one of the error."""
     try:
         yield
     except OSError as error:
@@ -115,7 +116,7 @@ def writing(path: str = "") -> Iterator[None]:
 
 
 def report_file(done: str, what: str) -> None:
-    """Says what `init` and `new` did with one file, or what there is to note."""
+    """Prints what `init` or `new` did with a file, or a note."""
     if done == "note":
         terminal.say(f"note: {what}", err=True)
     elif click.get_current_context().obj.verbosity >= 0:
@@ -123,8 +124,8 @@ def report_file(done: str, what: str) -> None:
 
 
 async def ask(text: str, answers: tuple[str, ...]) -> str:
-    """The user's answer, of which the first is the default. A thread waits for it that nobody waits for: Ctrl-C ends
-    the question, too."""
+    """The answer of the user; the first one is the default. It is read in a daemon thread, so that Ctrl-C also ends the
+    question."""
     import asyncio
     import threading
 
@@ -138,9 +139,9 @@ async def ask(text: str, answers: tuple[str, ...]) -> str:
     def wait() -> None:
         try:
             answer: str = click.prompt(text, type=click.Choice(answers), default=first)
-        except click.Abort:  # there is nobody to answer
+        except click.Abort:  # the input has ended
             answer = first
-        with suppress(RuntimeError):  # the question was withdrawn
+        with suppress(RuntimeError):  # the loop has ended
             loop.call_soon_threadsafe(settle, answer)
 
     threading.Thread(target=wait, daemon=True).start()
@@ -150,11 +151,10 @@ async def ask(text: str, answers: tuple[str, ...]) -> str:
 def report(
     ctx: click.Context, format_: str, diagnostics: Iterable[Diagnostic], documents: int, fail_on: FailOn = FailOn()
 ) -> NoReturn:  # fmt: skip
-    """Prints the diagnostics and ends the command: with 1 where one is an error, or what `fail_on` says, else with
-    0."""
-    told = list(diagnostics)
-    if ctx.obj.verbosity >= 0 or told:
-        tell(format_, told, documents, colored(ctx))
+    """Prints the diagnostics and ends the command: with 1 if one is an error or counts for `fail_on`, else with 0."""
+    shown = list(diagnostics)
+    if ctx.obj.verbosity >= 0 or shown:
+        tell(format_, shown, documents, colored(ctx))
     if format_ == "text":
-        fail_on.explain(told)
-    ctx.exit(fail_on.code(told))
+        fail_on.explain(shown)
+    ctx.exit(fail_on.code(shown))

@@ -1,4 +1,4 @@
-"""Choices that plug-ins add to: those of the workspaces that a command line is about."""
+"""Choices that plug-ins extend: the plug-ins of the workspaces of a command line."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ _WORDS = "robocomp_yaml.words"
 
 
 def remember(ctx: click.Context, words: Sequence[str]) -> None:
-    """The words of a command line, before anything is known of them."""
+    """Remembers the words of a command line, before they are parsed."""
     ctx.meta[_WORDS] = tuple(words)
 
 
 class PluginChoice(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
-    """One of what `known` gives for the plug-ins of the workspaces of the paths on the command line; where there is
-    none, of that of the working folder. Nothing is looked for before somebody asks."""
+    """A choice of the names that `known` returns for the plug-ins of the workspaces of all paths on the command line;
+    without a path, of the working folder. The plug-ins are resolved when the names are needed."""
 
     name = "choice"
 
@@ -52,29 +52,29 @@ class PluginChoice(click.ParamType):  # type: ignore[type-arg]  # older ones are
 
 
 def plugins_at(path: str = ".") -> Plugins:
-    """The plug-ins of the workspace that a path is in. Raises Faulty where one of them cannot be had."""
+    """The plug-ins of the workspace that contains a path. Raises Faulty if one of them is missing or broken."""
     from robocomp_yaml.plugins import NONE
 
-    if not _may_name_some(path):
+    if not _may_name_plugins(path):
         return NONE
     from robocomp_yaml.diag.errors import Faulty
     from robocomp_yaml.link.workspace import above
 
-    workspace, said = above(path)
+    workspace, diagnostics = above(path)
     if not workspace.plugins.whole:
-        raise Faulty(said)
+        raise Faulty(diagnostics)
     return workspace.plugins
 
 
 def codes(ctx: click.Context | None = None) -> dict[str, Code]:
-    """The codes of those of the command line."""
+    """The codes of the plug-ins of the command line."""
     return {id_: code for plugins in _plugins(ctx) for id_, code in plugins.codes.items()}
 
 
 def _plugins(ctx: click.Context | None) -> list[Plugins]:
     from robocomp_yaml.plugins import NONE
 
-    paths = [path for path in _paths(ctx) if _may_name_some(path)]
+    paths = [path for path in _paths(ctx) if _may_name_plugins(path)]
     if not paths:
         return [NONE]
     from robocomp_yaml.link.workspace import above
@@ -82,8 +82,8 @@ def _plugins(ctx: click.Context | None) -> list[Plugins]:
     return [above(path)[0].plugins for path in paths]
 
 
-def _may_name_some(path: str) -> bool:
-    """Whether it is worth reading the workspace's settings, for which much is loaded."""
+def _may_name_plugins(path: str) -> bool:
+    """Whether the workspace of a path may name plug-ins. A quick test: reading its settings imports much."""
     from robocomp_yaml.source.discover import WORKSPACE_FILE
     from robocomp_yaml.source.regular import regular
 

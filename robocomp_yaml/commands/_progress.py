@@ -1,5 +1,5 @@
-"""Progress on a terminal: lines that are drawn again as long as something goes on; of a deployment a line for each
-process that is busy, else a line for each that is done."""
+"""Progress on a terminal: lines that are redrawn. Of a deployment: a line for each busy process, and on other outputs a
+line for each finished process."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from robocomp_yaml.diag import terminal
 
 _PERIOD = 0.1
 _COLORS = {READY: "32", GONE: "32", FAILED: "31", SKIPPED: "33"}
-_SHORT = 0.05  # seconds that are not worth telling
+_SHORT = 0.05  # seconds: shorter durations are not shown
 
 
 class Live:
-    """Lines at the end of a terminal that the next ones replace. Use it as a context around a call; `pause` leaves the
-    terminal to others until the next drawing."""
+    """Lines at the end of a terminal, which the next lines replace. A context manager; `pause` removes the lines until
+    the next `draw`."""
 
     def __init__(self, shown: bool) -> None:
         self.is_live = shown and sys.stdout.isatty()
@@ -33,13 +33,13 @@ class Live:
         self.pause()
 
     def pause(self) -> None:
-        """Takes away what is drawn."""
+        """Removes the drawn lines."""
         if self.drawn:
             terminal.take_away(self.drawn)
             self.drawn = 0
 
     def draw(self, lines: Collection[str]) -> None:
-        """Draws these instead of what is drawn. A line that wraps would be two to take away."""
+        """Draws lines instead of the drawn ones. They are cut: a wrapped line could not be removed."""
         if self.is_live:
             self.pause()
             columns = shutil.get_terminal_size().columns - 1
@@ -48,7 +48,7 @@ class Live:
 
 
 class Progress(Live):
-    """Progress of a deployment: `report` takes the events of a call."""
+    """The progress of a deployment; `report` gets the events of a call."""
 
     def __init__(self, shown: bool, color: bool, names: Collection[str]) -> None:
         super().__init__(shown)
@@ -65,7 +65,7 @@ class Progress(Live):
 
     def report(self, event: Event) -> None:
         if self.is_live and self._ticker is None:
-            self._ticker = asyncio.create_task(self._tick())  # it ends with the loop, if not before
+            self._ticker = asyncio.create_task(self._tick())  # it ends with the event loop
         if event.kind in (STARTING, STOPPING):
             self._busy[event.name] = (event.kind, time.monotonic())
         else:
@@ -90,7 +90,7 @@ class Progress(Live):
         self.draw(lines)
 
     def _line(self, name: str, kind: str, seconds: float, color: bool = False) -> terminal.Shown:
-        """Seconds are for those who watch; a file of output is the same each time."""
+        """The line of a process. Seconds are shown on a terminal only, so that the output in files is reproducible."""
         word = terminal.paint(kind, _COLORS.get(kind, ""), color and kind in _COLORS)
         took = f"  {seconds:.1f} s" if self.is_live and seconds > _SHORT else ""
         return terminal.line(terminal.pad(name, self._width), "  ", word, took)

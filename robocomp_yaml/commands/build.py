@@ -1,4 +1,4 @@
-"""`rcyaml build`: components to programs, and how a build is shown while it goes on."""
+"""`rcyaml build`: builds components, and shows the progress."""
 
 from __future__ import annotations
 
@@ -24,14 +24,16 @@ T = TypeVar("T")
 _COLORS = {BUILT: "32", FAILED: "31", CURRENT: "2"}
 
 
-@click.command(cls=LibraryCommand, short_help="Build components; only what is not what it is made of.")
+@click.command(cls=LibraryCommand, short_help="Build the components that are not up to date.")
 @click.argument("components", nargs=-1, metavar="[COMPONENT]...")
 @click.option(
-    "--type", "type_", type=click.Choice(TYPES, case_sensitive=False), help="How C++ is built; Release, unless said."
+    "--type", "type_", type=click.Choice(TYPES, case_sensitive=False), help="The build type of C++; by default Release."
 )
-@click.option("-j", "--jobs", type=click.IntRange(min=1), help="How much is done at once; as many as processors.")
+@click.option(
+    "-j", "--jobs", type=click.IntRange(min=1), help="The number of parallel steps; by default that of processors."
+)
 @click.option("-D", "defines", multiple=True, metavar="NAME=VALUE", help="A variable for CMake; may be repeated.")
-@click.option("--clean", is_flag=True, help="Take the build trees away, and build nothing.")
+@click.option("--clean", is_flag=True, help="Remove the build trees, and build nothing.")
 @_options.include
 @_options.text_or_json
 @click.pass_context
@@ -41,8 +43,8 @@ def command(
 ) -> None:  # fmt: skip
     """Build COMPONENTs (by name, folder or document; by default, all below this folder) as they were compiled last.
 
-    C++ is built with CMake and Ninja, all components of a workspace in one tree, build/TYPE/; Java with the JDK; Python
-    is compiled to bytecode and imported once. A component that fails keeps no other from being built.
+    C++ is built with CMake and Ninja, with one build tree for all components of a workspace, build/TYPE/; Java with the
+    JDK; Python is compiled to bytecode and imported once. If a component fails, the others are built all the same.
     """
     documents = building.documents(components)
     analysis = analyse(documents, include)
@@ -51,11 +53,11 @@ def command(
         if format_ == "json":
             terminal.data(dumps({"removed": gone}), json=True)
         elif ctx.obj.verbosity >= 0:
-            terminal.say(*(f"removed  {folder}/" for folder in gone) if gone else ["there is no build tree"])
+            terminal.say(*(f"removed  {folder}/" for folder in gone) if gone else ["no build tree exists"])
         return
     built = run(ctx, format_, lambda report: building.build(
         analysis, documents, build_type=type_ or RELEASE, jobs=jobs, defines=defines, report=report,
-    ), "interrupted: what was built stays, and the next build goes on from there")  # fmt: skip
+    ), "interrupted: the next build continues with the components that are not built yet")  # fmt: skip
     if format_ == "json":
         data = msgspec.to_builtins({"type": built.type, "components": built.components, "cpu": built.cpu})
         terminal.data(dumps({**data, "diagnostics": [as_data(one) for one in built.diagnostics]}), json=True)
@@ -65,7 +67,7 @@ def command(
 
 
 def run(ctx: click.Context, format_: str, work: Callable[[Callable[[BuildEvent], None]], T], on_interrupt: str) -> T:
-    """A build that is shown; Ctrl-C ends the command."""
+    """Runs a build and shows its progress. Ctrl-C ends the command."""
     try:
         with _View(ctx, format_) as view:
             return work(view.report)
@@ -76,14 +78,14 @@ def run(ctx: click.Context, format_: str, work: Callable[[Callable[[BuildEvent],
 
 def _summary(built: building.Built) -> str:
     counts = Counter(one.state for one in built.components)
-    told = ", ".join(f"{counts[state]} {state}" for state in (BUILT, CURRENT, FAILED) if counts[state])
+    states = ", ".join(f"{counts[state]} {state}" for state in (BUILT, CURRENT, FAILED) if counts[state])
     total = len(built.components)
-    return f"{total} component{'' if total == 1 else 's'}: {told}" if total else "there is no component"
+    return f"{total} component{'' if total == 1 else 's'}: {states}" if total else "no components"
 
 
 class _View(Live):
-    """On a terminal the step that is being taken; a line for each component that is built or fails, and what compilers
-    say, as soon as they say it."""
+    """On a terminal, the current step; a line for each component that is built or fails; and the diagnostics, as soon
+    as they are reported."""
 
     def __init__(self, ctx: click.Context, format_: str) -> None:
         self._is_text, self._verbosity = format_ == "text", ctx.obj.verbosity

@@ -1,4 +1,4 @@
-"""`rcyaml compile`: documents to Slice and components; writes only what changed."""
+"""`rcyaml compile`: generates Slice and components, and writes only what changed."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from robocomp_yaml.diag.render.json import dumps, run_as_data
 if TYPE_CHECKING:
     from robocomp_yaml.plugins import Plugins
 
-SHOWN = 6  # files of one folder and one fate that are listed; of more, the number is told
+SHOWN = 6  # files of a folder with the same action that are listed; if there are more, their number is printed
 
 _WORDS = {  # what was done, and what would be done
     "create": ("wrote", "would write"), "update": ("updated", "would update"), "edited": ("rewrote", "would rewrite"),
-    "adopt": ("took over", "would take over"), "remove": ("removed", "would remove"), "left": ("left", "would leave"),
+    "adopt": ("adopted", "would adopt"), "remove": ("removed", "would remove"), "left": ("left", "would leave"),
     "merge": ("merged", "would merge"), "kept": ("kept", "would keep"), "unchanged": ("unchanged", "unchanged"),
 }  # fmt: skip
 
@@ -35,18 +35,18 @@ def _targets(plugins: Plugins) -> list[str]:
     return ["slice", *languages.table(), *(one.name for one in plugins.languages), "config", "docs"]
 
 
-@click.command(cls=LibraryCommand, short_help="Write Slice and components; only what changed.")
+@click.command(cls=LibraryCommand, short_help="Generate Slice and components; write only what changed.")
 @_options.paths
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR.")
-@click.option("--standalone", is_flag=True, help="Give each component all that it needs, in its own folder.")
+@click.option("--standalone", is_flag=True, help="Put all that a component needs into its own folder.")
 @click.option(
-    "--target", "targets", multiple=True, type=PluginChoice(_targets), help="Write only this; may be repeated."
+    "--target", "targets", multiple=True, type=PluginChoice(_targets), help="Write only this target; may be repeated."
 )
-@click.option("--dry-run", is_flag=True, help="Say what would be written, and write nothing.")
-@click.option("--diff", is_flag=True, help="Show what would change in each file, and write nothing.")
+@click.option("--dry-run", is_flag=True, help="Print what would be written; write nothing.")
+@click.option("--diff", is_flag=True, help="Show what would change in each file; write nothing.")
 @click.option("--check", is_flag=True, help="Write nothing; exit with 1 if anything would change (for CI).")
-@click.option("--adopt", is_flag=True, help="Take over files that rcyaml did not write; keep them as .orig.")
-@click.option("--merge", is_flag=True, help="Bring your files in src/ up to date, by a three-way merge.")
+@click.option("--adopt", is_flag=True, help="Overwrite files that rcyaml did not write; keep them as .orig.")
+@click.option("--merge", is_flag=True, help="Update your files in src/ by a three-way merge.")
 @_options.fail_on
 @_options.include
 @_options.format_
@@ -58,9 +58,9 @@ def command(
 ) -> None:  # fmt: skip
     """Compile the documents at PATHS (by default, below this folder).
 
-    An interface becomes Slice, in the workspace's slice folder. A component becomes a runnable program in its own
-    folder: generated/ is always rewritten, src/ is yours and written only once. What your class lacks after an
-    interface changed is named, with the text to paste; --merge puts it in.
+    An interface is compiled to Slice, in the slice folder of the workspace. A component is compiled to a program in its
+    own folder: generated/ is always rewritten; src/ is yours, and is written only once. If an interface changes, rcyaml
+    reports the methods that your class lacks, with the text to paste; --merge adds them.
     """
     from robocomp_yaml.api import compile_stamps
 
@@ -83,39 +83,39 @@ def command(
 def _report(
     ctx: click.Context, outcome: Outcome, format_: str, fail_on: _options.FailOn, *, diff: bool, check: bool
 ) -> None:  # fmt: skip
-    """Prints what happened to the files and what is wrong, and ends the command."""
-    told, color = outcome.diagnostics, _options.colored(ctx)
+    """Prints what was done to the files and the diagnostics, and ends the command."""
+    diagnostics, color = outcome.diagnostics, _options.colored(ctx)
     if format_ == "json":
         files = [
             {"path": file.path, "action": file.action, **({"orig": file.orig} if file.orig else {})}
             for file in outcome.files
         ]
         to_build = {"build": list(outcome.to_build)} if outcome.to_build else {}
-        terminal.data(dumps({**run_as_data(told, outcome.documents), "files": files, **to_build}), json=True)
+        terminal.data(dumps({**run_as_data(diagnostics, outcome.documents), "files": files, **to_build}), json=True)
     elif format_ == "sarif":
-        tell("sarif", told, outcome.documents)
+        tell("sarif", diagnostics, outcome.documents)
     else:
         if diff:
             terminal.diff((file.diff for file in outcome.files), color)
         elif ctx.obj.verbosity >= 0 or check:
             terminal.say(*_listed(outcome, verbose=ctx.obj.verbosity > 0))
-        if told:
-            tell("text", told, outcome.documents, color)
+        if diagnostics:
+            tell("text", diagnostics, outcome.documents, color)
         if ctx.obj.verbosity >= 0 and not diff:
-            terminal.say(*_left_out(outcome), _summary(outcome), *_to_build(outcome))
-        fail_on.explain(told)
-    ctx.exit(1 if check and outcome.dirty else fail_on.code(told))
+            terminal.say(*_skipped(outcome), _summary(outcome), *_to_build(outcome))
+        fail_on.explain(diagnostics)
+    ctx.exit(1 if check and outcome.dirty else fail_on.code(diagnostics))
 
 
 def _listed(outcome: Outcome, verbose: bool) -> Iterator[str]:
-    """One line a file; of many alike in one folder of a component, or in what components share, one line for all. What
-    did not change is for the curious, and so is what is the user's, where nothing beside it changed."""
+    """One line for each file, or for many files with the same action in one folder. Unchanged files are listed only if
+    `verbose`, and so are the user's files of a component without changes."""
     words = {action: pair[outcome.planned] for action, pair in _WORDS.items()}
     changed = {file.root for file in outcome.files if file.action in CHANGED}
     listed = [file for file in outcome.files if _is_listed(file, changed, verbose=verbose)]
     if not listed:
         return
-    from robocomp_yaml.emit.layout import GENERATED  # a run with nothing to do imports little
+    from robocomp_yaml.emit.layout import GENERATED  # unused if nothing is written
 
     tops = {file: os.path.relpath(file.path, file.root).partition("/") for file in listed}
     parted = {file.root for file, (top, _, _) in tops.items() if top == GENERATED}
@@ -146,8 +146,8 @@ def _summary(outcome: Outcome) -> str:
         if counts[action]:
             parts.append(f"{counts[action]} {words}")
     compiled = outcome.asked - len(outcome.left_out)
-    left_out = f", {len(outcome.left_out)} left out" if outcome.left_out else ""
-    return f"{compiled} document{'' if compiled == 1 else 's'} compiled{left_out}: {', '.join(parts)}"
+    skipped = f", {len(outcome.left_out)} skipped" if outcome.left_out else ""
+    return f"{compiled} document{'' if compiled == 1 else 's'} compiled{skipped}: {', '.join(parts)}"
 
 
 def _to_build(outcome: Outcome) -> Iterator[str]:
@@ -158,11 +158,11 @@ def _to_build(outcome: Outcome) -> Iterator[str]:
         yield f"build again: {', '.join(names[:SHOWN])}{more}: `{command}`"
 
 
-def _left_out(outcome: Outcome) -> Iterator[str]:
-    """Which documents were not compiled, and why: nobody has to look for them."""
-    for is_faulty, why in ((True, "has errors"), (False, "what it needs or belongs to has errors")):
+def _skipped(outcome: Outcome) -> Iterator[str]:
+    """The documents that were skipped, and why."""
+    for is_faulty, why in ((True, "it has errors"), (False, "a document that it depends on has errors")):
         paths = [path for path, itself in outcome.left_out.items() if itself == is_faulty]
         for path in paths[:SHOWN]:
-            yield f"left out: {path} ({why})"
+            yield f"skipped: {path} ({why})"
         if len(paths) > SHOWN:
-            yield f"left out: {len(paths) - SHOWN} more"
+            yield f"skipped: {len(paths) - SHOWN} more"

@@ -1,4 +1,4 @@
-"""`rcyaml deploy`: a network of components, planned, brought up, watched and taken down."""
+"""`rcyaml deploy`: plans, starts, watches and stops a network of components."""
 
 from __future__ import annotations
 
@@ -21,18 +21,19 @@ if TYPE_CHECKING:
 
 
 class _DocumentAnd(click.Argument):
-    """`[DDSL]` and the words behind it, as the parameters `ddsl` and this one. A first word that is neither a document
-    nor a folder with one is a word already, about the only deployment below this folder."""
+    """The argument `[DDSL]` and the words after it, as the parameters `ddsl` and this one. If the first word is neither
+    a document nor a folder with one, it is the first of the words, and the document is the only one below this
+    folder."""
 
-    def __init__(self, declarations: list[str], most: int | None = None, metavar: str = "", **more: Any) -> None:
-        self._most = most
+    def __init__(self, declarations: list[str], limit: int | None = None, metavar: str = "", **more: Any) -> None:
+        self._limit = limit
         super().__init__(declarations, nargs=-1, type=click.Path(), metavar=f"[DDSL] {metavar}".rstrip(), **more)
 
     def process_value(self, ctx: click.Context, value: object) -> tuple[str, ...]:
         words: tuple[str, ...] = super().process_value(ctx, value) or ()
         ctx.params["ddsl"], rest = self._split(ctx, words)
-        if self._most is not None and len(rest) > self._most:
-            extra = rest[self._most :]
+        if self._limit is not None and len(rest) > self._limit:
+            extra = rest[self._limit :]
             raise click.UsageError(f"Got unexpected extra argument{'s' * (len(extra) > 1)} ({' '.join(extra)})", ctx)
         return rest
 
@@ -47,13 +48,13 @@ class _DocumentAnd(click.Argument):
         if is_document:
             return first, words[1:]
         is_path = "/" in first or first.endswith((".yaml", ".yml"))
-        if self._most == 0 or is_path or not of_kind(".", "ddsl"):
+        if self._limit == 0 or is_path or not of_kind(".", "ddsl"):
             raise click.BadParameter(f"Path '{first}' does not exist.", ctx, self, "'[DDSL]'")
         return ".", words
 
 
 class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
-    """A length of time with its unit, as in documents."""
+    """A duration with its unit, as in documents; in seconds."""
 
     name = "time"
 
@@ -62,15 +63,15 @@ class _Duration(click.ParamType):  # type: ignore[type-arg]  # older ones are no
 
         seconds = value if isinstance(value, float) else duration(value)
         if not seconds:
-            self.fail(f"'{value}' is no length of time, such as 30s or 2min", param, ctx)
+            self.fail(f"'{value}' is no duration, such as 30s or 2min", param, ctx)
         return seconds
 
 
 _names = click.argument("names", cls=_DocumentAnd, metavar="[NAME]...")
 _engine = click.option("--engine", type=click.Choice([*ENGINES]),
-                       help="What runs it; local on one machine, icegrid on several.")  # fmt: skip
+                       help="The engine: local for one machine, icegrid for several.")  # fmt: skip
 _timeout = click.option("--timeout", type=_Duration(), metavar="TIME",
-                        help="How long it may take, all in all: 30s, 2min.")  # fmt: skip
+                        help="The longest total duration: 30s, 2min.")  # fmt: skip
 
 
 def _on_failure(text: str) -> Callable[[Any], Any]:
@@ -84,19 +85,19 @@ def _exports(plugins: Plugins) -> list[str]:
     return forms(plugins)
 
 
-@click.group(cls=CommandGroup, short_help="A network of components: plan, up, status, logs, down.")
+@click.group(cls=CommandGroup, short_help="Run a network of components: plan, up, status, logs, down.")
 def command() -> None:
     """Deploy the network that a document (NAME.ddsl.yaml) describes.
 
-    DDSL is the document, or a folder with one; by default, the only one below this folder. NAMEs are processes or
-    groups of it.
+    DDSL is the document, or a folder with one; by default, the only one below this folder. NAMEs are its processes or
+    groups.
     """
 
 
 def _subcommand(
     short_help: str, *options: Callable[[Any], Any], lenient: bool = False
 ) -> Callable[[Callable[..., None]], click.Command]:
-    """A command on one deployment: its function gets the session, and the values of its own options."""
+    """A command about a deployment. Its function gets the session, and the values of its own options."""
 
     def decorate(function: Callable[..., None]) -> click.Command:
         @wraps(function)
@@ -113,78 +114,90 @@ def _subcommand(
     return decorate
 
 
-@_subcommand("What up would do, and why.", _names, _engine)
+@_subcommand("Print what up would do, and why.", _names, _engine)
 def plan(session: Session, names: tuple[str, ...]) -> None:
-    """Say what `up` would start, stop, restart and change, field by field, against what runs now. Nothing is done."""
+    """Print what `up` would start, stop, restart and change, field by field, compared to what is running. Nothing is
+    changed."""
     session.plan(names)
 
 
-@_subcommand("Bring it about; what is as it should be is not touched.", _names, _engine)
-@_on_failure("What becomes of what was started when a process fails; asked on a terminal, else stop.")
+@_subcommand("Start the network, and apply changes to it.", _names, _engine)
+@_on_failure("What happens to the started processes if one fails; ask: on a terminal, else stop.")
 @_timeout
-@click.option("--build", is_flag=True, help="Build first what is not built, or is older than what it is made of.")
-@click.option("--attach", is_flag=True, help="Stay, show what they print, and take them down at the end.")
+@click.option("--build", is_flag=True, help="First build the components that are not up to date.")
+@click.option("--attach", is_flag=True, help="Print the logs until Ctrl-C, then stop the processes.")
 def up(
     session: Session, names: tuple[str, ...], on_failure: str, timeout: float | None, build: bool, attach: bool
 ) -> None:
-    """Bring the network about: start each process when all that it needs are ready, restart what changed, stop what is
-    no longer part of it. NAMEs limit it to some, with all that they need."""
+    """Start the network: start each process when all that it depends on is ready, restart what changed, stop what is no
+    longer in the network. NAMEs limit it to some processes, with all that they depend on."""
     if build:
         session.build(names)
     session.up(names, on_failure, timeout, attach=attach)
 
 
-@_subcommand("How the processes are.", _names, _engine, lenient=True)
+@_subcommand("Show the state of the processes.", _names, _engine, lenient=True)
 def status(session: Session, names: tuple[str, ...]) -> None:
-    """Show each process: its state, whether it is ready now, where it runs, for how long, and what it serves. The exit
-    code is 1 where one that should run does not."""
+    """Show each process: its state, whether it is ready, its host, its uptime, and what it serves. The exit code is 1
+    if a process that should run is not running."""
     session.status(names)
 
 
-@_subcommand("What the processes print, merged.", _names, _engine, lenient=True)
-@click.option("-f", "--follow", is_flag=True, help="Go on with what comes, until Ctrl-C.")
-@click.option("-n", "--lines", "last", type=click.IntRange(min=0), default=20, help="The last lines of each; 20.")
-@click.option("-t", "--times", is_flag=True, help="With the time of each line.")
+@_subcommand("Print the logs of the processes, merged.", _names, _engine, lenient=True)
+@click.option("-f", "--follow", is_flag=True, help="Also print new lines, until Ctrl-C.")
+@click.option(
+    "-n",
+    "--lines",
+    "last",
+    type=click.IntRange(min=0),
+    default=20,
+    help="The number of last lines of each; by default 20.",
+)
+@click.option("-t", "--times", is_flag=True, help="Print the time of each line.")
 def logs(session: Session, names: tuple[str, ...], last: int, follow: bool, times: bool) -> None:
-    """Print the last lines of the processes' logs, in the order in which they were written."""
+    """Print the last lines of the logs of the processes, in the order in which they were written."""
     session.logs(names, last, follow=follow, times=times)
 
 
-@_subcommand("Stop and start processes again.", _names, _engine)
-@_on_failure("What becomes of those that were restarted when one fails.")
+@_subcommand("Stop processes, and start them again.", _names, _engine)
+@_on_failure("What happens to the restarted processes if one fails.")
 @_timeout
 def restart(session: Session, names: tuple[str, ...], on_failure: str, timeout: float | None) -> None:
-    """Restart the processes NAME (without: all), as the document describes them now."""
+    """Restart the processes NAME (by default, all), as the document describes them now."""
     session.up(names, on_failure, timeout, restart=True)
 
 
-@_subcommand("Take it down, in reverse order.", _names, _engine, lenient=True)
+@_subcommand("Stop the processes, in reverse order.", _names, _engine, lenient=True)
 def down(session: Session, names: tuple[str, ...]) -> None:
-    """Stop everything that runs of the network, or the processes NAME with all that need them; those first that need
-    others."""
+    """Stop all running processes of the network, or the processes NAME with all that depend on them. A process is
+    stopped before those that it depends on."""
     session.down(names)
 
 
 @_subcommand(
-    "Which known components a host has.",
-    click.argument("host", cls=_DocumentAnd, most=1, metavar="[HOST]"),
+    "Show which programs of the network a host has.",
+    click.argument("host", cls=_DocumentAnd, limit=1, metavar="[HOST]"),
     lenient=True,
 )
 def probe(session: Session, host: tuple[str, ...]) -> None:
-    """Say which of the network's programs HOST has (without: all its hosts), in which version, and which of the
-    libraries that they need are missing there."""
+    """Show which programs of the network HOST has (by default, all hosts), in which version, and which of the required
+    libraries are missing."""
     session.probe(*host)
 
 
 @_subcommand(
-    "The network in the words of other tools.",
-    click.argument("nothing", cls=_DocumentAnd, most=0, expose_value=False),
+    "Write the network in the format of another tool.",
+    click.argument("nothing", cls=_DocumentAnd, limit=0, expose_value=False),
 )
-@click.option("--as", "form", required=True, type=PluginChoice(_exports), help="Which tool.")
+@click.option("--as", "form", required=True, type=PluginChoice(_exports), help="The tool.")
 @click.option(
-    "-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR, not to standard output."
+    "-o",
+    "--output",
+    metavar="DIR",
+    type=click.Path(file_okay=False),
+    help="Write the files below DIR, not to standard output.",
 )
 def export(session: Session, form: str, output: str | None) -> None:
-    """Print the files from which IceGrid, RCManager, systemd or docker compose run the network, or what a plug-in of
-    the workspace makes of it; or write them."""
+    """Print the files with which IceGrid, RCManager, systemd or docker compose run the network, or those of a plug-in
+    of the workspace; or write them."""
     session.export(form, output)

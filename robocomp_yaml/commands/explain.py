@@ -1,4 +1,4 @@
-"""`rcyaml explain CODE`: what a diagnostic means, with a wrong and a right example."""
+"""`rcyaml explain CODE`: explains a diagnostic, with a wrong and a right example."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from robocomp_yaml.diag.page import Files, Repeated
 _OF_A_PLUGIN = re.compile(r"(?!RC\d)[A-Z]{2,}\d{3,4}")
 
 
-@click.command(cls=LibraryCommand, short_help="Say what a diagnostic means, with examples.")
+@click.command(cls=LibraryCommand, short_help="Explain a diagnostic, with examples.")
 @click.argument("code", required=False)
 @_options.text_or_json
 @click.pass_context
 def command(ctx: click.Context, code: str | None, format_: str) -> None:
-    """Say what the diagnostic CODE means, such as RC2003; without a code, list them all."""
+    """Explain the diagnostic CODE, such as RC2003; without a code, list all diagnostics."""
     rows = _codes()
     if code is None:
         chosen = list(rows.values())
     elif (row := rows.get(code.upper())) is None:
-        _plugin_choices.plugins_at()  # it may be that of a plug-in that cannot be had
-        raise click.UsageError(f"no diagnostic is called {code}{_hint(code.upper(), rows)}")
+        _plugin_choices.plugins_at()  # raises Faulty if it may be that of a missing plug-in
+        raise click.UsageError(f"unknown diagnostic {code}{_hint(code.upper(), rows)}")
     else:
         chosen = [row]
     if format_ == "json":
@@ -41,7 +41,7 @@ def _hint(code: str, known: Iterable[str]) -> str:
 
     alike = [one for one in known if one[:2] == code[:2]]
     if not alike and _OF_A_PLUGIN.fullmatch(code):
-        return " here: those of a plug-in are explained in a workspace that names it under `plugins:`"
+        return ": a diagnostic of a plug-in is explained in a workspace that names the plug-in under `plugins:`"
     meant = suggest(code, alike or known)
     return f"; did you mean {meant}?" if meant else ""
 
@@ -67,7 +67,7 @@ def _explained(row: Code) -> str:
         f"Right:\n\n{_tree(row.right)}",
     ]
     if row.command != "check .":
-        parts.append(f"It is given by `rcyaml {row.command}`.")
+        parts.append(f"It is reported by `rcyaml {row.command}`.")
     return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
 
 
@@ -78,7 +78,7 @@ def _wrapped(text: str) -> str:
 
 
 def _tree(files: Files) -> str:
-    """A small tree of files as text; of long texts, the beginning."""
+    """The files of an example as text. Long lines are cut."""
     out = []
     for path, content in files.items():
         text = _text(content)

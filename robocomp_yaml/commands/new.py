@@ -1,5 +1,5 @@
-"""`rcyaml new interface|component|parameters|deployment`: a document that already checks, where its kind belongs. Where
-there is no workspace yet, this folder becomes one."""
+"""`rcyaml new interface|component|parameters|deployment`: writes a new document, where the workspace keeps its kind. A
+folder without a workspace becomes one."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 
 @click.group(cls=CommandGroup, short_help="Write a new interface, component, parameters or deployment document.")
 def command() -> None:
-    """Write a new document that already checks and compiles, commented as a tutorial.
+    """Write a new document that checks and compiles, with comments that explain it.
 
-    It goes where the workspace keeps its kind; a folder that belongs to no workspace becomes one.
+    It is written where the workspace keeps its kind. A folder that belongs to no workspace becomes one.
     """
 
 
-@command.command(short_help="A new interface document.")
+@command.command(short_help="Write a new interface document.")
 @click.argument("name")
 @click.pass_context
 def interface(ctx: click.Context, name: str) -> None:
@@ -56,13 +56,13 @@ def _uses(name: str, meaning: str) -> Callable[[Any], Any]:
     )
 
 
-@command.command(short_help="A new component document.")
+@command.command(short_help="Write a new component document.")
 @click.argument("name")
 @click.option("--language", type=PluginChoice(_languages), default=languages.DEFAULT, help="The language of its code.")
 @_uses("implements", "interfaces that it serves")
 @_uses("requires", "interfaces of others that it calls")
 @_uses("publishes", "topics that it publishes")
-@_uses("subscribes", "topics that it listens to")
+@_uses("subscribes", "topics that it receives")
 @_options.include
 @click.pass_context
 def component(
@@ -70,25 +70,25 @@ def component(
 ) -> None:
     """Write components/NAME/NAME.cdsl.yaml (in lower case): a component NAME.
 
-    INTERFACE is the name of an interface or topic that a document of the workspace defines, or Module.Interface where
-    several do.
+    INTERFACE is the name of an interface or topic that a document of the workspace defines, or Module.Interface if
+    several documents define it.
     """
     from robocomp_yaml.api.new.documents import component_document
 
     _create(ctx, lambda root: component_document(root, name, language, uses, include))
 
 
-@command.command(short_help="A new document of a component's parameters.")
+@command.command(short_help="Write a new parameters document of a component.")
 @click.argument("name")
 @click.pass_context
 def parameters(ctx: click.Context, name: str) -> None:
-    """Write the parameters' document of the component NAME, beside the component's."""
+    """Write the parameters document of the component NAME, beside the component's document."""
     from robocomp_yaml.api.new.documents import parameters_document
 
     _create(ctx, lambda root: parameters_document(root, name))
 
 
-@command.command(short_help="A new deployment document.")
+@command.command(short_help="Write a new deployment document.")
 @click.argument("name")
 @click.pass_context
 def deployment(ctx: click.Context, name: str) -> None:
