@@ -89,8 +89,8 @@ def test_who_is_meant_from_a_folder(workspace: Path, rcyaml: Rcyaml, monkeypatch
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("LegCmop", "there is no component 'LegCmop'; did you mean 'LegComp'?"),
-        ("toe/toe.cdsl.yaml", "there is no document"),
+        ("LegCmop", "unknown component 'LegCmop'; did you mean 'LegComp'?"),
+        ("toe/toe.cdsl.yaml", "does not exist"),
     ],
 )
 def test_who_is_nobody(workspace: Path, rcyaml: Rcyaml, name: str, said: str) -> None:
@@ -147,18 +147,18 @@ def test_a_document_that_cannot_be_read_keeps_no_other(workspace: Path, rcyaml: 
 
 def test_no_component_at_all(rcyaml: Rcyaml, tmp_path: Path) -> None:
     result = rcyaml("build")
-    assert result.exit_code == 0 and result.stdout == "there is no component\n"
+    assert result.exit_code == 0 and result.stdout == "no components\n"
 
 
 def test_a_command_that_says_where_it_fails(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, JAVA)
     command(tmp_path, "echo 'src/SpecificWorker.java:1: error: cannot find symbol'; exit 3")
     result = rcyaml("build")
-    assert "error[RC8001]: the Java compiler refuses this: cannot find symbol" in result.stdout
+    assert "error[RC8001]: the Java compiler rejects this: cannot find symbol" in result.stdout
     assert "eye/src/SpecificWorker.java:1:1" in result.stdout and "RC8003" not in result.stdout
     command(tmp_path, "echo no luck; exit 3")
     result = rcyaml("build")
-    assert "error[RC8003]: EyeComp cannot be built: its build ended with exit code 3" in result.stdout
+    assert "error[RC8003]: EyeComp cannot be built: its build failed with exit code 3" in result.stdout
     assert "    no luck" in result.stdout
 
 
@@ -191,7 +191,7 @@ def test_a_program_older_than_its_code_is_not_deployed(rcyaml: Rcyaml, tmp_path:
     assert rcyaml("deploy", "down").exit_code == 0
     command(tmp_path, "echo 'src/SpecificWorker.java:1: error: no'; exit 1")
     up = rcyaml("deploy", "up", "--build")
-    assert up.exit_code == 1 and "Robot: nothing was touched" in up.stdout
+    assert up.exit_code == 1 and "Robot: nothing was changed" in up.stdout
 
 
 def test_programs_on_other_hosts_and_of_other_names_are_not_judged(rcyaml: Rcyaml, tmp_path: Path) -> None:

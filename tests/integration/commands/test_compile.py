@@ -67,9 +67,9 @@ def test_all_documents_count(compiled: Path, rcyaml: Run) -> None:
     (compiled / "robot.ddsl.yaml").write_text("deployment: Robot\ncomponents: {speech: {component: speech}}\n")
     assert rcyaml("compile").stdout.splitlines()[-1].startswith("4 documents compiled: ")
     (compiled / "speech/speech.pdsl.yaml").write_text(parameters.replace("1", "one"))
-    assert rcyaml("compile").stdout.splitlines()[-1].startswith("2 documents compiled, 2 left out: ")
+    assert rcyaml("compile").stdout.splitlines()[-1].startswith("2 documents compiled, 2 skipped: ")
     (compiled / "interfaces/Speech.idsl.yaml").write_text("- no mapping\n")
-    assert rcyaml("compile", "speech").stdout.splitlines()[-1].startswith("0 documents compiled, 2 left out: ")
+    assert rcyaml("compile", "speech").stdout.splitlines()[-1].startswith("0 documents compiled, 2 skipped: ")
 
 
 def test_check_is_content_when_all_is_up_to_date(compiled: Path, rcyaml: Run) -> None:

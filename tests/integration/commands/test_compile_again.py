@@ -118,7 +118,7 @@ def test_a_mended_error_is_seen(tree: Tree, mended: Tree, rcyaml: Rcyaml, tmp_pa
     write_tree(tmp_path, tree)
     for _ in range(2):
         result = rcyaml("compile")
-        assert result.exit_code == 1 and "left out: " in result.output
+        assert result.exit_code == 1 and "skipped: " in result.output
     write_tree(tmp_path, mended)
     assert rcyaml("compile").exit_code == 0
 
@@ -143,6 +143,6 @@ def test_a_component_in_the_root_has_each_file_once(rcyaml: Rcyaml, tmp_path: Pa
 def test_what_is_left_out_has_a_name(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, {**BESIDE, "speech/speech.pdsl.yaml": PARAMETERS, "idsl/Speech.idsl.yaml": "module: [\n"})
     told = rcyaml("compile").output.splitlines()
-    assert "left out: idsl/Speech.idsl.yaml (has errors)" in told
-    assert "left out: speech/speech.pdsl.yaml (what it needs or belongs to has errors)" in told
-    assert told[-1].startswith("0 documents compiled, 3 left out: ")
+    assert "skipped: idsl/Speech.idsl.yaml (it has errors)" in told
+    assert "skipped: speech/speech.pdsl.yaml (a document that it depends on has errors)" in told
+    assert told[-1].startswith("0 documents compiled, 3 skipped: ")

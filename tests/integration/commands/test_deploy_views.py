@@ -50,4 +50,7 @@ def test_progress_takes_one_line_of_a_narrow_terminal_for_each(monkeypatch: pyte
 @pytest.mark.parametrize("option", ["-v", "--quiet", "--color"])
 def test_an_option_of_all_commands_stands_before_them(rcyaml: Callable[..., Result], option: str) -> None:
     told = rcyaml("deploy", "plan", ".", option)
-    assert told.exit_code == 2 and f"'{option}' stands before the command: rcyaml {option} …" in told.stderr
+    assert (
+        told.exit_code == 2
+        and f"'{option}' is an option of rcyaml: write it before the command, rcyaml {option} …" in told.stderr
+    )

@@ -45,7 +45,7 @@ def warned(tmp_path: Path) -> Path:
 def test_what_fails(rcyaml: Rcyaml, warned: Path, command: str, args: tuple[str, ...], code: int) -> None:
     first = rcyaml(command, *args)
     assert first.exit_code == code, first.output
-    assert ("this fails because of RC2103" in first.stderr) == bool(code)
+    assert ("exit code 1 because of RC2103" in first.stderr) == bool(code)
     assert rcyaml(command, *args).exit_code == code, "found to be made already"
 
 

@@ -415,7 +415,7 @@ def test_a_document_that_changed_meanwhile_stays(rcyaml: Run, tmp_path: Path, mo
     monkeypatch.setattr(fixing, "apply_fixes", meanwhile)
     result = rcyaml("check", "--fix")
     assert (tmp_path / IDSL).read_text() == WRONG + "# mine\n"
-    assert "it was changed meanwhile: check again" in result.stdout and result.exit_code == 1
+    assert "it has changed meanwhile: run the check again" in result.stdout and result.exit_code == 1
 
 
 def test_a_full_disk_loses_nothing(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

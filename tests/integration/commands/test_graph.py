@@ -103,7 +103,7 @@ def test_a_broken_document_is_told(rcyaml: Run, tmp_path: Path) -> None:
 @pytest.mark.usefixtures("robot")
 def test_which_one_is_asked(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("graph", "nowhere.ddsl.yaml").exit_code == 2
-    assert "no deployment document" in rcyaml("graph", "speech/speech.cdsl.yaml").output
+    assert "is neither a deployment document" in rcyaml("graph", "speech/speech.cdsl.yaml").output
     write_tree(tmp_path, {"other.ddsl.yaml": HEAD.replace("Head", "Other")})
     result = rcyaml("graph")
     assert result.exit_code == 2 and "head.ddsl.yaml, other.ddsl.yaml" in result.output

@@ -96,7 +96,7 @@ def test_an_ambiguous_interface_wants_its_module(rcyaml: Run, workspace: Path) -
     write_tree(workspace, {"interfaces/Other.idsl.yaml": other})
     said = rcyaml("new", "component", "TalkComp", "--requires", "Speech")
     assert said.exit_code == 2
-    assert "say RoboCompOther.Speech or RoboCompSpeech.Speech" in said.stderr
+    assert "write RoboCompOther.Speech or RoboCompSpeech.Speech" in said.stderr
     assert rcyaml("new", "component", "TalkComp", "--requires", "RoboCompOther.Speech").exit_code == 0
     assert imports(workspace / "components/talkcomp/talkcomp.cdsl.yaml") == "[Other]"
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
@@ -172,25 +172,25 @@ def test_a_new_deployment_of_nothing_checks(rcyaml: Run, tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("args", "reason"),
     [
-        (["deployment", "../Head"], "cannot be a name"),
-        (["interface", "../Speech"], "cannot be a name"),
-        (["interface", "a/b"], "cannot be a name"),
-        (["interface", "Sprache-1"], "cannot be a name"),
-        (["interface", "1st"], "cannot be a name"),
-        (["interface", "Señal"], "cannot be a name"),
-        (["interface", "Speech\n"], "cannot be a name"),
-        (["interface", ""], "cannot be a name"),
-        (["interface", "X" * 500], "longer than a name may be"),
+        (["deployment", "../Head"], "is no name"),
+        (["interface", "../Speech"], "is no name"),
+        (["interface", "a/b"], "is no name"),
+        (["interface", "Sprache-1"], "is no name"),
+        (["interface", "1st"], "is no name"),
+        (["interface", "Señal"], "is no name"),
+        (["interface", "Speech\n"], "is no name"),
+        (["interface", ""], "is no name"),
+        (["interface", "X" * 500], "is too long: a name has at most"),
         (["interface", "_1"], "'_1' cannot be an interface"),
         (["interface", "interface"], "a reserved word of Slice"),
-        (["interface", "Speech"], "interfaces/Speech.idsl.yaml is there already"),
-        (["component", "../../etc/passwd"], "cannot be a name"),
+        (["interface", "Speech"], "interfaces/Speech.idsl.yaml exists already"),
+        (["component", "../../etc/passwd"], "is no name"),
         (["component", "Talk", "--language", "rust"], "'rust' is not one of"),
         (["component", "Talk", "--requires", "Spech"], "did you mean 'Speech'?"),
         (["component", "Talk", "--requires", "Qwerty"], "`rcyaml new interface NAME` writes one"),
-        (["component", "Talk", "--requires", "Speech", "--requires", "Speech"], "--requires Speech stands twice"),
+        (["component", "Talk", "--requires", "Speech", "--requires", "Speech"], "--requires Speech is repeated"),
         (["component"], "Missing argument 'NAME'"),
-        (["robot", "Shelly"], "there is no command 'new robot'"),
+        (["robot", "Shelly"], "unknown command 'new robot'"),
     ],
 )
 def test_wrong_usage_is_refused_and_writes_nothing(rcyaml: Run, workspace: Path, args: list[str], reason: str) -> None:

@@ -61,10 +61,7 @@ def test_several_are_told(rcyaml: Rcyaml, tmp_path: Path, what: str) -> None:
     write_tree(tmp_path, {"d/robot.ddsl.yaml": ROBOT, "d/two.ddsl.yaml": ROBOT.replace("Robot", "Two")})
     told = deploy(rcyaml, what)
     assert told.exit_code == 2
-    assert (
-        "there are several deployments here, of which one is to be named: d/robot.ddsl.yaml, d/two.ddsl.yaml"
-        in told.stderr
-    )
+    assert "there are several deployments: d/robot.ddsl.yaml, d/two.ddsl.yaml; name one of them" in told.stderr
     assert rcyaml("graph").stderr.splitlines()[-1] == told.stderr.splitlines()[-1]
 
 
@@ -72,7 +69,9 @@ def test_none_is_told(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, {"empty": None})
     for args in ((), (".",), ("empty",)):
         told = deploy(rcyaml, "plan", *args)
-        assert told.exit_code == 2 and "it has none: `rcyaml new deployment NAME` writes one" in told.stderr
+        assert (
+            told.exit_code == 2 and "has no deployment document: `rcyaml new deployment NAME` writes one" in told.stderr
+        )
 
 
 def test_what_others_include_is_part_of_them(rcyaml: Rcyaml, tmp_path: Path) -> None:

@@ -33,7 +33,7 @@ def test_the_kinds_are_listed(rcyaml: Run) -> None:
 def test_a_new_document_finds_its_schema(rcyaml: Run) -> None:
     rcyaml("init")
     assert rcyaml("schema", "interfaces/Hello.idsl.yaml").stdout == (
-        "interfaces/Hello.idsl.yaml has the schema 'idsl'\n"
+        "the schema of interfaces/Hello.idsl.yaml is 'idsl'\n"
         "editors find it by the first lines of the document: ../.rcyaml/schemas/idsl.schema.json\n"
     )
     assert rcyaml("schema", "rcyaml.yaml").stdout == (
@@ -45,7 +45,9 @@ def test_a_new_document_finds_its_schema(rcyaml: Run) -> None:
 def test_a_document_without_a_modeline_is_found_by_the_settings(rcyaml: Run, tmp_path: Path) -> None:
     rcyaml("init")
     write_tree(tmp_path, {"x/cdsl.yaml": "component: X\n"})
-    assert "by the workspace's settings: .rcyaml/schemas/cdsl.schema.json" in rcyaml("schema", "x/cdsl.yaml").stdout
+    assert (
+        "by the settings of the workspace: .rcyaml/schemas/cdsl.schema.json" in rcyaml("schema", "x/cdsl.yaml").stdout
+    )
 
 
 def test_a_document_outside_any_workspace_is_told_what_it_lacks(rcyaml: Run, tmp_path: Path) -> None:
@@ -55,7 +57,7 @@ def test_a_document_outside_any_workspace_is_told_what_it_lacks(rcyaml: Run, tmp
     assert said.endswith("# yaml-language-server: $schema=.rcyaml/schemas/idsl.schema.json\n")
 
 
-@pytest.mark.parametrize(("content", "reason"), [(None, "is missing"), ("{}", "is not this version's schema")])
+@pytest.mark.parametrize(("content", "reason"), [(None, "is missing"), ("{}", "the file of the schema is outdated")])
 def test_a_stale_schema_is_told(rcyaml: Run, tmp_path: Path, content: str | None, reason: str) -> None:
     rcyaml("init")
     schema = tmp_path / ".rcyaml/schemas/idsl.schema.json"
@@ -69,8 +71,8 @@ def test_a_stale_schema_is_told(rcyaml: Run, tmp_path: Path, content: str | None
     ("argument", "reason"),
     [
         ("ids", "did you mean 'idsl'?"),
-        ("robot", "kinds are idsl, cdsl, pdsl, ddsl, config, workspace"),
-        ("a.idsl.yaml", "there is no file"),
+        ("robot", "the kinds are idsl, cdsl, pdsl, ddsl, config, workspace"),
+        ("a.idsl.yaml", "does not exist"),
     ],
 )
 def test_what_is_neither_kind_nor_document_is_refused(rcyaml: Run, argument: str, reason: str) -> None:

@@ -125,7 +125,7 @@ def test_a_question_is_ended_too(tmp_path: Path) -> None:
             process.send_signal(signal.SIGINT)
 
     code, said = on_terminal(tmp_path, "deploy", "up", act=act)
-    assert code == 130 and "`rcyaml deploy down robot.ddsl.yaml` stops it" in said and "Traceback" not in said
+    assert code == 130 and "`rcyaml deploy down robot.ddsl.yaml` stops them" in said and "Traceback" not in said
     subprocess.run([*COMMAND, "deploy", "down"], cwd=tmp_path, env=environment(), check=True)
 
 

@@ -47,7 +47,7 @@ def test_a_full_disk_behind_the_output_is_told(command: str, tmp_path: Path) -> 
     write_tree(tmp_path, {"Speech.idsl.yaml": FAULTY})
     done = run(tmp_path, f"rcyaml {command} > /dev/full")
     assert done.returncode == 1
-    assert done.stderr.decode() == "Error: cannot write what there is to say: no space left on device\n"
+    assert done.stderr.decode() == "Error: cannot write to standard output: no space left on device\n"
 
 
 def test_an_old_encoding_gets_question_marks(tmp_path: Path) -> None:

@@ -46,15 +46,15 @@ def test_the_others_find_its_values(rcyaml: Run, tmp_path: Path, said: list[str]
 
 
 @pytest.mark.parametrize(("args", "problem"), [
-    (["new"], "there are several components here: components/arm/arm.cdsl.yaml, components/base/cdsl.yaml; name one of"),
+    (["new"], "this folder has several components: components/arm/arm.cdsl.yaml, components/base/cdsl.yaml; name one of"),
     (["show", "components"], "'components' has several components"),
-    (["new", "ArmCmp"], "there is no component 'ArmCmp'; did you mean 'ArmComp'?"),
-    (["check", "base"], "there is no components/base/etc/config.yaml yet: `rcyaml config new components/base/cdsl.yaml`"),
-    (["show", "x.config.yaml"], "there is no document x.config.yaml"),
-    (["new", "components/arm/a.cdsl.yaml"], "there is no document components/arm/a.cdsl.yaml"),
-    (["new", "rcyaml.yaml"], "'rcyaml.yaml' is no component's document"),
-    (["show", "empty"], "there is no component in 'empty'; `rcyaml new component NAME` writes one"),
-    (["get", "components/arm/arm.pdsl.yaml"], "there is no components/arm/etc/config.yaml yet"),
+    (["new", "ArmCmp"], "unknown component 'ArmCmp'; did you mean 'ArmComp'?"),
+    (["check", "base"], "components/base/etc/config.yaml does not exist yet: `rcyaml config new components/base/cdsl.yaml`"),
+    (["show", "x.config.yaml"], "'x.config.yaml' does not exist"),
+    (["new", "components/arm/a.cdsl.yaml"], "'components/arm/a.cdsl.yaml' does not exist"),
+    (["new", "rcyaml.yaml"], "'rcyaml.yaml' is no document of a component"),
+    (["show", "empty"], "'empty' has no component; `rcyaml new component NAME` writes one"),
+    (["get", "components/arm/arm.pdsl.yaml"], "components/arm/etc/config.yaml does not exist yet"),
 ])  # fmt: skip
 def test_what_is_not_clear_is_asked_for(rcyaml: Run, tmp_path: Path, args: list[str], problem: str) -> None:
     write_tree(tmp_path, {**TREE, **BASE, "empty": None})

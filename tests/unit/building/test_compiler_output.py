@@ -42,7 +42,7 @@ def test_gcc(said) -> None:
     )
     assert places(found) == [("RC8001", "arm/arm.cpp", 3, 9, 13), ("RC8002", "arm/arm.cpp", 2, 5, 6)]
     assert found[0].message == (
-        "the compiler refuses this: ‘opne’ was not declared in this scope; did you mean ‘open’?"
+        "the compiler rejects this: ‘opne’ was not declared in this scope; did you mean ‘open’?"
     )
     assert [(one.message, one.span.line) for one in found[0].related] == [("in here", 2)]
 
@@ -60,8 +60,8 @@ def test_javac(said) -> None:
 
 def test_the_slice_compiler_and_the_linker(said) -> None:
     slice_, link = said("../arm/Arm.ice:4: `Pose' is not defined\narm.cpp:3: undefined reference to `f()'\n")
-    assert slice_.message == "the Slice compiler refuses this: `Pose' is not defined"
-    assert link.message == "the linker refuses this: undefined reference to `f()'"
+    assert slice_.message == "the Slice compiler rejects this: `Pose' is not defined"
+    assert link.message == "the linker rejects this: undefined reference to `f()'"
 
 
 @pytest.mark.parametrize(
