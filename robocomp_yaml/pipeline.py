@@ -68,8 +68,8 @@ class Analysis(msgspec.Struct, frozen=True):
         """The same, if no pass follows. Then it is also known which comments suppress nothing, and these are reported
         for the requested documents."""
         more, read = self.without_suppressed(diagnostics), self.linker.documents.read
-        asked = [read[real].path for real in self.program.asked if real in read]
-        files = {*asked, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
+        requested = [read[real].path for real in self.program.asked if real in read]
+        files = {*requested, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
         unused = self.without_suppressed(
             self.allowed.in_vain(sorted(files), self.used | more.used, environment=environment)
         )

@@ -88,9 +88,9 @@ class Compilation:
         diagnostics = [*lasting, *recovered, *changes.diagnostics]
         outcome = _outcome_of(self._analysis, self._built, changes, in_order(diagnostics), with_diff=False)
         if not self._merge and not has_errors(one for one in diagnostics if one not in lasting):
-            taken = self._stamp(own, changes, schemas, outcome.settled(lasting, changes))
-            if taken is not None:
-                keep(taken, self._arguments)
+            new_stamp = self._stamp(own, changes, schemas, outcome.settled(lasting, changes))
+            if new_stamp is not None:
+                keep(new_stamp, self._arguments)
         return replace(outcome, to_build=self._to_build()) if outcome.dirty and self._output is None else outcome
 
     def _to_build(self) -> tuple[str, ...]:

@@ -214,8 +214,8 @@ class Deployment:
 
         async def work() -> None:
             await self._engine.open(self.network, create=False)
-            asked = [name for name in self.network.processes if name in chosen]
-            async for line in await self._engine.lines(asked, last, follow):
+            requested = [name for name in self.network.processes if name in chosen]
+            async for line in await self._engine.lines(requested, last, follow):
                 (on_line or found.append)(line)
             await self._engine.close()
 

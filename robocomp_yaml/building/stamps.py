@@ -74,12 +74,12 @@ def take(unit: Unit, inputs: Inputs, type_: str) -> BuildStamp:
     return BuildStamp(type_, (0, 0, 0), _known(unit, inputs, inputs.of(unit)))
 
 
-def with_more(unit: Unit, taken: BuildStamp, inputs: Inputs, more: Iterable[str]) -> BuildStamp:
+def with_more(unit: Unit, begun: BuildStamp, inputs: Inputs, more: Iterable[str]) -> BuildStamp:
     """A stamp with more files that the build has read."""
     others = {path: found for path in more if (found := state(path)) is not None}
     known = _known(unit, inputs, others)
     return msgspec.structs.replace(
-        taken, inputs={**known, **taken.inputs}, more=tuple(sorted(known.keys() - taken.inputs.keys()))
+        begun, inputs={**known, **begun.inputs}, more=tuple(sorted(known.keys() - begun.inputs.keys()))
     )
 
 
@@ -87,7 +87,7 @@ def _known(unit: Unit, inputs: Inputs, files: Mapping[str, State]) -> dict[str, 
     return {os.path.relpath(path, unit.folder): (found, inputs.digest(path, found)) for path, found in files.items()}
 
 
-def keep(unit: Unit, taken: BuildStamp) -> None:
+def keep(unit: Unit, begun: BuildStamp) -> None:
     """Writes the stamp, with the current state of the program. If it cannot be written, the next build compares
     times."""
     program = state(unit.program)
@@ -100,7 +100,7 @@ def keep(unit: Unit, taken: BuildStamp) -> None:
             open(unit.path(f"{FOLDER}/.gitignore"), "x", encoding="utf-8") as own,
         ):
             own.write("*\n")
-        text = json.dumps(msgspec.to_builtins(msgspec.structs.replace(taken, program=program)), separators=(",", ":"))
+        text = json.dumps(msgspec.to_builtins(msgspec.structs.replace(begun, program=program)), separators=(",", ":"))
         whole_file.put(unit.path(_NAME), text.encode("utf-8", "surrogateescape"))
 
 

@@ -95,7 +95,7 @@ def test_who_stays_has_all_taken_down_at_the_end(legs: Path) -> None:
         (lambda: opened(engine="icegrd"), "no engine 'icegrd'; did you mean 'icegrid'?"),
         (lambda: opened().up(on_failure="rolback"), "did you mean 'rollback'?"),
         (lambda: opened().export("systmd"), "did you mean 'systemd'?"),
-        (lambda: opened(path="other.ddsl.yaml"), "there is no deployment at 'other.ddsl.yaml'"),
+        (lambda: opened(path="other.ddsl.yaml"), "'other.ddsl.yaml' is no deployment"),
     ],
 )
 def test_what_is_not_known_is_refused(legs: Path, call: Callable[[], object], said: str) -> None:

@@ -117,7 +117,7 @@ def test_as_one_types_it(engine: str, place: Place, tmp_path: Path, rcyaml: Call
     write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT + MORE})
     result = deploy("up", "--timeout", "6s")
     assert result.exit_code == 1
-    assert result.stdout.endswith("Robot: failed; what was started was stopped\n")
+    assert result.stdout.endswith("Robot: failed; the started processes were stopped\n")
     assert "error[RC7011]: the time limit of 6 s was over when 1 of 3 processes was ready" in result.stderr
     assert "    ready: base\n    waited for: arm\n    not started: hand\n" in result.stderr
     assert "robot.ddsl.yaml:4:3" in result.stderr and "arm | no motor" in result.stderr
@@ -131,4 +131,4 @@ def test_as_one_types_it(engine: str, place: Place, tmp_path: Path, rcyaml: Call
 def test_a_time_has_a_unit(time: str, tmp_path: Path, rcyaml: Callable[..., Result]) -> None:
     write_tree(tmp_path, {"robot.ddsl.yaml": ROBOT})
     result = rcyaml("deploy", "up", "robot.ddsl.yaml", f"--timeout={time}")
-    assert result.exit_code == 2 and f"'{time}' is no length of time, such as 30s or 2min" in result.stderr
+    assert result.exit_code == 2 and f"'{time}' is no duration, such as 30s or 2min" in result.stderr

@@ -146,7 +146,7 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     assert build(rcyaml, "leg") == {"LegComp": "built"}
     assert "removed  build/Release/" in rcyaml("build", "--clean").stdout
     assert not (tmp_path / "build" / "Release").exists() and (arm / "bin" / "ArmComp").is_file()
-    assert rcyaml("build", "--clean").stdout == "there is no build tree\n"
+    assert rcyaml("build", "--clean").stdout == "no build tree exists\n"
 
 
 def _compilers(folder: Path) -> list[str]:

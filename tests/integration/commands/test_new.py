@@ -207,7 +207,7 @@ def test_parameters_of_a_misspelled_component(rcyaml: Run, workspace: Path, name
     before = read_tree(workspace)
     said = rcyaml("new", "parameters", name)
     assert (said.exit_code, read_tree(workspace)) == (2, before)
-    assert f"there is no component '{name}'; did you mean '{meant}'?" in " ".join(said.stderr.split())
+    assert f"unknown component '{name}'; did you mean '{meant}'?" in " ".join(said.stderr.split())
 
 
 def test_parameters_may_come_before_their_component(rcyaml: Run, workspace: Path) -> None:

@@ -37,7 +37,7 @@ def test_a_new_document_finds_its_schema(rcyaml: Run) -> None:
         "editors find it by the first lines of the document: ../.rcyaml/schemas/idsl.schema.json\n"
     )
     assert rcyaml("schema", "rcyaml.yaml").stdout == (
-        "rcyaml.yaml has the schema 'workspace'\n"
+        "the schema of rcyaml.yaml is 'workspace'\n"
         "editors find it by the first lines of the document: .rcyaml/schemas/workspace.schema.json\n"
     )
 
