@@ -1,4 +1,4 @@
-"""No document, name or argument commands the terminal, whatever the command; data is unchanged in a pipe."""
+"""No document, name or argument can control the terminal, whatever the command; data is unchanged in a pipe."""
 
 from __future__ import annotations
 
@@ -156,5 +156,5 @@ def test_a_pipe_and_a_file_get_the_same_bytes_in_each_encoding(args: tuple[str, 
     with open(right / "out", "wb") as file:
         other = environment(PYTHONIOENCODING="latin-1", FORCE_COLOR="1")
         subprocess.run([*COMMAND, *args], cwd=right, stdout=file, timeout=60, env=other)
-    data = ours.stdout.partition(b"warning[")[0]  # behind the data of --diff there are words
+    data = ours.stdout.partition(b"warning[")[0]  # messages follow the data of --diff
     assert ours.returncode == 0 and (right / "out").read_bytes().startswith(data) and data

@@ -38,7 +38,7 @@ def test_the_workspace_compiles(rcyaml: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not shutil.which("git"), reason="git is not installed")
-def test_what_is_built_is_ignored_and_what_is_started_is_not(rcyaml: Run, tmp_path: Path) -> None:
+def test_git_ignores_build_results_but_not_programs(rcyaml: Run, tmp_path: Path) -> None:
     rcyaml("init")
     rcyaml("new", "component", "Arm", "--language", "cpp", "--implements", "Hello")
     rcyaml("compile")
@@ -54,7 +54,7 @@ def test_what_is_built_is_ignored_and_what_is_started_is_not(rcyaml: Run, tmp_pa
     assert seen == {*(f"components/arm/{path}" for path in built), "components/hellocomp/src/__pycache__/x.pyc"}
 
 
-def test_the_next_step_can_be_typed(rcyaml: Run, tmp_path: Path) -> None:
+def test_the_next_command_works(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("init").stdout.splitlines()[-1].startswith("next: rcyaml check")
     assert rcyaml("init", "my robot").stdout.splitlines()[-1].startswith("next: cd 'my robot', then rcyaml check")
 
@@ -65,7 +65,7 @@ def test_another_folder_may_be_named(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("check").exit_code == 0
 
 
-def test_bare_leaves_the_example_out(rcyaml: Run, tmp_path: Path) -> None:
+def test_bare_writes_no_example(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("init", "--bare").exit_code == 0
     assert set(read_tree(tmp_path)) == OWN_FILES
     assert (tmp_path / "interfaces").is_dir() and (tmp_path / "components").is_dir()
@@ -108,7 +108,9 @@ def test_a_file_is_no_workspace(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("init", "robot").exit_code == 2
 
 
-def test_what_cannot_be_written_is_said(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_cannot_be_written_is_reported(
+    rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def refuse(path: Path, _: str) -> None:
         raise PermissionError(13, "Permission denied", str(path))
 
@@ -117,5 +119,5 @@ def test_what_cannot_be_written_is_said(rcyaml: Run, tmp_path: Path, monkeypatch
     assert (said.exit_code, said.stderr) == (1, "Error: cannot write rcyaml.yaml: permission denied\n")
 
 
-def test_quiet_says_nothing(rcyaml: Run) -> None:
+def test_quiet_prints_nothing(rcyaml: Run) -> None:
     assert rcyaml("-q", "init").output == ""

@@ -1,4 +1,4 @@
-"""A word that is no command is told in one way at every level, with a command that can be typed."""
+"""An unknown command is reported in the same way at every level, with a command that works."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Rcyaml = Callable[..., Result]
         ("deploy --pln", "No such option '--pln'"),
     ],
 )
-def test_a_word_that_is_no_command(words: str, said: str, rcyaml: Rcyaml) -> None:
+def test_unknown_commands(words: str, said: str, rcyaml: Rcyaml) -> None:
     result = rcyaml(*words.split())
     assert result.exit_code == 2 and said in result.stderr, result.stderr
 

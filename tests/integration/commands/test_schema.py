@@ -50,7 +50,7 @@ def test_a_document_without_a_modeline_is_found_by_the_settings(rcyaml: Run, tmp
     )
 
 
-def test_a_document_outside_any_workspace_is_told_what_it_lacks(rcyaml: Run, tmp_path: Path) -> None:
+def test_a_document_outside_any_workspace_has_no_schema(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"idsl.yaml": "module: X\n"})
     said = rcyaml("schema", "idsl.yaml").stdout
     assert "editors do not find it" in said
@@ -58,7 +58,7 @@ def test_a_document_outside_any_workspace_is_told_what_it_lacks(rcyaml: Run, tmp
 
 
 @pytest.mark.parametrize(("content", "reason"), [(None, "is missing"), ("{}", "the file of the schema is outdated")])
-def test_a_stale_schema_is_told(rcyaml: Run, tmp_path: Path, content: str | None, reason: str) -> None:
+def test_a_stale_schema_is_reported(rcyaml: Run, tmp_path: Path, content: str | None, reason: str) -> None:
     rcyaml("init")
     schema = tmp_path / ".rcyaml/schemas/idsl.schema.json"
     schema.unlink()
@@ -75,7 +75,7 @@ def test_a_stale_schema_is_told(rcyaml: Run, tmp_path: Path, content: str | None
         ("a.idsl.yaml", "does not exist"),
     ],
 )
-def test_what_is_neither_kind_nor_document_is_refused(rcyaml: Run, argument: str, reason: str) -> None:
+def test_other_arguments_are_rejected(rcyaml: Run, argument: str, reason: str) -> None:
     said = rcyaml("schema", argument)
     assert said.exit_code == 2
     assert reason in said.stderr

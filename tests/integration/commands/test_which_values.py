@@ -1,4 +1,4 @@
-"""Commands about values take a document, a component's folder, its document, its name, or nothing where there is one."""
+"""Commands about values accept a document, a component's folder, document or name, or nothing if there is only one."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SAID = [
 
 
 @pytest.mark.parametrize("said", [[], *([each] for each in SAID)])
-def test_new_is_written_for_it(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
+def test_new_accepts_all_forms(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
     write_tree(tmp_path, TREE)
     result = rcyaml("config", "new", *said)
     assert result.exit_code == 0, result.output
@@ -33,7 +33,7 @@ def test_new_is_written_for_it(rcyaml: Run, tmp_path: Path, said: list[str]) -> 
 
 
 @pytest.mark.parametrize("said", [[], *([each] for each in SAID), [ARM]])
-def test_the_others_find_its_values(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
+def test_the_other_commands_accept_all_forms(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
     write_tree(tmp_path, {**TREE, ARM: "component: ../arm.cdsl.yaml\nparameters: {force: 3}\n"})
     assert rcyaml("config", "check", *said).exit_code == 0
     assert "force = 3" in rcyaml("config", "show", *said).stdout
@@ -56,7 +56,7 @@ def test_the_others_find_its_values(rcyaml: Run, tmp_path: Path, said: list[str]
     (["show", "empty"], "'empty' has no component; `rcyaml new component NAME` writes one"),
     (["get", "components/arm/arm.pdsl.yaml"], "components/arm/etc/config.yaml does not exist yet"),
 ])  # fmt: skip
-def test_what_is_not_clear_is_asked_for(rcyaml: Run, tmp_path: Path, args: list[str], problem: str) -> None:
+def test_unclear_arguments_are_rejected(rcyaml: Run, tmp_path: Path, args: list[str], problem: str) -> None:
     write_tree(tmp_path, {**TREE, **BASE, "empty": None})
     result = rcyaml("config", *args)
     assert result.exit_code == 2, result.output

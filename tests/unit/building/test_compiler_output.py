@@ -1,4 +1,4 @@
-"""What compilers print, as diagnostics at the user's own lines."""
+"""The output of compilers, as diagnostics at lines of the user's code."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def places(found: list[Diagnostic]) -> list[tuple[object, ...]]:
 
 
 def test_gcc(said) -> None:
-    """Columns are those of a terminal, where a tab is eight; the marks say how long the place is."""
+    """Columns are those of a terminal, with tabs of eight; the marks give the length."""
     found = said(
         "In file included from ../arm/arm.cpp:1:\n"
         "../arm/arm.cpp: In function ‘int main()’:\n"
@@ -47,13 +47,13 @@ def test_gcc(said) -> None:
     assert [(one.message, one.span.line) for one in found[0].related] == [("in here", 2)]
 
 
-def test_a_header_that_is_missing_and_the_same_twice(said) -> None:
+def test_a_missing_header_and_a_repeated_error(said) -> None:
     line = "../arm/arm.cpp:1:10: fatal error: x.h: No such file or directory\n"
     assert places(said(line + "compilation terminated.\n" + line)) == [("RC8001", "arm/arm.cpp", 1, 10, 11)]
 
 
 def test_javac(said) -> None:
-    """It tells no column: the mark stands below it."""
+    """javac prints no column; the mark below the line shows it."""
     found = said("arm/arm.cpp:2: error: cannot find symbol\nint main() {\n    ^\n  symbol: class main\n1 error\n")
     assert [(one.span.line, one.span.column) for one in found] == [(2, 5)]
 
@@ -74,9 +74,9 @@ def test_the_slice_compiler_and_the_linker(said) -> None:
         "a: b: c",
     ],
 )
-def test_what_has_no_place(said, text: str) -> None:
+def test_lines_without_a_location(said, text: str) -> None:
     assert said(text) == []
 
 
-def test_a_file_elsewhere_is_named_as_a_whole(said) -> None:
+def test_a_file_outside_has_an_absolute_path(said) -> None:
     assert said("/usr/include/c++/12/vector:1:1: error: x")[0].span.file == "/usr/include/c++/12/vector"
