@@ -106,7 +106,7 @@ def test_status_fails_where_one_does_not_run(robot: Path, rcyaml: Rcyaml) -> Non
 @pytest.mark.parametrize(
     ("args", "said"),
     [
-        (("up", "."), "it has none"),
+        (("up", "."), "has no deployment document"),
         (("up", "robot.ddsl.yaml", "amr"), "has no process or group 'amr'; did you mean 'arm'?"),
         (("probe", "robot.ddsl.yaml", "moon"), "has no host 'moon'"),
         (("up", "nowhere.ddsl.yaml"), "does not exist"),

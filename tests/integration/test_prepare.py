@@ -70,10 +70,10 @@ def test_root_installs_them(prepare: ModuleType, machine: Machine, capsys: pytes
         f"apt-get {words} update", "noninteractive",
         f"apt-get {words} install -y --no-install-recommends python3-zeroc-ice cowsay", "noninteractive",
     ]  # fmt: skip
-    said = capsys.readouterr().out
-    assert said.startswith("make demo needs packages of Debian, and installs them: python3-zeroc-ice cowsay\n")
-    assert "installing 2 packages, which takes about half a minute ...\n  done after " in said
-    assert "Unpacking" not in said, "what apt says is of interest where it fails"
+    output = capsys.readouterr().out
+    assert output.startswith("make demo needs packages of Debian, and installs them: python3-zeroc-ice cowsay\n")
+    assert "installing 2 packages, which takes about half a minute ...\n  done after " in output
+    assert "Unpacking" not in output, "what apt says is of interest where it fails"
 
 
 def test_installed_packages_are_not_requested(
@@ -91,8 +91,8 @@ def test_the_output_of_apt_is_shown_if_it_fails(prepare: ModuleType, machine: Ma
     machine.has("apt-get", 'case "$*" in *install*) echo E: Unable to locate package cowsay; exit 100;; esac')
     with pytest.raises(prepare.Failed) as failed:
         prepare.main("system", "demo", "cowsay")
-    said = str(failed.value)
-    assert said.startswith("E: Unable to locate package cowsay\n\ninstalling cowsay failed, see above: env apt-get ")
+    output = str(failed.value)
+    assert output.startswith("E: Unable to locate package cowsay\n\ninstalling cowsay failed, see above: env apt-get ")
 
 
 @pytest.mark.parametrize("sudo", [True, False], ids=["may", "may not"])
@@ -104,15 +104,15 @@ def test_others_install_them_by_sudo_without_password(
     monkeypatch.setattr(prepare.os, "geteuid", lambda: 1000)
     machine.has("sudo", 'shift; "$@"' if sudo else "echo sudo: a password is required >&2; exit 1")
     prepare.main("system", goal, "cowsay")
-    said = capsys.readouterr()
-    assert not said.err
+    output = capsys.readouterr()
+    assert not output.err
     if sudo:
         assert machine.called[-2].endswith(" install -y --no-install-recommends cowsay")
         assert machine.called[-1] == "noninteractive"
     else:
         assert not any(line.startswith("apt-get") for line in machine.called)
         skipped = "some tests will be skipped; to run them all: sudo apt install cowsay\n"
-        assert said.out == (skipped if goal == "test" else ""), "the demo says it where it ends"
+        assert output.out == (skipped if goal == "test" else ""), "the demo says it where it ends"
 
 
 def test_no_debian_and_no_sudo(
@@ -144,9 +144,9 @@ def test_the_output_of_pip_is_hidden_if_it_succeeds(
 ) -> None:
     pip(0)
     prepare.main("environment", "test")
-    said = capsys.readouterr()
-    assert not said.err and re.fullmatch(
-        r"installing rcyaml and what its tests need into \S+venv \.\.\.\n  done after \d+ s\n", said.out
+    output = capsys.readouterr()
+    assert not output.err and re.fullmatch(
+        r"installing rcyaml and what its tests need into \S+venv \.\.\.\n  done after \d+ s\n", output.out
     )
 
 
@@ -168,12 +168,12 @@ def test_without_rights_two_ways_are_printed(
 ) -> None:
     machine.has("g++")
     prepare.main("advise")
-    said = capsys.readouterr().out
-    assert "\n  sudo apt install python3-zeroc-ice\n" in said and "\n  make ice demo\n" in said
-    assert "some ten minutes" in said and "headers" not in said
+    output = capsys.readouterr().out
+    assert "\n  sudo apt install python3-zeroc-ice\n" in output and "\n  make ice demo\n" in output
+    assert "some ten minutes" in output and "headers" not in output
     machine.has("g++", "exit 1")
     prepare.main("advise")
-    assert "needs g++ and the headers of Python, OpenSSL and bzip2, not all of which are here (g++ python3-dev" in (
+    assert "needs g++ and the headers of Python, OpenSSL and bzip2, some of which are missing (g++ python3-dev" in (
         capsys.readouterr().out
     )
     with pytest.raises(prepare.Failed, match="installs these:\n  sudo apt install g\\+\\+ python3-dev"):
@@ -195,7 +195,7 @@ def test_compiling_shows_progress(
     monkeypatch.setattr(prepare.Progress, "note", note, raising=False)
     prepare.main("ice")
     assert [note for note in notes if note] == ["1 of about 250 files", "2 of about 250 files"]
-    assert "Ice is compiled for this Python, which takes some ten minutes.\n" in capsys.readouterr().out
+    assert "Compiling Ice for this Python takes some ten minutes.\n" in capsys.readouterr().out
 
 
 def test_on_a_terminal_one_line_is_updated(
@@ -203,8 +203,8 @@ def test_on_a_terminal_one_line_is_updated(
 ) -> None:
     monkeypatch.setattr(prepare.sys.stdout, "isatty", lambda: True, raising=False)
     prepare.call(["/bin/sh", "-c", "echo one; sleep 0.5"], "counting", str.strip)
-    said = capsys.readouterr().out
-    assert "\rcounting ... 0 s  one\x1b[K" in said and re.search(r"\r\x1b\[Kcounting: done after \d s\n$", said)
+    output = capsys.readouterr().out
+    assert "\rcounting ... 0 s  one\x1b[K" in output and re.search(r"\r\x1b\[Kcounting: done after \d s\n$", output)
 
 
 def test_help_lists_the_goals() -> None:

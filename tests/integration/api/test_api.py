@@ -41,10 +41,10 @@ def test_all_promised_names_exist() -> None:
 
 def test_check_and_the_command_report_the_same(place: Path, rcyaml: Rcyaml) -> None:
     write_tree(place, {"interfaces/Bad.idsl.yaml": "module: RoboCompBad\nimports: [Speach]\n"})
-    told = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
+    printed = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
     found = api.load().check()
     assert [(one.code, one.message, one.span.file, one.span.line) for one in found] == [
-        (one["code"], one["message"], one["file"], one["line"]) for one in told
+        (one["code"], one["message"], one["file"], one["line"]) for one in printed
     ]
     assert str(found[0]) == (
         "interfaces/Bad.idsl.yaml:2:11: error[RC1101]: there is no interface document called 'Speach'"

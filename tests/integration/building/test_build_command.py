@@ -87,15 +87,15 @@ def test_named_components_from_a_folder(workspace: Path, rcyaml: Rcyaml, monkeyp
 
 
 @pytest.mark.parametrize(
-    ("name", "said"),
+    ("name", "message"),
     [
         ("LegCmop", "unknown component 'LegCmop'; did you mean 'LegComp'?"),
         ("toe/toe.cdsl.yaml", "does not exist"),
     ],
 )
-def test_unknown_components(workspace: Path, rcyaml: Rcyaml, name: str, said: str) -> None:
+def test_unknown_components(workspace: Path, rcyaml: Rcyaml, name: str, message: str) -> None:
     result = rcyaml("build", name)
-    assert result.exit_code == 2 and said in result.stderr
+    assert result.exit_code == 2 and message in result.stderr
 
 
 def test_an_error_of_python_has_its_line_and_others_are_built(workspace: Path, rcyaml: Rcyaml) -> None:
@@ -175,13 +175,13 @@ def test_a_stale_program_is_not_deployed(rcyaml: Rcyaml, tmp_path: Path) -> None
     code = tmp_path / "eye" / "src" / "SpecificWorker.java"
     code.write_text("class SpecificWorker { int more; }\n")
     for command_ in ("plan", "up"):
-        told = rcyaml("deploy", command_)
-        assert told.exit_code == 1
+        result = rcyaml("deploy", command_)
+        assert result.exit_code == 1
         assert (
             "error[RC7016]: the program of 'eye' is older than what it is made of: eye/src/SpecificWorker.java"
-            in told.stderr
+            in result.stderr
         )
-        assert "`rcyaml build EyeComp`" in told.stderr
+        assert "`rcyaml build EyeComp`" in result.stderr
     assert "warning[RC7016]" in rcyaml("deploy", "status").stderr
     up = rcyaml("deploy", "up", "--build")
     assert up.exit_code == 0, up.output

@@ -19,8 +19,8 @@ ALLOW = "# rcyaml: allow RC1006 -- only C++ calls it"
 METHODS = "module: RoboCompSpeech\ninterfaces:\n  Speech:\n    methods:\n"
 
 
-def codes(said: list[dict[str, object]]) -> list[tuple[object, object]]:
-    return [(d["code"], d["line"]) for d in said]
+def codes(diagnosed: list[dict[str, object]]) -> list[tuple[object, object]]:
+    return [(d["code"], d["line"]) for d in diagnosed]
 
 
 ALLOWED = {
@@ -65,11 +65,11 @@ def test_a_list(diagnostics: Check) -> None:
         f"  - Speech\n  {allow}\n  - Speech\n",
         f"  [Speech,\n  Speech]  {allow}\n",
     ):
-        said = diagnostics({
+        diagnosed = diagnostics({
             "Speech.idsl.yaml": "module: RoboCompSpeech\n",
             "a.cdsl.yaml": f"component: A\nlanguage: python\nimports:\n{imports}",
         })  # fmt: skip
-        assert said == []
+        assert diagnosed == []
 
 
 def test_a_text_of_several_lines_is_one_value(diagnostics: Check) -> None:
@@ -89,8 +89,8 @@ def test_a_document_is_reported_at_its_first_line(diagnostics: Check, tmp_path: 
     for head in (allow, "# Ours.\n\n" + allow, allow + "# yaml-language-server: $schema=x\n---\n"):
         assert diagnostics({"a.cdsl.yaml": "component: A\nlanguage: python\n", "b.cdsl.yaml": head + other}) == []
     late = other + allow
-    said = diagnostics({"b.cdsl.yaml": late})
-    assert codes(said) == [("RC2010", 1), ("RC0060", 3)]
+    diagnosed = diagnostics({"b.cdsl.yaml": late})
+    assert codes(diagnosed) == [("RC2010", 1), ("RC0060", 3)]
 
 
 NOT_A_COMMENT = {
@@ -130,9 +130,9 @@ TOLD = {
 }
 
 
-@pytest.mark.parametrize(("comment", "told"), TOLD.values(), ids=TOLD)
-def test_wrong_comments_are_reported(diagnostics: Check, comment: str, told: list[tuple[str, int]]) -> None:
-    assert sorted(codes(diagnostics({"Speech.idsl.yaml": f"{WRONG}{comment}\n"}))) == sorted(told)
+@pytest.mark.parametrize(("comment", "expected"), TOLD.values(), ids=TOLD)
+def test_wrong_comments_are_reported(diagnostics: Check, comment: str, expected: list[tuple[str, int]]) -> None:
+    assert sorted(codes(diagnostics({"Speech.idsl.yaml": f"{WRONG}{comment}\n"}))) == sorted(expected)
 
 
 def test_a_comment_elsewhere_suppresses_nothing(diagnostics: Check) -> None:
@@ -144,29 +144,29 @@ def test_a_comment_elsewhere_suppresses_nothing(diagnostics: Check) -> None:
 
 def test_an_error_cannot_be_suppressed(diagnostics: Check) -> None:
     text = f"{METHODS}      find: {{in: {{x: Quux}}}}  # rcyaml: allow RC1010 -- it comes\n"
-    said = diagnostics({"Speech.idsl.yaml": text})
-    assert codes(said) == [("RC1010", 5), ("RC0064", 5)]
-    assert said[1]["message"] == "no comment can allow RC1010: it is an error"
+    diagnosed = diagnostics({"Speech.idsl.yaml": text})
+    assert codes(diagnosed) == [("RC1010", 5), ("RC0064", 5)]
+    assert diagnosed[1]["message"] == "no comment can allow RC1010: it is an error"
 
 
 def test_a_document_that_cannot_be_read_has_no_comments(diagnostics: Check) -> None:
-    said = diagnostics({"Speech.idsl.yaml": f"{METHODS}      find: {{  {ALLOW}\n"})
-    assert [code for code, _ in codes(said)] == ["RC0101"]
+    diagnosed = diagnostics({"Speech.idsl.yaml": f"{METHODS}      find: {{  {ALLOW}\n"})
+    assert [code for code, _ in codes(diagnosed)] == ["RC0101"]
 
 
-@pytest.mark.parametrize(("lint", "told"), [
+@pytest.mark.parametrize(("lint", "expected"), [
     ("RC1006: error", []),  # as `allow` of a compiler: the workspace is strict, except at this location
     ("RC1006: off", []),  # the comment is used, whatever the workspace sets
     ("RC1006: note", []),
     ("RC1010: warning", ["RC0060"]),
 ])  # fmt: skip
-def test_the_workspace_and_the_comment(diagnostics: Check, lint: str, told: list[str]) -> None:
+def test_the_workspace_and_the_comment(diagnostics: Check, lint: str, expected: list[str]) -> None:
     files = {"rcyaml.yaml": f"lint: {{{lint}}}\n", "Speech.idsl.yaml": f"{WRONG}{ALLOW}\n"}
-    if told:
+    if expected:
         files["Speech.idsl.yaml"] = (
             f"{METHODS}      find: {{in: {{x: Quux}}}}  # rcyaml: allow RC1010, RC1006 -- it comes\n"
         )
-    assert [code for code, _ in codes(diagnostics(files))] == told
+    assert [code for code, _ in codes(diagnostics(files))] == expected
 
 
 def test_the_workspace_decides_about_the_comments(diagnostics: Check) -> None:
@@ -178,11 +178,11 @@ def test_the_workspace_decides_about_the_comments(diagnostics: Check) -> None:
 
 
 def test_the_workspace_s_own_document(diagnostics: Check) -> None:
-    said = diagnostics({
+    diagnosed = diagnostics({
         "Speech.idsl.yaml": "module: M\n",
         "rcyaml.yaml": "interfaces:\n  - later  # rcyaml: allow RC0301 -- it comes with the robot\n  - never\n",
     })  # fmt: skip
-    assert codes(said) == [("RC0301", 3)]
+    assert codes(diagnosed) == [("RC0301", 3)]
 
 
 KINDS: dict[str, Tree] = {
@@ -201,10 +201,10 @@ KINDS: dict[str, Tree] = {
 
 @pytest.mark.parametrize("files", KINDS.values(), ids=KINDS)
 def test_all_kinds_of_documents(diagnostics: Check, files: Tree) -> None:
-    said = diagnostics({
+    diagnosed = diagnostics({
         "I.idsl.yaml": "module: RoboCompI\n", "a.cdsl.yaml": "component: A\nlanguage: python\nimports: [I]\n", **files
     })  # fmt: skip
-    assert said == []
+    assert diagnosed == []
 
 
 def test_compile_uses_the_comments(rcyaml: Run, tmp_path: Path) -> None:
@@ -267,5 +267,5 @@ LINES = {
 
 @pytest.mark.parametrize(("text", "lines"), LINES.items(), ids=range(len(LINES)))
 def test_the_lines_that_a_comment_concerns(text: str, lines: tuple[int, int]) -> None:
-    (allowance,), said = allowances(Text("a.yaml", text))
-    assert (allowance.first, allowance.last) == lines and not said
+    (allowance,), diagnosed = allowances(Text("a.yaml", text))
+    assert (allowance.first, allowance.last) == lines and not diagnosed

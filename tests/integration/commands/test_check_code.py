@@ -21,7 +21,7 @@ TREE = {
 }
 
 
-def told(result: Result) -> list[tuple[str, str, int]]:
+def diagnostics(result: Result) -> list[tuple[str, str, int]]:
     found = json.loads(result.stdout)["diagnostics"]
     return [(one["code"], one["file"], one["line"]) for one in found if one["code"].startswith("RC62")]
 
@@ -45,20 +45,22 @@ def compiled(rcyaml: Rcyaml, tmp_path: Path) -> Path:
 def test_check_and_compile_report_the_same(compiled: Path, rcyaml: Rcyaml, old: str, new: str, codes: set[str]) -> None:
     write_tree(compiled, {"Speech.idsl.yaml": SPEECH.replace(old, new)})
     before = read_tree(compiled)
-    checked = told(rcyaml("check", "--format", "json"))
+    checked = diagnostics(rcyaml("check", "--format", "json"))
     assert read_tree(compiled) == before
-    assert checked == told(rcyaml("compile", "--format", "json"))
+    assert checked == diagnostics(rcyaml("compile", "--format", "json"))
     assert {code for code, _, _ in checked} == codes
     assert {file.partition("/")[0] for _, file, _ in checked} == {"py", "cpp"}
-    assert checked == told(rcyaml("check", "--format", "json"))
+    assert checked == diagnostics(rcyaml("check", "--format", "json"))
 
 
 def test_only_requested_components_are_reported(compiled: Path, rcyaml: Rcyaml) -> None:
     write_tree(compiled, {"Speech.idsl.yaml": SPEECH.replace("stop: ", "stop: , pause: ")})
-    assert {file for _, file, _ in told(rcyaml("check", "--format", "json", "py"))} == {"py/src/specificworker.py"}
-    assert told(rcyaml("check", "--format", "json", "Speech.idsl.yaml")) == []
+    assert {file for _, file, _ in diagnostics(rcyaml("check", "--format", "json", "py"))} == {
+        "py/src/specificworker.py"
+    }
+    assert diagnostics(rcyaml("check", "--format", "json", "Speech.idsl.yaml")) == []
     write_tree(compiled, {"rcyaml.yaml": "lint: {RC6201: off}\n"})
-    assert told(rcyaml("check", "--format", "json")) == []
+    assert diagnostics(rcyaml("check", "--format", "json")) == []
 
 
 def test_code_is_read_only_if_the_skeleton_has_changed(compiled: Path, rcyaml: Rcyaml) -> None:
@@ -102,7 +104,7 @@ def test_other_files_of_the_user_count_too(compiled: Path, rcyaml: Rcyaml, comma
     assert "(GenericWorker)" in text and "def Speech_stop(" in text
     worker.write_text(text.replace("(GenericWorker)", "(More, GenericWorker)").replace("Speech_stop", "other"), "utf-8")
     more.write_text("class More:\n    def Speech_stop(self):\n        pass\n", encoding="utf-8")
-    assert told(rcyaml("compile", "--format", "json")) == []
-    assert told(rcyaml(command, "--format", "json")) == []
+    assert diagnostics(rcyaml("compile", "--format", "json")) == []
+    assert diagnostics(rcyaml(command, "--format", "json")) == []
     more.write_text("class More:\n    pass\n", encoding="utf-8")
-    assert {code for code, _, _ in told(rcyaml(command, "--format", "json"))} == {"RC6201"}
+    assert {code for code, _, _ in diagnostics(rcyaml(command, "--format", "json"))} == {"RC6201"}

@@ -142,7 +142,7 @@ def test_a_component_in_the_root_has_each_file_once(rcyaml: Rcyaml, tmp_path: Pa
 
 def test_skipped_documents_are_listed(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, {**BESIDE, "speech/speech.pdsl.yaml": PARAMETERS, "idsl/Speech.idsl.yaml": "module: [\n"})
-    told = rcyaml("compile").output.splitlines()
-    assert "skipped: idsl/Speech.idsl.yaml (it has errors)" in told
-    assert "skipped: speech/speech.pdsl.yaml (a document that it depends on has errors)" in told
-    assert told[-1].startswith("0 documents compiled, 3 skipped: ")
+    lines = rcyaml("compile").output.splitlines()
+    assert "skipped: idsl/Speech.idsl.yaml (it has errors)" in lines
+    assert "skipped: speech/speech.pdsl.yaml (a document that it depends on has errors)" in lines
+    assert lines[-1].startswith("0 documents compiled, 3 skipped: ")

@@ -54,7 +54,7 @@ def change(root: Path, old: str, new: str) -> None:
     path.write_text(path.read_text().replace(old, new))
 
 
-def told(rcyaml: Run, *args: str) -> list[dict[str, object]]:
+def diagnostics(rcyaml: Run, *args: str) -> list[dict[str, object]]:
     return json.loads(rcyaml("compile", *args, "--format", "json").stdout)["diagnostics"]
 
 
@@ -77,7 +77,7 @@ def test_missing_methods_are_reported_by_each_compile(component: Path, language:
 
 def test_the_text_to_paste_is_the_missing_methods(component: Path, language: str, rcyaml: Run) -> None:
     change(component, "      stop:\n", f"      stop:\n{SING}")
-    (diagnostic,) = told(rcyaml)
+    (diagnostic,) = diagnostics(rcyaml)
     pasted = str(diagnostic["more"])
     if language == "python":
         line, _, method = pasted.partition("\n")
@@ -88,7 +88,7 @@ def test_the_text_to_paste_is_the_missing_methods(component: Path, language: str
         header, source = component / "src/specificworker.h", component / "src/specificworker.cpp"
         header.write_text(header.read_text().replace("\n};", f"\n{declaration}}};"))
         source.write_text(f"{source.read_text()}\n{definition}\n")
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
 def test_a_merge_adds_them(component: Path, rcyaml: Run) -> None:
@@ -100,7 +100,7 @@ def test_a_merge_adds_them(component: Path, rcyaml: Run) -> None:
     assert "Speech_sing(" in now and "mine: Speech_say()" in now
     for path, text in sources(component).items():
         assert (component / ".rcyaml/base" / path).read_text() == text.replace("mine: ", "")
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
     assert rcyaml("compile", "--check").exit_code == 0
 
 
@@ -115,17 +115,17 @@ def test_dry_runs_of_a_merge_write_nothing(component: Path, rcyaml: Run) -> None
 
 def test_a_changed_signature(component: Path, rcyaml: Run) -> None:
     change(component, "{text: string}", "{text: string, times: int}")
-    assert {d["code"] for d in told(rcyaml)} == {"RC6202"}
+    assert {d["code"] for d in diagnostics(rcyaml)} == {"RC6202"}
     assert rcyaml("compile", "--merge").exit_code == 0
     now = "\n".join(sources(component).values())
     assert "times" in now and "mine: Speech_say()" in now
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
 def test_a_renamed_method_is_kept_with_a_warning(component: Path, language: str, rcyaml: Run) -> None:
     change(component, "      stop:\n", "      halt:\n")
     for args in ((), ("--merge",), (), ("--merge",)):
-        gone = [d for d in told(rcyaml, *args) if d["code"] == "RC6203"]
+        gone = [d for d in diagnostics(rcyaml, *args) if d["code"] == "RC6203"]
         assert len(gone) == 1 and "Speech_stop" in str(gone[0]["message"])
         assert len(gone[0]["related"]) == (language == "cpp")  # the definition's place
         is_written = "Speech_halt" in "".join(sources(component).values())
@@ -164,14 +164,14 @@ def test_without_a_base_missing_methods_are_added(component: Path, rcyaml: Run) 
         assert "Speech_sing(" in text
         kept = iter(text.splitlines())
         assert all(line in kept for line in before[path].splitlines())
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
 def test_a_method_that_the_user_removed_is_reported(component: Path, language: str, rcyaml: Run) -> None:
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
     path = component / ("src/specificworker.py" if language == "python" else "src/specificworker.cpp")
     path.write_text(path.read_text().replace("Speech_stop(", "Speech_stopAll("))
-    assert [d["code"] for d in told(rcyaml)] == ["RC6201"]
+    assert [d["code"] for d in diagnostics(rcyaml)] == ["RC6201"]
 
 
 def test_parts_of_the_class_may_be_in_other_files(component: Path, language: str, rcyaml: Run) -> None:
@@ -185,7 +185,7 @@ def test_parts_of_the_class_may_be_in_other_files(component: Path, language: str
         text = path.read_text()
         (component / "src/voice.cpp").write_text(text[text.index("void SpecificWorker::Speech_stop") :])
         path.write_text(text[: text.index("void SpecificWorker::Speech_stop")])
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
 def test_a_merge_keeps_line_ends(component: Path, rcyaml: Run) -> None:
@@ -215,18 +215,18 @@ def test_missing_settings_are_added_to_the_configuration(component: Path, rcyaml
     document = component / "speech.cdsl.yaml"
     document.write_text(document.read_text().replace("[Speech]", "[Speech, Mouth]", 1) + "requires: [Mouth]\n")
     before = config.read_text()
-    assert [d["code"] for d in told(rcyaml)] == ["RC6206"]
+    assert [d["code"] for d in diagnostics(rcyaml)] == ["RC6206"]
     assert rcyaml("compile", "--merge").exit_code == 0
     assert config.read_text().startswith(before) and "\nMouthProxy=mouth:tcp" in config.read_text()
-    assert told(rcyaml) == []
+    assert diagnostics(rcyaml) == []
 
 
 @pytest.mark.parametrize("text", ["", "\n", "class SpecificWorker", "}{)(", "\x00"])
 def test_a_file_without_the_class(component: Path, language: str, rcyaml: Run, text: str) -> None:
     path = component / ("src/specificworker.py" if language == "python" else "src/specificworker.h")
     path.write_text(text)
-    assert [d["code"] for d in told(rcyaml)] == ["RC6205"]
-    assert {d["code"] for d in told(rcyaml, "--merge")} == {"RC6204"}
+    assert [d["code"] for d in diagnostics(rcyaml)] == ["RC6205"]
+    assert {d["code"] for d in diagnostics(rcyaml, "--merge")} == {"RC6204"}
     assert path.read_text() == text
 
 
@@ -236,5 +236,5 @@ def test_a_link_is_not_written_through(component: Path, language: str, rcyaml: R
     path.symlink_to("../elsewhere.txt")
     change(component, "      stop:\n", f"      stop:\n{SING}")
     before = read_tree(component / "src")
-    assert "RC6204" in {d["code"] for d in told(rcyaml, "--merge")}
+    assert "RC6204" in {d["code"] for d in diagnostics(rcyaml, "--merge")}
     assert path.is_symlink() and read_tree(component / "src") == before

@@ -49,8 +49,8 @@ def test_progress_has_one_line_for_each_process_on_a_narrow_terminal(monkeypatch
 
 @pytest.mark.parametrize("option", ["-v", "--quiet", "--color"])
 def test_a_global_option_is_written_before_the_command(rcyaml: Callable[..., Result], option: str) -> None:
-    told = rcyaml("deploy", "plan", ".", option)
+    result = rcyaml("deploy", "plan", ".", option)
     assert (
-        told.exit_code == 2
-        and f"'{option}' is an option of rcyaml: write it before the command, rcyaml {option} …" in told.stderr
+        result.exit_code == 2
+        and f"'{option}' is an option of rcyaml: write it before the command, rcyaml {option} …" in result.stderr
     )

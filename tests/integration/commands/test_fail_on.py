@@ -50,17 +50,17 @@ def test_exit_codes(rcyaml: Rcyaml, warned: Path, command: str, args: tuple[str,
 
 
 @pytest.mark.parametrize(
-    ("word", "said"),
+    ("word", "message"),
     [
         ("warnings", "did you mean 'warning'?"), ("eror", "did you mean 'error'?"), ("RC207", "did you mean 'RC"),
         ("RC9999", "is neither error, warning or note nor the code"), ("", "'' is neither"), ("RC2103,", "'' is neither"),
         ("quatsch", "`rcyaml explain` lists the codes"),
     ],
 )  # fmt: skip
-def test_wrong_words(rcyaml: Rcyaml, warned: Path, word: str, said: str) -> None:
+def test_wrong_words(rcyaml: Rcyaml, warned: Path, word: str, message: str) -> None:
     for command in ("check", "compile"):
-        told = rcyaml(command, "--fail-on", word)
-        assert told.exit_code == 2 and said in told.stderr
+        result = rcyaml(command, "--fail-on", word)
+        assert result.exit_code == 2 and message in result.stderr
 
 
 def test_json_does_not_change(rcyaml: Rcyaml, warned: Path) -> None:

@@ -62,8 +62,8 @@ SAFE = {
     "a key's case": (IDSL, "Module: M\n", "module: M\n"),
     "a key's case, quoted": (IDSL, "'MODULE': M\n", "'module': M\n"),
     "a language's case": (CDSL, "component: A\nlanguage: Python\n", "component: A\nlanguage: python\n"),
-    "an entry said twice": (IDSL, "module: M\ndoc: x\ndoc: x # y\n", "module: M\ndoc: x\n# y\n"),
-    "a block said twice": (
+    "a repeated entry": (IDSL, "module: M\ndoc: x\ndoc: x # y\n", "module: M\ndoc: x\n# y\n"),
+    "a repeated block": (
         IDSL,
         "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n  A:\n    struct:\n      x: int\n# end\n",
         "module: M\ntypes:\n  A:\n    struct:\n      x: int\n  # both\n# end\n",
@@ -365,9 +365,9 @@ def test_diff_shows_and_writes_nothing(rcyaml: Run, tmp_path: Path) -> None:
 
 def test_json_has_what_was_fixed_and_what_remains(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"Laser.idsl.yaml": LASER, IDSL: "module: M\nimports: [Laser, Laser, Lasr]\n"})
-    told = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
+    printed = json.loads(rcyaml("check", "--format", "json").stdout)["diagnostics"]
     place = {"file": IDSL, "line": 2, "column": 26, "end_line": 2, "end_column": 30}
-    assert told[1]["facts"] == {"meant": "Laser", "name": "Lasr"} or told[1]["facts"] == {"name": "Lasr"}
+    assert printed[1]["facts"] == {"meant": "Laser", "name": "Lasr"} or printed[1]["facts"] == {"name": "Lasr"}
     data = json.loads(rcyaml("check", "--fix", "--format", "json").stdout)
     assert [one["code"] for one in data["diagnostics"]] == ["RC1101"] and data["documents"] == 2
     assert data["fixed"] == [{
@@ -470,8 +470,8 @@ def test_a_fix_does_not_show_a_secret(rcyaml: Run, tmp_path: Path) -> None:
     })  # fmt: skip
     for format_ in ("text", "json", "sarif"):
         for options in ((), ("--fix", "--diff"), ("--unsafe-fixes", "--diff"), ("--unsafe-fixes",)):
-            told = rcyaml("check", *options, "--format", format_)
-            assert "hunter2" not in told.stdout + told.stderr
+            printed = rcyaml("check", *options, "--format", format_)
+            assert "hunter2" not in printed.stdout + printed.stderr
     assert (tmp_path / "etc/config.yaml").read_text().count("hunter2hunter2") == 1
 
 

@@ -22,8 +22,8 @@ EXAMPLE = {"interfaces/Hello.idsl.yaml", "components/hellocomp/hellocomp.cdsl.ya
 
 
 def test_an_empty_folder_becomes_a_workspace_that_checks(rcyaml: Run, tmp_path: Path) -> None:
-    said = rcyaml("init")
-    assert said.exit_code == 0
+    result = rcyaml("init")
+    assert result.exit_code == 0
     assert set(read_tree(tmp_path)) == OWN_FILES | EXAMPLE
     checked = rcyaml("check")
     assert (checked.exit_code, checked.stdout) == (0, "2 documents: nothing wrong\n")
@@ -80,26 +80,26 @@ def test_a_folder_with_documents_gets_no_example(rcyaml: Run, tmp_path: Path) ->
 def test_nothing_is_overwritten(rcyaml: Run, tmp_path: Path) -> None:
     mine = {"rcyaml.yaml": "# mine\n", ".gitignore": "mine\n", ".vscode/settings.json": '{"mine": true}'}
     write_tree(tmp_path, mine)
-    said = rcyaml("init")
+    result = rcyaml("init")
     tree = read_tree(tmp_path)
     assert (tree["rcyaml.yaml"], tree[".gitignore"]) == ("# mine\n", "mine\n")
     assert tree[".vscode/settings.json"].endswith(',"mine": true}')
-    assert "kept  rcyaml.yaml\n" in said.stdout
+    assert "kept  rcyaml.yaml\n" in result.stdout
 
 
 def test_a_second_time_changes_nothing(rcyaml: Run, tmp_path: Path) -> None:
     rcyaml("init")
     before = read_tree(tmp_path)
-    said = rcyaml("init")
-    assert said.exit_code == 0 and "wrote" not in said.stdout
+    result = rcyaml("init")
+    assert result.exit_code == 0 and "wrote" not in result.stdout
     assert read_tree(tmp_path) == before
 
 
 def test_settings_that_cannot_be_read_are_reported(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {".vscode/settings.json": "{ nonsense"})
-    said = rcyaml("init")
-    assert said.exit_code == 0
-    assert "note: .vscode/settings.json is left as it is, since it is not JSON" in said.stderr
+    result = rcyaml("init")
+    assert result.exit_code == 0
+    assert "note: .vscode/settings.json is left as it is, since it is not JSON" in result.stderr
     assert read_tree(tmp_path)[".vscode/settings.json"] == "{ nonsense"
 
 
@@ -115,8 +115,8 @@ def test_a_file_that_cannot_be_written_is_reported(
         raise PermissionError(13, "Permission denied", str(path))
 
     monkeypatch.setattr(whole_file, "create", refuse)
-    said = rcyaml("init")
-    assert (said.exit_code, said.stderr) == (1, "Error: cannot write rcyaml.yaml: permission denied\n")
+    result = rcyaml("init")
+    assert (result.exit_code, result.stderr) == (1, "Error: cannot write rcyaml.yaml: permission denied\n")
 
 
 def test_quiet_prints_nothing(rcyaml: Run) -> None:

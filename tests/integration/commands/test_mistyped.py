@@ -14,7 +14,7 @@ Rcyaml = Callable[..., Result]
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         ("compil", "unknown command 'compil'; did you mean 'compile'?"),
         ("deploy pln", "unknown command 'deploy pln'; did you mean 'deploy plan'?"),
@@ -29,9 +29,9 @@ Rcyaml = Callable[..., Result]
         ("deploy --pln", "No such option '--pln'"),
     ],
 )
-def test_unknown_commands(words: str, said: str, rcyaml: Rcyaml) -> None:
+def test_unknown_commands(words: str, message: str, rcyaml: Rcyaml) -> None:
     result = rcyaml(*words.split())
-    assert result.exit_code == 2 and said in result.stderr, result.stderr
+    assert result.exit_code == 2 and message in result.stderr, result.stderr
 
 
 @pytest.mark.parametrize("name", ["robot_ddsl.yaml", "robotddsl.yaml", "robot.cdsl.yaml", "robot.ddsl.yml"])

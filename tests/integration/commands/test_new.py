@@ -41,8 +41,8 @@ def test_a_new_interface_checks_and_compiles(rcyaml: Run, workspace: Path, name:
 @pytest.mark.parametrize("language", languages.table())
 def test_a_new_component_checks_and_compiles(rcyaml: Run, workspace: Path, language: str) -> None:
     uses = ("--implements", "Speech", "--publishes", "SpeechEvents", "--subscribes", "SpeechEvents")
-    said = rcyaml("new", "component", "TalkComp", "--language", language, *uses)
-    assert said.exit_code == 0
+    result = rcyaml("new", "component", "TalkComp", "--language", language, *uses)
+    assert result.exit_code == 0
     document = workspace / "components/talkcomp/talkcomp.cdsl.yaml"
     assert document.read_text().startswith("# yaml-language-server: $schema=../../.rcyaml/schemas/cdsl.schema.json\n")
     assert imports(document) == "[Speech]"
@@ -94,9 +94,9 @@ def test_an_interface_of_another_folder_is_found_with_include(rcyaml: Run, works
 def test_an_ambiguous_interface_needs_its_module(rcyaml: Run, workspace: Path) -> None:
     other = SPEECH.replace("RoboCompSpeech", "RoboCompOther")
     write_tree(workspace, {"interfaces/Other.idsl.yaml": other})
-    said = rcyaml("new", "component", "TalkComp", "--requires", "Speech")
-    assert said.exit_code == 2
-    assert "write RoboCompOther.Speech or RoboCompSpeech.Speech" in said.stderr
+    result = rcyaml("new", "component", "TalkComp", "--requires", "Speech")
+    assert result.exit_code == 2
+    assert "write RoboCompOther.Speech or RoboCompSpeech.Speech" in result.stderr
     assert rcyaml("new", "component", "TalkComp", "--requires", "RoboCompOther.Speech").exit_code == 0
     assert imports(workspace / "components/talkcomp/talkcomp.cdsl.yaml") == "[Other]"
     assert rcyaml("check").stdout == "3 documents: nothing wrong\n"
@@ -108,15 +108,15 @@ def components_of(root: Path) -> str:
     return text.partition("\ncomponents:\n")[2].partition("\n\n")[0]
 
 
-def errors(said: Result) -> list[str]:
-    return [line for line in said.stdout.splitlines() if line.startswith("error")]
+def errors(result: Result) -> list[str]:
+    return [line for line in result.stdout.splitlines() if line.startswith("error")]
 
 
 def test_a_new_deployment_has_the_workspaces_components(rcyaml: Run, workspace: Path) -> None:
     rcyaml("new", "component", "TalkComp", "--implements", "Speech", "--subscribes", "SpeechEvents")
     rcyaml("new", "component", "Listener", "--requires", "Speech", "--publishes", "SpeechEvents")
-    said = rcyaml("new", "deployment", "Head")
-    assert said.stdout.splitlines()[-1] == "next: rcyaml deploy plan deployments/head.ddsl.yaml"
+    result = rcyaml("new", "deployment", "Head")
+    assert result.stdout.splitlines()[-1] == "next: rcyaml deploy plan deployments/head.ddsl.yaml"
     assert components_of(workspace).splitlines() == [
         "  listener:",
         "    component: ../components/listener/listener.cdsl.yaml",
@@ -195,9 +195,9 @@ def test_a_new_deployment_without_components_checks(rcyaml: Run, tmp_path: Path)
 )
 def test_wrong_usage_is_rejected_and_writes_nothing(rcyaml: Run, workspace: Path, args: list[str], reason: str) -> None:
     before = read_tree(workspace)
-    said = rcyaml("new", *args)
-    assert said.exit_code == 2
-    assert reason in said.stderr.replace("\n", " ")
+    result = rcyaml("new", *args)
+    assert result.exit_code == 2
+    assert reason in result.stderr.replace("\n", " ")
     assert read_tree(workspace) == before
 
 
@@ -205,9 +205,9 @@ def test_wrong_usage_is_rejected_and_writes_nothing(rcyaml: Run, workspace: Path
 def test_parameters_of_a_misspelled_component(rcyaml: Run, workspace: Path, name: str, meant: str) -> None:
     rcyaml("new", "component", "ArmComp")
     before = read_tree(workspace)
-    said = rcyaml("new", "parameters", name)
-    assert (said.exit_code, read_tree(workspace)) == (2, before)
-    assert f"unknown component '{name}'; did you mean '{meant}'?" in " ".join(said.stderr.split())
+    result = rcyaml("new", "parameters", name)
+    assert (result.exit_code, read_tree(workspace)) == (2, before)
+    assert f"unknown component '{name}'; did you mean '{meant}'?" in " ".join(result.stderr.split())
 
 
 def test_parameters_may_come_before_their_component(rcyaml: Run, workspace: Path) -> None:

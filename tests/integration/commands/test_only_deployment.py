@@ -39,7 +39,7 @@ def test_a_name_needs_no_document_before_it(rcyaml: Rcyaml, tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize(
-    ("args", "said"),
+    ("args", "message"),
     [
         (("plan", "bsae"), "has no process or group 'bsae'; did you mean 'base'?"),
         (("plan", "robot.ddsl.yml"), "Path 'robot.ddsl.yml' does not exist"),
@@ -51,28 +51,29 @@ def test_a_name_needs_no_document_before_it(rcyaml: Rcyaml, tmp_path: Path) -> N
     ],
 )
 def test_words_that_are_neither_names_nor_documents(
-    rcyaml: Rcyaml, tmp_path: Path, args: tuple[str, ...], said: str
+    rcyaml: Rcyaml, tmp_path: Path, args: tuple[str, ...], message: str
 ) -> None:
     write_tree(tmp_path, {"deployments/robot.ddsl.yaml": ROBOT})
-    told = rcyaml("deploy", *args)
-    assert told.exit_code == 2 and said in told.stderr
+    result = rcyaml("deploy", *args)
+    assert result.exit_code == 2 and message in result.stderr
 
 
 @pytest.mark.parametrize("what", [*READING, "up", "restart"])
 def test_several_deployments_are_listed(rcyaml: Rcyaml, tmp_path: Path, what: str) -> None:
     write_tree(tmp_path, {"d/robot.ddsl.yaml": ROBOT, "d/two.ddsl.yaml": ROBOT.replace("Robot", "Two")})
-    told = deploy(rcyaml, what)
-    assert told.exit_code == 2
-    assert "there are several deployments: d/robot.ddsl.yaml, d/two.ddsl.yaml; name one of them" in told.stderr
-    assert rcyaml("graph").stderr.splitlines()[-1] == told.stderr.splitlines()[-1]
+    result = deploy(rcyaml, what)
+    assert result.exit_code == 2
+    assert "there are several deployments: d/robot.ddsl.yaml, d/two.ddsl.yaml; name one of them" in result.stderr
+    assert rcyaml("graph").stderr.splitlines()[-1] == result.stderr.splitlines()[-1]
 
 
 def test_no_deployment_is_reported(rcyaml: Rcyaml, tmp_path: Path) -> None:
     write_tree(tmp_path, {"empty": None})
     for args in ((), (".",), ("empty",)):
-        told = deploy(rcyaml, "plan", *args)
+        result = deploy(rcyaml, "plan", *args)
         assert (
-            told.exit_code == 2 and "has no deployment document: `rcyaml new deployment NAME` writes one" in told.stderr
+            result.exit_code == 2
+            and "has no deployment document: `rcyaml new deployment NAME` writes one" in result.stderr
         )
 
 

@@ -17,9 +17,9 @@ Run = Callable[..., Result]
 
 @pytest.mark.parametrize("kind", ["idsl", "cdsl", "pdsl", "ddsl", "config", "workspace"])
 def test_a_kind_is_printed(rcyaml: Run, kind: str) -> None:
-    said = rcyaml("schema", kind)
-    assert said.exit_code == 0
-    assert json.loads(said.stdout) == json.loads(schema_text(kind))
+    result = rcyaml("schema", kind)
+    assert result.exit_code == 0
+    assert json.loads(result.stdout) == json.loads(schema_text(kind))
 
 
 def test_the_kinds_are_listed(rcyaml: Run) -> None:
@@ -52,9 +52,9 @@ def test_a_document_without_a_modeline_is_found_by_the_settings(rcyaml: Run, tmp
 
 def test_a_document_outside_any_workspace_has_no_schema(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {"idsl.yaml": "module: X\n"})
-    said = rcyaml("schema", "idsl.yaml").stdout
-    assert "editors do not find it" in said
-    assert said.endswith("# yaml-language-server: $schema=.rcyaml/schemas/idsl.schema.json\n")
+    result = rcyaml("schema", "idsl.yaml").stdout
+    assert "editors do not find it" in result
+    assert result.endswith("# yaml-language-server: $schema=.rcyaml/schemas/idsl.schema.json\n")
 
 
 @pytest.mark.parametrize(("content", "reason"), [(None, "is missing"), ("{}", "the file of the schema is outdated")])
@@ -76,6 +76,6 @@ def test_a_stale_schema_is_reported(rcyaml: Run, tmp_path: Path, content: str | 
     ],
 )
 def test_other_arguments_are_rejected(rcyaml: Run, argument: str, reason: str) -> None:
-    said = rcyaml("schema", argument)
-    assert said.exit_code == 2
-    assert reason in said.stderr
+    result = rcyaml("schema", argument)
+    assert result.exit_code == 2
+    assert reason in result.stderr

@@ -216,8 +216,8 @@ def test_wrong_defaults_do_not_show_it(robot: Path, rcyaml: Callable[..., Any], 
 
 def test_programs_get_the_values(robot: Path, rcyaml: Callable[..., Any]) -> None:
     for form in ("ice", "toml"):
-        told = rcyaml("config", "export", CONFIG, "--as", form).output
-        assert "canaryWifi" in told and "canaryUrl" in told and "4711471" in told
+        printed = rcyaml("config", "export", CONFIG, "--as", form).output
+        assert "canaryWifi" in printed and "canaryUrl" in printed and "4711471" in printed
     assert "canaryWifi" in rcyaml("config", "show", CONFIG, "--reveal").output
     assert rcyaml("config", "get", CONFIG, "wifi", "--reveal").output == "canaryWifi\n"
     assert "canarySet" in rcyaml("deploy", "export", "robot.ddsl.yaml", "--as", "systemd").output
@@ -264,12 +264,12 @@ def test_a_configuration_that_is_no_document(robot: Path, rcyaml: Callable[..., 
     (robot / "robot.ddsl.yaml").write_text(
         "deployment: Robot\ncomponents:\n  speech{i}: {component: speech, instances: 2, config: flat.conf}\n"
     )
-    told = rcyaml("check", "robot.ddsl.yaml").output
-    assert told.count("RC4311") == (1 if line else 0), told
-    assert not sings(told)
+    printed = rcyaml("check", "robot.ddsl.yaml").output
+    assert printed.count("RC4311") == (1 if line else 0), printed
+    assert not sings(printed)
     if line:
-        assert f"speech/flat.conf holds a secret in line {line}, and others can read it" in told
-        assert "robot.ddsl.yaml:3:56" in told and "`chmod 600 speech/flat.conf`" in told
+        assert f"speech/flat.conf holds a secret in line {line}, and others can read it" in printed
+        assert "robot.ddsl.yaml:3:56" in printed and "`chmod 600 speech/flat.conf`" in printed
     (robot / "speech/flat.conf").chmod(0o600)
     assert "RC4311" not in rcyaml("check", "robot.ddsl.yaml").output
 
@@ -279,35 +279,35 @@ def test_keys_of_the_user_do_not_show_it(robot: Path, rcyaml: Callable[..., Any]
     (robot / "robot.ddsl.yaml").write_text(f"deployment: Robot\ncomponents:\n  a: {entry}\n")
     (robot / "speech/speech.cdsl.yaml").write_text("{component: S, languag: python, x-a: {password: canaryD}}\n")
     for form in ("text", "json", "sarif"):
-        told = rcyaml("check", "--format", form).output
-        assert "prot" in told and "languag" in told
-        assert not sings(told)
+        printed = rcyaml("check", "--format", form).output
+        assert "prot" in printed and "languag" in printed
+        assert not sings(printed)
 
 
 def on_a_terminal(*words: str) -> str:
     ours, theirs = pty.openpty()
     with subprocess.Popen([sys.executable, "-m", "robocomp_yaml", *words], stdout=theirs, stderr=theirs) as running:
         os.close(theirs)
-        told = b""
+        printed = b""
         while True:
             try:
                 part = os.read(ours, 1 << 16)
             except OSError:
                 break
-            told += part
+            printed += part
         assert running.wait() == 0
     os.close(ours)
-    return told.decode()
+    return printed.decode()
 
 
 def test_other_values_are_shown(robot: Path, rcyaml: Callable[..., Any]) -> None:
     """A message that hides too much hides the error."""
     (robot / CONFIG).write_text("component: ../speech.cdsl.yaml\nparameters: {wifi: canary, nam: 3, name: 7}\n")
-    told = rcyaml("check", CONFIG).output
+    printed = rcyaml("check", CONFIG).output
     assert "2 │ parameters: {wifi: ***, nam: 3, name: 7}\n  │                         ^^^ 'name' is there already" in (
-        told
+        printed
     )
-    assert "name must be text, and is 7" in told
+    assert "name must be text, and is 7" in printed
 
 
 def test_generated_documents_and_schemas_have_none(robot: Path, rcyaml: Callable[..., Any]) -> None:
@@ -376,7 +376,7 @@ def test_the_warning_disappears_with_its_cause(robot: Path, rcyaml: Callable[...
     assert "RC4310" not in rcyaml("check").output
     (robot / CONFIG).chmod(OPEN)
     assert rcyaml("compile", "speech").output.count("RC3311") > 5
-    assert rcyaml("compile", "speech").output.count("RC3311") > 5, "told again, though nothing is to be done"
+    assert rcyaml("compile", "speech").output.count("RC3311") > 5, "reported again, although nothing is to be written"
 
 
 @pytest.mark.usefixtures("umask")
@@ -384,8 +384,8 @@ def test_config_set_keeps_a_file_private(robot: Path, rcyaml: Callable[..., Any]
     (robot / CONFIG).chmod(0o600)
     assert rcyaml("config", "set", CONFIG, "wifi", "canaryNew").output == "wifi = *** (was ***)\n"
     assert mode(robot / CONFIG) == 0o600
-    told = rcyaml("config", "set", CONFIG, "wifi", "{file: secrets/wifi}").output
-    assert told == "wifi = {file: secrets/wifi} (was ***)\n"
+    printed = rcyaml("config", "set", CONFIG, "wifi", "{file: secrets/wifi}").output
+    assert printed == "wifi = {file: secrets/wifi} (was ***)\n"
 
 
 @pytest.mark.usefixtures("umask")
@@ -394,8 +394,8 @@ def test_documents_migrated_from_a_private_file_are_private(robot: Path, rcyaml:
     (robot / "old/old.cdsl").write_text("Component Old\n{\n\tlanguage Cpp11;\n};\n")
     (robot / "old/etc/config").write_text("mail.password=canaryOld\nEndpoints.X=tcp -p 1\n")
     (robot / "old/etc/config").chmod(0o600)
-    told = rcyaml("migrate", "old", "--diff")
-    assert not sings(told.output)
+    printed = rcyaml("migrate", "old", "--diff")
+    assert not sings(printed.output)
     made = [path for path in (robot / "old").rglob("*.yaml") if "canary" in path.read_text()]
     assert made and not [path for path in made if mode(path) & 0o077]
 

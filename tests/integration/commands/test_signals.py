@@ -49,8 +49,8 @@ def stopped(folder: Path, at: str, number: int, *args: str) -> tuple[int, bytes]
     try:
         assert os.read(here, 4) == b"here", process.communicate(timeout=30)
         process.send_signal(number)
-        said, _ = process.communicate(timeout=30)
-        return process.returncode, said
+        output, _ = process.communicate(timeout=30)
+        return process.returncode, output
     finally:
         os.close(here)
         if process.poll() is None:
@@ -83,15 +83,15 @@ MOMENTS = [
 @pytest.mark.parametrize(("at", "args"), MOMENTS, ids=[f"{at} {args[0]}" for at, args in MOMENTS])
 def test_ctrl_c_at_any_moment(at: str, args: tuple[str, ...], place: Path) -> None:
     before = read_tree(place)
-    code, said = stopped(place, at, signal.SIGINT, *args)
-    assert (code, said.strip()) == (130, b"")
+    code, output = stopped(place, at, signal.SIGINT, *args)
+    assert (code, output.strip()) == (130, b"")
     assert read_tree(place) == before
 
 
 @pytest.mark.parametrize(("at", "args"), [MOMENTS[1], MOMENTS[5], MOMENTS[10]])
 def test_sigterm_at_any_moment(at: str, args: tuple[str, ...], place: Path) -> None:
-    code, said = stopped(place, at, signal.SIGTERM, *args)
-    assert (code, b"Traceback" in said) == (143, False)
+    code, output = stopped(place, at, signal.SIGTERM, *args)
+    assert (code, b"Traceback" in output) == (143, False)
 
 
 WRITING = [
@@ -111,8 +111,8 @@ WRITING = [
 def test_no_incomplete_file_is_left(at: str, args: tuple[str, ...], number: int, place: Path) -> None:
     (place / "deployments").mkdir()
     before = read_tree(place)
-    code, said = stopped(place, at, number, *args)
-    assert code == 128 + number and b"Traceback" not in said
+    code, output = stopped(place, at, number, *args)
+    assert code == 128 + number and b"Traceback" not in output
     assert read_tree(place) == before
 
 
@@ -124,8 +124,8 @@ def test_ctrl_c_ends_a_question(tmp_path: Path) -> None:
         if seen.endswith(b"[stop]: "):
             process.send_signal(signal.SIGINT)
 
-    code, said = on_terminal(tmp_path, "deploy", "up", act=act)
-    assert code == 130 and "`rcyaml deploy down robot.ddsl.yaml` stops them" in said and "Traceback" not in said
+    code, output = on_terminal(tmp_path, "deploy", "up", act=act)
+    assert code == 130 and "`rcyaml deploy down robot.ddsl.yaml` stops them" in output and "Traceback" not in output
     subprocess.run([*COMMAND, "deploy", "down"], cwd=tmp_path, env=environment(), check=True)
 
 

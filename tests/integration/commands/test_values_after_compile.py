@@ -96,8 +96,8 @@ def test_a_first_document_copies_the_edits_of_the_user(rcyaml: Run, tmp_path: Pa
     for line in ("  volume: 8\n", "    host: there\n", 'Trace.Slicing: "1"\n', '  Mine.Own: "7 # of"\n'):
         assert line in text
     assert "speed" not in text
-    told = rcyaml("compile")
-    assert told.exit_code == 0, told.output  # nothing of the user's would be lost
+    result = rcyaml("compile")
+    assert result.exit_code == 0, result.output  # nothing of the user's would be lost
     assert (tmp_path / "speech/etc/config.orig").read_text() == mine
     now = config.read_text()
     assert _proxy(tmp_path) == "10100"
@@ -113,10 +113,10 @@ def test_an_edit_that_would_be_lost_is_reported(rcyaml: Run, tmp_path: Path) -> 
     config = tmp_path / "speech/etc/config"
     config.write_text(config.read_text().replace("period.compute=100", "period.compute=20"))
     write_tree(tmp_path, {"speech/etc/config.yaml": VALUES})
-    told = rcyaml("compile")
-    assert told.exit_code == 1
-    assert "RC6010" in told.stdout
-    assert "bring period.compute into speech/etc/config.yaml" in told.stdout
+    result = rcyaml("compile")
+    assert result.exit_code == 1
+    assert "RC6010" in result.stdout
+    assert "bring period.compute into speech/etc/config.yaml" in result.stdout
     assert rcyaml("config", "set", "speech", "period.compute", "20").exit_code == 0
     assert rcyaml("compile").exit_code == 0
     assert "period.compute=20\n" in config.read_text()

@@ -23,25 +23,25 @@ SAID = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("said", [[], *([each] for each in SAID)])
-def test_new_accepts_all_forms(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
+@pytest.mark.parametrize("arguments", [[], *([each] for each in SAID)])
+def test_new_accepts_all_forms(rcyaml: Run, tmp_path: Path, arguments: list[str]) -> None:
     write_tree(tmp_path, TREE)
-    result = rcyaml("config", "new", *said)
+    result = rcyaml("config", "new", *arguments)
     assert result.exit_code == 0, result.output
     assert (tmp_path / ARM).is_file()
-    assert rcyaml("config", "new", *said).exit_code == 2
+    assert rcyaml("config", "new", *arguments).exit_code == 2
 
 
-@pytest.mark.parametrize("said", [[], *([each] for each in SAID), [ARM]])
-def test_the_other_commands_accept_all_forms(rcyaml: Run, tmp_path: Path, said: list[str]) -> None:
+@pytest.mark.parametrize("arguments", [[], *([each] for each in SAID), [ARM]])
+def test_the_other_commands_accept_all_forms(rcyaml: Run, tmp_path: Path, arguments: list[str]) -> None:
     write_tree(tmp_path, {**TREE, ARM: "component: ../arm.cdsl.yaml\nparameters: {force: 3}\n"})
-    assert rcyaml("config", "check", *said).exit_code == 0
-    assert "force = 3" in rcyaml("config", "show", *said).stdout
-    assert "force=3" in rcyaml("config", "export", *said).stdout
-    assert rcyaml("config", "get", *said, "force").stdout == "3\n"
-    assert rcyaml("config", "set", *said, "force", "4", "--format", "json").exit_code == 0
-    assert rcyaml("config", "get", "-I", ".", *said, "--format", "json", "force").exit_code == 0
-    assert rcyaml("config", "set", *said, "force", "-4").exit_code == 0
+    assert rcyaml("config", "check", *arguments).exit_code == 0
+    assert "force = 3" in rcyaml("config", "show", *arguments).stdout
+    assert "force=3" in rcyaml("config", "export", *arguments).stdout
+    assert rcyaml("config", "get", *arguments, "force").stdout == "3\n"
+    assert rcyaml("config", "set", *arguments, "force", "4", "--format", "json").exit_code == 0
+    assert rcyaml("config", "get", "-I", ".", *arguments, "--format", "json", "force").exit_code == 0
+    assert rcyaml("config", "set", *arguments, "force", "-4").exit_code == 0
     assert "force: -4" in (tmp_path / ARM).read_text()
 
 

@@ -13,7 +13,7 @@ CODE = "#include <x.h>\nint main() {\n\treturn opne(1);\n}\n"
 
 
 @pytest.fixture
-def said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def parse(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "arm").mkdir()
     (tmp_path / "arm" / "arm.cpp").write_text(CODE, encoding="utf-8")
@@ -28,9 +28,9 @@ def places(found: list[Diagnostic]) -> list[tuple[object, ...]]:
     return [(one.code, one.span.file, one.span.line, one.span.column, one.span.end_column) for one in found]
 
 
-def test_gcc(said) -> None:
+def test_gcc(parse) -> None:
     """Columns are those of a terminal, with tabs of eight; the marks give the length."""
-    found = said(
+    found = parse(
         "In file included from ../arm/arm.cpp:1:\n"
         "../arm/arm.cpp: In function ‘int main()’:\n"
         "../arm/arm.cpp:3:16: error: ‘opne’ was not declared in this scope; did you mean ‘open’?\n"
@@ -47,19 +47,19 @@ def test_gcc(said) -> None:
     assert [(one.message, one.span.line) for one in found[0].related] == [("in here", 2)]
 
 
-def test_a_missing_header_and_a_repeated_error(said) -> None:
+def test_a_missing_header_and_a_repeated_error(parse) -> None:
     line = "../arm/arm.cpp:1:10: fatal error: x.h: No such file or directory\n"
-    assert places(said(line + "compilation terminated.\n" + line)) == [("RC8001", "arm/arm.cpp", 1, 10, 11)]
+    assert places(parse(line + "compilation terminated.\n" + line)) == [("RC8001", "arm/arm.cpp", 1, 10, 11)]
 
 
-def test_javac(said) -> None:
+def test_javac(parse) -> None:
     """javac prints no column; the mark below the line shows it."""
-    found = said("arm/arm.cpp:2: error: cannot find symbol\nint main() {\n    ^\n  symbol: class main\n1 error\n")
+    found = parse("arm/arm.cpp:2: error: cannot find symbol\nint main() {\n    ^\n  symbol: class main\n1 error\n")
     assert [(one.span.line, one.span.column) for one in found] == [(2, 5)]
 
 
-def test_the_slice_compiler_and_the_linker(said) -> None:
-    slice_, link = said("../arm/Arm.ice:4: `Pose' is not defined\narm.cpp:3: undefined reference to `f()'\n")
+def test_the_slice_compiler_and_the_linker(parse) -> None:
+    slice_, link = parse("../arm/Arm.ice:4: `Pose' is not defined\narm.cpp:3: undefined reference to `f()'\n")
     assert slice_.message == "the Slice compiler rejects this: `Pose' is not defined"
     assert link.message == "the linker rejects this: undefined reference to `f()'"
 
@@ -74,9 +74,9 @@ def test_the_slice_compiler_and_the_linker(said) -> None:
         "a: b: c",
     ],
 )
-def test_lines_without_a_location(said, text: str) -> None:
-    assert said(text) == []
+def test_lines_without_a_location(parse, text: str) -> None:
+    assert parse(text) == []
 
 
-def test_a_file_outside_has_an_absolute_path(said) -> None:
-    assert said("/usr/include/c++/12/vector:1:1: error: x")[0].span.file == "/usr/include/c++/12/vector"
+def test_a_file_outside_has_an_absolute_path(parse) -> None:
+    assert parse("/usr/include/c++/12/vector:1:1: error: x")[0].span.file == "/usr/include/c++/12/vector"
