@@ -38,6 +38,7 @@ class CheckedDocuments(msgspec.Struct):
         return Counter(_key(diagnostic) for diagnostic in self.diagnostics if diagnostic.severity == ERROR)
 
 
+Batch = list[tuple[Diagnostic, Fix]]
 CheckWith = Callable[[Mapping[str, bytes]], CheckedDocuments]
 
 
@@ -135,10 +136,7 @@ class _FixRounds:
             if (fix.safe or self.unsafe) and fix.is_spelled and (_key(diagnostic), fix) not in self.rejected
             and all(edit.span.file in self.may_change for edit in fix.edits)
         ]  # fmt: skip
-        best = {
-            (diagnostic.span, diagnostic.code, diagnostic.facts): (diagnostic, fix)
-            for diagnostic, fix in reversed(found)
-        }
+        best = {(one.span, one.code, one.facts): (one, fix) for one, fix in reversed(found)}
         yield from sorted(best.values(), key=lambda one: (not one[1].safe, *one[0].sort_key))
 
 
@@ -188,9 +186,7 @@ def _key(diagnostic: Diagnostic) -> Key:
     return (diagnostic.span.file, diagnostic.code, tuple(fact for fact in diagnostic.facts if fact[0] != "meant"))
 
 
-def _verdict(
-    before: CheckedDocuments, after: CheckedDocuments, batch: list[tuple[Diagnostic, Fix]]
-) -> tuple[str, bool]:
+def _verdict(before: CheckedDocuments, after: CheckedDocuments, batch: Batch) -> tuple[str, bool]:
     """The reason not to apply these fixes, or ''; and whether a fix is uncertain: its new errors may still be fixed."""
     files = {edit.span.file for _, fix in batch for edit in fix.edits}
     steps = [after.levels.get(file, UNDERSTOOD) - before.levels.get(file, UNDERSTOOD) for file in files]

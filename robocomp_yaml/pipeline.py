@@ -70,10 +70,8 @@ class Analysis(msgspec.Struct, frozen=True):
         more, read = self.without_suppressed(diagnostics), self.linker.documents.read
         requested = [read[real].path for real in self.program.asked if real in read]
         files = {*requested, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
-        unused = self.without_suppressed(
-            self.allowed.in_vain(sorted(files), self.used | more.used, environment=environment)
-        )
-        return in_order([*self.diagnostics, *self.for_users((*more.told, *unused.told))])
+        unused = self.allowed.in_vain(sorted(files), self.used | more.used, environment=environment)
+        return in_order([*self.diagnostics, *self.for_users((*more.told, *self.without_suppressed(unused).told))])
 
     def without_suppressed(self, diagnostics: Iterable[Diagnostic]) -> Judged:
         """The diagnostics that no comment suppresses."""

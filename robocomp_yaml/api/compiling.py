@@ -72,9 +72,8 @@ class Compilation:
         own = review(self._built.plans, merge=self._merge)
         changes = self._prepare(own, self._other_roots())
         diagnostics = in_order([*self._lasting(own), *changes.diagnostics])
-        return replace(
-            _outcome_of(self._analysis, self._built, changes, diagnostics, with_diff=with_diff), planned=True
-        )
+        outcome = _outcome_of(self._analysis, self._built, changes, diagnostics, with_diff=with_diff)
+        return replace(outcome, planned=True)
 
     def apply(self) -> Outcome:
         """Writes all files or none, and returns what was done. If a file cannot be written, a diagnostic reports it,
@@ -171,25 +170,13 @@ def _outcome_of(
     analysis: Analysis, built: Build, changes: Changes, diagnostics: list[Diagnostic], *, with_diff: bool
 ) -> Outcome:
     hidden = analysis.hidden() if with_diff else Hidden()
-    files = (
-        File(
-            root.root,
-            change.path,
-            change.action,
-            change.orig,
-            hidden.without(change.diff(properties=is_settings(change.path))) if with_diff else "",
-        )
-        for root in changes.roots
-        for change in root.changes
-    )
-    by_path = {file.path: file for file in files}  # nested roots may both have a file
+    by_path: dict[str, File] = {}  # nested roots may both have a file
+    for root in changes.roots:
+        for change in root.changes:
+            diff = hidden.without(change.diff(properties=is_settings(change.path))) if with_diff else ""
+            by_path[change.path] = File(root.root, change.path, change.action, change.orig, diff)
     program, read = analysis.program, analysis.linker.documents.read
     faulty = {os.path.realpath(one.span.file) for one in diagnostics if one.severity == ERROR}
     left_out = {read[real].path: real in faulty for real in built.left_out & program.asked}
-    return Outcome(
-        tuple(diagnostics),
-        tuple(by_path.values()),
-        program.documents,
-        len(program.asked),
-        dict(sorted(left_out.items())),
-    )
+    files, skipped = tuple(by_path.values()), dict(sorted(left_out.items()))
+    return Outcome(tuple(diagnostics), files, program.documents, len(program.asked), skipped)

@@ -113,10 +113,9 @@ class Fixing:
             for document in analysis.linker.documents.read.values()
         }
         # Which comments suppress nothing is known only after a complete check.
-        diagnostics = (
-            workspace.check(environment=self._environment) if analysis.allowed.by_file else analysis.diagnostics
-        )
-        return CheckedDocuments(list(diagnostics), analysis.disk.contents, levels)
+        is_complete = bool(analysis.allowed.by_file)
+        found = workspace.check(environment=self._environment) if is_complete else analysis.diagnostics
+        return CheckedDocuments(list(found), analysis.disk.contents, levels)
 
 
 def _requested(analysis: Analysis) -> set[str]:

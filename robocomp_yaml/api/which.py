@@ -27,11 +27,8 @@ def component(argument: str) -> str:
     if kind_of(argument) in ("cdsl", "pdsl") and os.path.isfile(argument):
         return argument
     if os.path.lexists(argument) or os.path.basename(argument) != argument or argument.endswith((".yaml", ".yml")):
-        raise Refused(
-            f"'{argument}' is no document of a component"
-            if os.path.lexists(argument)
-            else f"'{argument}' does not exist"
-        )
+        problem = "is no document of a component" if os.path.lexists(argument) else "does not exist"
+        raise Refused(f"'{argument}' {problem}")
     return _named(argument)
 
 
@@ -109,6 +106,7 @@ def deployment(path: str, include: tuple[str, ...]) -> str:
 
 
 def only_deployment(found: list[str]) -> str:
+    """The only one of these deployments. Raises Refused if there are more."""
     if len(found) > 1:
         names = ", ".join(sorted(found))
         raise Refused(f"there are several deployments: {names}; name one of them")

@@ -116,9 +116,8 @@ class Workspace:
         from robocomp_yaml.emit.graphs.forms import draw, forms
 
         path = path or self._paths[0]
-        inside = (
-            os.path.join(path, "") if os.path.isdir(path) else path
-        )  # the path of a document in it, whose workspace decides
+        # The plug-ins are those of the workspace that contains the document, or the documents of the folder.
+        inside = os.path.join(path, "") if os.path.isdir(path) else path
         plugins = self.analysis.linker.workspace_of(inside).plugins
         if form not in forms(plugins):
             raise Refused(f"unknown picture '{form}'; choose one of {', '.join(forms(plugins))}")
@@ -140,9 +139,8 @@ class Workspace:
             return of_network.picture_of(network, self.analysis.diagnostics) if network is not None else None
         readable = [one for one in deployments_of(path, analysis=self.analysis) if os.path.realpath(one) in networks]
         if readable:
-            return of_network.picture_of(
-                networks[os.path.realpath(only_deployment(readable))], self.analysis.diagnostics
-            )
+            network = networks[os.path.realpath(only_deployment(readable))]
+            return of_network.picture_of(network, self.analysis.diagnostics)
         if program.deployments or not program.components:
             return None
         return of_components.picture_of(os.path.basename(os.path.abspath(path)), program.components.values())

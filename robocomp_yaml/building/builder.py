@@ -39,7 +39,7 @@ def build(job: Job, units: Sequence[Unit]) -> list[BuildResult]:
     try:
         for language in dict.fromkeys(unit.language for unit in stale):
             group = [unit for unit in stale if unit.language is language]
-            for unit, built in _build_language(job, language, group, inputs).items():
+            for unit, built in _group(job, language, group, inputs).items():
                 done[unit] = _result(unit, BUILT if built.is_built else FAILED, built.cpu)
                 job.report(done[unit])
     finally:
@@ -71,9 +71,7 @@ def _not_compiled(job: Job, unit: Unit) -> None:
     job.add([codes.NOT_COMPILED.at(Span(unit.document), name=unit.name, folder=unit.path(missing), hint=hint)])
 
 
-def _build_language(
-    job: Job, language: TargetLanguage, units: list[Unit], inputs: Inputs
-) -> Mapping[Unit, ComponentBuild]:
+def _group(job: Job, language: TargetLanguage, units: list[Unit], inputs: Inputs) -> Mapping[Unit, ComponentBuild]:
     """Builds the components of a language, and writes the stamps of those that succeed."""
     begun = {unit: stamps.take(unit, inputs, job.type) for unit in units}
     began = time.time_ns()

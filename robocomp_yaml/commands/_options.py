@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any, NoReturn
 
@@ -23,12 +23,13 @@ include = click.option(
     "-I", "--include", multiple=True, metavar="DIR", type=click.Path(exists=True, file_okay=False),
     help="Also search DIR for imports; may be repeated.",
 )  # fmt: skip
-format_ = click.option(
-    "--format", "format_", type=click.Choice(FORMATS), default="text", help="The format of the diagnostics."
-)
-text_or_json = click.option(
-    "--format", "format_", type=click.Choice(["text", "json"]), default="text", help="The format of the output."
-)
+
+
+def _format(choices: Sequence[str]) -> Callable[[Any], Any]:
+    return click.option("--format", "format_", type=click.Choice(choices), default="text", help="The output format.")
+
+
+format_, text_or_json = _format(FORMATS), _format(["text", "json"])
 
 
 class FailOn(msgspec.Struct, frozen=True):

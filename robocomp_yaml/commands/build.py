@@ -27,11 +27,9 @@ _COLORS = {BUILT: "32", FAILED: "31", CURRENT: "2"}
 @click.command(cls=LibraryCommand, short_help="Build the components that are not up to date.")
 @click.argument("components", nargs=-1, metavar="[COMPONENT]...")
 @click.option(
-    "--type", "type_", type=click.Choice(TYPES, case_sensitive=False), help="The build type of C++; by default Release."
+    "--type", "type_", type=click.Choice(TYPES, case_sensitive=False), help="The build type; default: Release."
 )
-@click.option(
-    "-j", "--jobs", type=click.IntRange(min=1), help="The number of parallel steps; by default that of processors."
-)
+@click.option("-j", "--jobs", type=click.IntRange(min=1), help="The number of parallel steps; by default one per CPU.")
 @click.option("-D", "defines", multiple=True, metavar="NAME=VALUE", help="A variable for CMake; may be repeated.")
 @click.option("--clean", is_flag=True, help="Remove the build trees, and build nothing.")
 @_options.include

@@ -74,9 +74,8 @@ def _fix(ctx: click.Context, fixing: Fixing, format_: str, fail_on: _options.Fai
 
 def _not_applied(fixing: Fixing) -> Iterator[str]:
     files = fixing.refused
-    yield from (
-        f"left   {_described(one)}: {one.reason}" for one in fixing.left if one.diagnostic.span.file not in files
-    )
+    left = [one for one in fixing.left if one.diagnostic.span.file not in files]
+    yield from (f"left   {_described(one)}: {one.reason}" for one in left)
     yield from (f"left   {one.path}: {one.reason}" for one in fixing.written if one.reason)
 
 

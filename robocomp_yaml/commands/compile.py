@@ -40,7 +40,7 @@ def _targets(plugins: Plugins) -> list[str]:
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write below DIR.")
 @click.option("--standalone", is_flag=True, help="Put all that a component needs into its own folder.")
 @click.option(
-    "--target", "targets", multiple=True, type=PluginChoice(_targets), help="Write only this target; may be repeated."
+    "--target", "targets", multiple=True, type=PluginChoice(_targets), help="Write only this; may be repeated."
 )
 @click.option("--dry-run", is_flag=True, help="Print what would be written; write nothing.")
 @click.option("--diff", is_flag=True, help="Show what would change in each file; write nothing.")

@@ -145,14 +145,7 @@ def status(session: Session, names: tuple[str, ...]) -> None:
 
 @_subcommand("Print the logs of the processes, merged.", _names, _engine, lenient=True)
 @click.option("-f", "--follow", is_flag=True, help="Also print new lines, until Ctrl-C.")
-@click.option(
-    "-n",
-    "--lines",
-    "last",
-    type=click.IntRange(min=0),
-    default=20,
-    help="The number of last lines of each; by default 20.",
-)
+@click.option("-n", "--lines", "last", type=click.IntRange(min=0), default=20, help="Last lines of each; default: 20.")
 @click.option("-t", "--times", is_flag=True, help="Print the time of each line.")
 def logs(session: Session, names: tuple[str, ...], last: int, follow: bool, times: bool) -> None:
     """Print the last lines of the logs of the processes, in the order in which they were written."""
@@ -190,13 +183,7 @@ def probe(session: Session, host: tuple[str, ...]) -> None:
     click.argument("nothing", cls=_DocumentAnd, limit=0, expose_value=False),
 )
 @click.option("--as", "form", required=True, type=PluginChoice(_exports), help="The tool.")
-@click.option(
-    "-o",
-    "--output",
-    metavar="DIR",
-    type=click.Path(file_okay=False),
-    help="Write the files below DIR, not to standard output.",
-)
+@click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write the files below DIR.")
 def export(session: Session, form: str, output: str | None) -> None:
     """Print the files with which IceGrid, RCManager, systemd or docker compose run the network, or those of a plug-in
     of the workspace; or write them."""

@@ -17,9 +17,7 @@ from robocomp_yaml.transactions import whole_file
 @click.command(cls=LibraryCommand, short_help="Draw a deployment, or the components of a folder.")
 @click.argument("path", metavar="[DDSL]", default=".", type=click.Path(exists=True))
 @click.option("--as", "form", type=PluginChoice(forms), default="text", show_default=True, help="The format.")
-@click.option(
-    "-o", "--output", metavar="FILE", type=click.Path(dir_okay=False), help="Write to FILE, not to standard output."
-)
+@click.option("-o", "--output", metavar="FILE", type=click.Path(dir_okay=False), help="Write to FILE.")
 @_options.include
 @_options.format_
 @click.pass_context

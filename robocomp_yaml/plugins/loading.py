@@ -39,18 +39,16 @@ def resolve(named: Iterable[tuple[str, Span]]) -> tuple[Plugins, list[Diagnostic
             continue
         entries = _entries(distribution)
         if not entries:
-            diagnostics.append(
-                codes.NOT_A_PLUGIN.at(span, name=name, hint=_did_you_mean(name) or "remove it from `plugins:`")
-            )
+            hint = _did_you_mean(name) or "remove it from `plugins:`"
+            diagnostics.append(codes.NOT_A_PLUGIN.at(span, name=name, hint=hint))
             continue
         plugin = Plugin(normalized(name), span, {})
         for entry in entries:
             diagnostics += _load_entry(plugin, entry, active)
         active.append(plugin)
     are_broken = any(one.code in (codes.PLUGIN_BROKEN.id, codes.PLUGIN_CLASH.id) for one in diagnostics)
-    return Plugins(
-        tuple(active), tuple(normalized(name) for name, _ in names), not diagnostics, are_broken
-    ), diagnostics
+    plugins = Plugins(tuple(active), tuple(normalized(name) for name, _ in names), not diagnostics, are_broken)
+    return plugins, diagnostics
 
 
 def load(names: Iterable[str]) -> None:

@@ -82,9 +82,8 @@ def parameters_document(root: str, name: str) -> NewDocument:
     component = _component(root, name) or os.path.join(root, "components", name.lower(), f"{name.lower()}.cdsl.yaml")
     path = free(component.removesuffix("cdsl.yaml") + "pdsl.yaml")
     shown = os.path.basename(component) if os.path.isfile(component) else name
-    return NewDocument(
-        path, render("new/parameters.pdsl.yaml.j2", NewParametersView(modeline("pdsl", path, root), shown))
-    )
+    view = NewParametersView(modeline("pdsl", path, root), shown)
+    return NewDocument(path, render("new/parameters.pdsl.yaml.j2", view))
 
 
 def require_name(name: str) -> None:
