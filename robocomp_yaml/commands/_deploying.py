@@ -34,7 +34,7 @@ Names = tuple[str, ...]
 
 def open_session(
     ctx: click.Context, ddsl: str, include: tuple[str, ...], format_: str, engine: str | None, *, lenient: bool
-) -> Session:  # fmt: skip
+) -> DeploySession:  # fmt: skip
     """Reads the document with all that it refers to, and opens its deployment. Ends the command if the document has
     errors. `lenient` accepts errors that leave the network readable; if they do not, the network is that of the running
     processes, so that these can always be stopped."""
@@ -45,10 +45,10 @@ def open_session(
         _options.report(ctx, format_, faulty.diagnostics, faulty.documents)
     if deployment.unread:
         terminal.say(f"{path} cannot be read (see `rcyaml check`): the running processes are used instead", err=True)
-    return Session(ctx, deployment, format_)
+    return DeploySession(ctx, deployment, format_)
 
 
-class Session(msgspec.Struct):
+class DeploySession(msgspec.Struct):
     """A deployment, as a command uses it. `shown` are the diagnostics that are printed already; `ended_by` is the exit
     code if the user ended an attached deployment. All methods but `build` end the command."""
 

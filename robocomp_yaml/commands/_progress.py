@@ -18,7 +18,7 @@ _COLORS = {READY: "32", GONE: "32", FAILED: "31", SKIPPED: "33"}
 _SHORT = 0.05  # seconds: shorter durations are not shown
 
 
-class Live:
+class LiveLines:
     """Lines at the end of a terminal, which the next lines replace. A context manager; `pause` removes the lines until
     the next `draw`."""
 
@@ -47,7 +47,7 @@ class Live:
             self.drawn = len(lines)
 
 
-class Progress(Live):
+class Progress(LiveLines):
     """The progress of a deployment; `report` gets the events of a call."""
 
     def __init__(self, shown: bool, color: bool, names: Collection[str]) -> None:

@@ -13,7 +13,7 @@ from robocomp_yaml.api import building
 from robocomp_yaml.building.job import BUILT, CURRENT, FAILED, RELEASE, TYPES, BuildEvent, BuildResult, BuildStep
 from robocomp_yaml.commands import _options, _signals
 from robocomp_yaml.commands._command import LibraryCommand
-from robocomp_yaml.commands._progress import Live
+from robocomp_yaml.commands._progress import LiveLines
 from robocomp_yaml.diag import terminal
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.render import text
@@ -81,7 +81,7 @@ def _summary(built: building.Built) -> str:
     return f"{total} component{'' if total == 1 else 's'}: {states}" if total else "no components"
 
 
-class _View(Live):
+class _View(LiveLines):
     """On a terminal, the current step; a line for each component that is built or fails; and the diagnostics, as soon
     as they are reported."""
 

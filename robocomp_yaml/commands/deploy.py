@@ -16,7 +16,7 @@ from robocomp_yaml.deploy.engines import ENGINES
 from robocomp_yaml.source.discover import of_kind
 
 if TYPE_CHECKING:
-    from robocomp_yaml.commands._deploying import Session
+    from robocomp_yaml.commands._deploying import DeploySession
     from robocomp_yaml.plugins import Plugins
 
 
@@ -115,7 +115,7 @@ def _subcommand(
 
 
 @_subcommand("Print what up would do, and why.", _names, _engine)
-def plan(session: Session, names: tuple[str, ...]) -> None:
+def plan(session: DeploySession, names: tuple[str, ...]) -> None:
     """Print what `up` would start, stop, restart and change, field by field, compared to what is running. Nothing is
     changed."""
     session.plan(names)
@@ -127,7 +127,7 @@ def plan(session: Session, names: tuple[str, ...]) -> None:
 @click.option("--build", is_flag=True, help="First build the components that are not up to date.")
 @click.option("--attach", is_flag=True, help="Print the logs until Ctrl-C, then stop the processes.")
 def up(
-    session: Session, names: tuple[str, ...], on_failure: str, timeout: float | None, build: bool, attach: bool
+    session: DeploySession, names: tuple[str, ...], on_failure: str, timeout: float | None, build: bool, attach: bool
 ) -> None:
     """Start the network: start each process when all that it depends on is ready, restart what changed, stop what is no
     longer in the network. NAMEs limit it to some processes, with all that they depend on."""
@@ -137,7 +137,7 @@ def up(
 
 
 @_subcommand("Show the state of the processes.", _names, _engine, lenient=True)
-def status(session: Session, names: tuple[str, ...]) -> None:
+def status(session: DeploySession, names: tuple[str, ...]) -> None:
     """Show each process: its state, whether it is ready, its host, its uptime, and what it serves. The exit code is 1
     if a process that should run is not running."""
     session.status(names)
@@ -147,7 +147,7 @@ def status(session: Session, names: tuple[str, ...]) -> None:
 @click.option("-f", "--follow", is_flag=True, help="Also print new lines, until Ctrl-C.")
 @click.option("-n", "--lines", "last", type=click.IntRange(min=0), default=20, help="Last lines of each; default: 20.")
 @click.option("-t", "--times", is_flag=True, help="Print the time of each line.")
-def logs(session: Session, names: tuple[str, ...], last: int, follow: bool, times: bool) -> None:
+def logs(session: DeploySession, names: tuple[str, ...], last: int, follow: bool, times: bool) -> None:
     """Print the last lines of the logs of the processes, in the order in which they were written."""
     session.logs(names, last, follow=follow, times=times)
 
@@ -155,13 +155,13 @@ def logs(session: Session, names: tuple[str, ...], last: int, follow: bool, time
 @_subcommand("Stop processes, and start them again.", _names, _engine)
 @_on_failure("What happens to the restarted processes if one fails.")
 @_timeout
-def restart(session: Session, names: tuple[str, ...], on_failure: str, timeout: float | None) -> None:
+def restart(session: DeploySession, names: tuple[str, ...], on_failure: str, timeout: float | None) -> None:
     """Restart the processes NAME (by default, all), as the document describes them now."""
     session.up(names, on_failure, timeout, restart=True)
 
 
 @_subcommand("Stop the processes, in reverse order.", _names, _engine, lenient=True)
-def down(session: Session, names: tuple[str, ...]) -> None:
+def down(session: DeploySession, names: tuple[str, ...]) -> None:
     """Stop all running processes of the network, or the processes NAME with all that depend on them. A process is
     stopped before those that it depends on."""
     session.down(names)
@@ -172,7 +172,7 @@ def down(session: Session, names: tuple[str, ...]) -> None:
     click.argument("host", cls=_DocumentAnd, limit=1, metavar="[HOST]"),
     lenient=True,
 )
-def probe(session: Session, host: tuple[str, ...]) -> None:
+def probe(session: DeploySession, host: tuple[str, ...]) -> None:
     """Show which programs of the network HOST has (by default, all hosts), in which version, and which of the required
     libraries are missing."""
     session.probe(*host)
@@ -184,7 +184,7 @@ def probe(session: Session, host: tuple[str, ...]) -> None:
 )
 @click.option("--as", "form", required=True, type=PluginChoice(_exports), help="The tool.")
 @click.option("-o", "--output", metavar="DIR", type=click.Path(file_okay=False), help="Write the files below DIR.")
-def export(session: Session, form: str, output: str | None) -> None:
+def export(session: DeploySession, form: str, output: str | None) -> None:
     """Print the files with which IceGrid, RCManager, systemd or docker compose run the network, or those of a plug-in
     of the workspace; or write them."""
     session.export(form, output)
