@@ -1,25 +1,39 @@
-"""The fixes that documents get, and what remains."""
+"""Applying the fixes of diagnostics, and what remains."""
 
 from __future__ import annotations
 
 import os
+import stat
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+import msgspec
+
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.fixing.files import Written, write
-from robocomp_yaml.fixing.rounds import MISSHAPEN, UNDERSTOOD, UNREADABLE, Done, Look, mend
+from robocomp_yaml.fixing import MISSHAPEN, UNDERSTOOD, UNREADABLE, AttemptedFix, CheckedDocuments, apply_fixes
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.inside import stays_inside
+from robocomp_yaml.source.regular import whole
+from robocomp_yaml.transactions import whole_file
 from robocomp_yaml.transactions.changes import unified
 
 if TYPE_CHECKING:
     from robocomp_yaml.api.workspace import Workspace
 
 
+class FixedDocument(msgspec.Struct, frozen=True):
+    """A document with fixes. `before` and `after` are its contents; `reason` says why it was not written, '' if it
+    was."""
+
+    path: str
+    before: bytes
+    after: bytes
+    reason: str = ""
+
+
 class Fixing:
-    """What fixing the documents of a workspace comes to. Nothing is written before `apply`.
+    """The fixes of the documents of a workspace. Nothing is written before `apply`.
 
     `fixed` are the fixes that are applied, each with its diagnostic; `left` those that are not, with the reason;
     `written` the documents that change.
@@ -30,31 +44,31 @@ class Fixing:
         *, unsafe: bool, environment: bool,
     ) -> None:  # fmt: skip
         self._before, self._load, self._paths, self._environment = before, load, tuple(paths), environment
-        mended = mend(self._look, _asked(before.analysis), unsafe=unsafe)
-        self._changed, self._fixed, self._left = mended.changed, mended.fixed, mended.left
-        self.written: tuple[Written, ...] = self._write(look_only=True)
+        result = apply_fixes(self._look, _requested(before.analysis), unsafe=unsafe)
+        self._changed, self._fixed, self._left = result.changed, result.fixed, result.left
+        self.written: tuple[FixedDocument, ...] = self._write(look_only=True)
         self._remaining: Workspace | None = None
 
     @property
-    def fixed(self) -> list[Done]:
+    def fixed(self) -> list[AttemptedFix]:
         refused = self.refused
         return [one for one in self._fixed if one.diagnostic.span.file not in refused]
 
     @property
-    def left(self) -> list[Done]:
+    def left(self) -> list[AttemptedFix]:
         reasons = {one.path: one.reason for one in self.written if one.reason}
-        kept = [Done(one.diagnostic, one.fix, reasons[one.diagnostic.span.file])
+        kept = [AttemptedFix(one.diagnostic, one.fix, reasons[one.diagnostic.span.file])
                 for one in self._fixed if one.diagnostic.span.file in reasons]  # fmt: skip
         return [*self._left, *kept]
 
     @property
     def refused(self) -> set[str]:
-        """The documents that cannot be written."""
+        """The paths of the documents that cannot be written."""
         return {one.path for one in self.written if one.reason}
 
     @property
     def remaining(self) -> Workspace:
-        """The documents as they are when all is applied."""
+        """The workspace after all fixes are applied."""
         if self._remaining is None:
             refused = self.refused
             self._remaining = self._load({path: to for path, to in self._changed.items() if path not in refused})
@@ -62,49 +76,58 @@ class Fixing:
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
-        """What remains."""
+        """The diagnostics that remain."""
         return self.remaining.check(environment=self._environment)
 
     def diffs(self) -> Iterator[str]:
-        """A unified diff of each document that changes, with secrets hidden."""
+        """A unified diff of each document that changes, without secrets."""
         hidden = self._before.analysis.hidden()
         for one in self.written:
             if not one.reason:
                 yield hidden.without(unified(_text(one.before), _text(one.after), f"a/{one.path}", f"b/{one.path}"))
 
     def apply(self) -> None:
-        """Writes the documents, each whole or not at all; one that was changed meanwhile, or cannot be written, stays
-        as it is."""
+        """Writes the documents, each completely or not at all. A document that has changed since it was read, or cannot
+        be written, is kept."""
         self.written = self._write(look_only=False)
         self._remaining = None
 
-    def _write(self, *, look_only: bool) -> tuple[Written, ...]:
-        contents = self._before.analysis.disk.contents
-        changed = ((path, contents[path], after) for path, after in sorted(self._changed.items()))
-        return tuple(write(self._paths, changed, look_only=look_only))
+    def _write(self, *, look_only: bool) -> tuple[FixedDocument, ...]:
+        return tuple(self._written(path, after, look_only) for path, after in sorted(self._changed.items()))
 
-    def _look(self, changed: Mapping[str, bytes]) -> Look:
+    def _written(self, path: str, after: bytes, look_only: bool) -> FixedDocument:
+        before = self._before.analysis.disk.contents[path]
+        try:
+            reason = _refusal(self._paths, path, before)
+            if not reason and not look_only:
+                whole_file.replace(path, after)
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+        return FixedDocument(path, before, after, reason)
+
+    def _look(self, changed: Mapping[str, bytes]) -> CheckedDocuments:
         workspace = self._load(changed) if changed else self._before
         analysis = workspace.analysis
         levels = {
             document.path: UNREADABLE if document.tree is None else MISSHAPEN if document.model is None else UNDERSTOOD
             for document in analysis.linker.documents.read.values()
         }
-        # Whether a comment allows something in vain is known once all is checked.
-        told = workspace.check(environment=self._environment) if analysis.allowed.by_file else analysis.diagnostics
-        return Look(list(told), analysis.disk.contents, levels)
+        # Which comments suppress nothing is known only after a complete check.
+        is_complete = bool(analysis.allowed.by_file)
+        found = workspace.check(environment=self._environment) if is_complete else analysis.diagnostics
+        return CheckedDocuments(list(found), analysis.disk.contents, levels)
 
 
-def _asked(analysis: Analysis) -> set[str]:
-    """The documents that the user named, or that are below the folders that were named, with their state machines and
-    workspaces."""
+def _requested(analysis: Analysis) -> set[str]:
+    """The paths of the requested documents, of those below requested folders, and of their state machines and workspace
+    files."""
     program, read = analysis.program, analysis.linker.documents.read
     machines = {
         path for real, linked in program.components.items() if real in program.asked for path in linked.machine_files
     }
     settings = {
         path for each in analysis.linker.workspaces.values()
-        if any(stays_inside(folder, os.path.abspath(each.root)) for folder in analysis.found.folders)
+        if any(stays_inside(folder, os.path.abspath(each.root)) for folder in analysis.discovered.folders)
         and (path := os.path.normpath(os.path.join(each.root, WORKSPACE_FILE))) in analysis.disk.contents
     }  # fmt: skip
     return {read[real].path for real in program.asked if real in read} | machines | settings
@@ -112,3 +135,14 @@ def _asked(analysis: Analysis) -> set[str]:
 
 def _text(content: bytes) -> str:
     return content.decode("utf-8", "surrogateescape")
+
+
+def _refusal(paths: Sequence[str], path: str, before: bytes) -> str:
+    """Why a document is not written, or ''. Raises OSError if it cannot be read."""
+    real = os.path.realpath(path)
+    named = {os.path.realpath(one) for one in paths}
+    if real not in named and not any(stays_inside(one, real) for one in paths if os.path.isdir(one)):
+        return f"a link leads to {real}, outside the requested paths: pass that file to fix it"
+    if not os.stat(real).st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH) or not os.access(real, os.W_OK):
+        return "it is read-only"
+    return "" if whole(real)[0] == before else "it has changed meanwhile: run the check again"

@@ -53,7 +53,7 @@ def plugged(
 ) -> Iterator[tuple[str, Check]]:  # fmt: skip
     """The checks of a plug-in that documents of these kinds and components in these languages call for, with what they
     are called."""
-    for (kind, name), module in plugin.pieces.items():
+    for (kind, name), module in plugin.modules.items():
         if kind == CHECKS and kinds.get(module.KIND):
             yield f"check '{name}'", module.check
         elif kind == LANGUAGES and kinds.get("idsl") and (name in spoken or module.LANGUAGE.warns_others):
@@ -73,7 +73,7 @@ def said_by(plugin: Plugin, name: str, check: Callable[[Any], Iterator[Diagnosti
     """What a plug-in's check says, and that it failed, where it does."""
     said: list[Diagnostic] = []
     try:
-        with plugin.answering(name):
+        with plugin.guarded(name):
             for one in check(about):
                 if not isinstance(one, Diagnostic):
                     raise TypeError(f"it gives {type(one).__name__}, which is no Diagnostic")

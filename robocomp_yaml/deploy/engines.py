@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.registry import member
+from robocomp_yaml.registry import import_member
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +22,7 @@ ENGINES = {
 
 def make_engine(name: str | None, network: Network) -> Engine:
     """The engine of that name; without a name, `local` if all processes run on this machine, else `icegrid`."""
-    made: Callable[[], Engine] = member(ENGINES[name or _usual(network)])  # type: ignore[assignment]
+    made: Callable[[], Engine] = import_member(ENGINES[name or _usual(network)])  # type: ignore[assignment]
     return made()
 
 

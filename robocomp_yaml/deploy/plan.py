@@ -14,7 +14,7 @@ import msgspec
 from robocomp_yaml.deploy.differences import Difference, differences
 from robocomp_yaml.deploy.engine import ENDED, GIVEN_UP, LOST, RUNNING, WAITING, Running
 from robocomp_yaml.deploy.spec import ProcessSpec, spec_of
-from robocomp_yaml.digraph import inner_first, reached
+from robocomp_yaml.digraph import postorder, reachable
 from robocomp_yaml.network.network import Network, Process
 
 START, STOP, RESTART, CHANGE, KEEP = "start", "stop", "restart", "change", "keep"
@@ -78,7 +78,7 @@ def with_dependences(network: Network, names: Iterable[str]) -> set[str]:
     def after(name: str) -> Iterable[str]:
         return network.processes[name].after if name in network.processes else ()
 
-    return {name for name in reached(names, after) if name in network.processes and network.processes[name].enabled}
+    return {name for name in reachable(names, after) if name in network.processes and network.processes[name].enabled}
 
 
 def with_dependents(after: Mapping[str, Iterable[str]], names: Iterable[str]) -> set[str]:
@@ -87,12 +87,12 @@ def with_dependents(after: Mapping[str, Iterable[str]], names: Iterable[str]) ->
     for name, before in after.items():
         for other in before:
             behind.setdefault(other, []).append(name)
-    return set(reached(names, lambda name: behind.get(name, ())))
+    return set(reachable(names, lambda name: behind.get(name, ())))
 
 
 def in_order(after: Mapping[str, Iterable[str]]) -> list[str]:
     """The names, each after those that it is after; in a circle, after as many of them as possible."""
-    return list(inner_first(after, lambda name: [other for other in after[name] if other in after]))
+    return list(postorder(after, lambda name: [other for other in after[name] if other in after]))
 
 
 def _restarting(process: Process, steps: Mapping[str, PlanStep]) -> str:

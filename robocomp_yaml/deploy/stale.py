@@ -10,7 +10,7 @@ import msgspec
 from robocomp_yaml.building import stamps
 from robocomp_yaml.building.inputs import Inputs
 from robocomp_yaml.building.job import RELEASE
-from robocomp_yaml.building.stamps import Look
+from robocomp_yaml.building.stamps import ProgramState
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.check.ddsl.files import is_this_machine
 from robocomp_yaml.deploy.differences import shown_path
@@ -25,7 +25,7 @@ class StaleComponent(msgspec.Struct, frozen=True):
     """A component that must be built, with the names of its processes."""
 
     unit: Unit
-    look: Look
+    look: ProgramState
     processes: tuple[str, ...]
 
 
@@ -38,7 +38,7 @@ def stale(network: Network, units: Iterable[Unit], names: Collection[str]) -> li
         program = _real(process.command[0]) if process.component and process.name in names else ""
         if program in by_program and is_this_machine(network.address(process)):
             starting.setdefault(program, []).append(process.name)
-    looks = ((program, stamps.look(by_program[program], inputs)) for program in starting)
+    looks = ((program, stamps.inspect(by_program[program], inputs)) for program in starting)
     return [
         StaleComponent(by_program[program], look, tuple(starting[program]))
         for program, look in looks

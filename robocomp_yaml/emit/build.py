@@ -17,7 +17,7 @@ from robocomp_yaml.diag.codes import cdsl, compiling, idsl, machines
 from robocomp_yaml.diag.diagnostic import ERROR, NOTE, Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.digraph import inner_first, reached
+from robocomp_yaml.digraph import postorder, reachable
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import is_settings
 from robocomp_yaml.emit.options import Options
@@ -133,7 +133,7 @@ class _State(msgspec.Struct):
 
     def cause(self, linked: LinkedModule) -> str:
         """The document that keeps a module from being compiled: its own, or one that it imports; '' for none."""
-        for scope in inner_first([linked], lambda scope: [o for o in scope.imports if o not in self._causes]):
+        for scope in postorder([linked], lambda scope: [o for o in scope.imports if o not in self._causes]):
             if scope.module.path in self.faulty or scope.unresolved:
                 self._causes[scope] = scope.module.path
             else:
@@ -147,7 +147,7 @@ def _imports(linked: LinkedModule, covered: Callable[[LinkedModule], bool]) -> I
     def own(scope: LinkedModule) -> list[LinkedModule]:
         return [imported for imported in scope.imports if not covered(imported)]
 
-    return reached(own(linked), own)
+    return reachable(own(linked), own)
 
 
 def _usable(document: Module | Component, modules: Iterable[LinkedModule], state: _State, result: Build) -> bool:

@@ -83,7 +83,7 @@ def _telling(linked: LinkedComponent, options: Options) -> AbstractContextManage
     """Where the component's language is a plug-in's, what goes wrong is told as the plug-in's fault."""
     name = linked.component.language.name
     owner = options.workspace_of(linked.component.path).plugins.of(LANGUAGES).get(name)
-    return owner[0].answering(f"language '{name}'") if owner else nullcontext()
+    return owner[0].guarded(f"language '{name}'") if owner else nullcontext()
 
 
 def places(linked: LinkedComponent, workspace: Workspace, root: str) -> list[str]:

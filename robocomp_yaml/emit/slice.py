@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
-from robocomp_yaml.digraph import inner_first
+from robocomp_yaml.digraph import postorder
 from robocomp_yaml.emit.slice_comment import WIDTH, comment, described
 from robocomp_yaml.link.numbers import arrives, compiles, is_integer_literal
 from robocomp_yaml.link.program import Definition, LinkedModule
@@ -57,7 +57,7 @@ def in_order(linked: LinkedModule) -> list[Definition]:
         found = (linked.find(ref) for ref in types_of(own[name]) if not ref.is_basic)
         return [other[1].name for other in found if other and other[0] is linked and other[1].name in own]
 
-    return [*(own[name] for name in inner_first(own, used)), *module.all_interfaces]
+    return [*(own[name] for name in postorder(own, used)), *module.all_interfaces]
 
 
 class _File:

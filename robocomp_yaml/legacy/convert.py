@@ -44,7 +44,7 @@ def convert(path: str, known: Formats | None = None) -> Converted:
     diagnostics += reasons
     if rules is None:
         return Converted(path, by_name(path, known), source, diagnostics=tuple(diagnostics))
-    with rules.plugin.answering(f"legacy format '{rules.name}'") if rules.plugin else nullcontext():
+    with rules.plugin.guarded(f"legacy format '{rules.name}'") if rules.plugin else nullcontext():
         parsed = parse(source, rules)
         diagnostics += parsed.diagnostics
         draft = _draft(parsed, source, rules, diagnostics)

@@ -108,7 +108,7 @@ def with_plugins(plugins: Plugins) -> Formats:
     optionally `GRAMMAR`, and `convert`. Raises Faulty where one of them is not valid."""
     added: list[Rules] = []
     for name, (plugin, module) in plugins.of(FORMATS).items():
-        with plugin.answering(f"legacy format '{name}'"):
+        with plugin.guarded(f"legacy format '{name}'"):
             data = _read("RULES", module.RULES)
             if hasattr(module, "GRAMMAR"):
                 data["grammar"] = module.GRAMMAR

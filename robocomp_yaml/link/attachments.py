@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.codes import values as value_codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.link import component_references as references
 from robocomp_yaml.link.component_references import References
 from robocomp_yaml.link.documents import Document, Documents
@@ -296,7 +296,7 @@ class Attachments(msgspec.Struct):
         return self.tables.parameters.get(real)
 
     def _reaches(self, start: str, goal: str) -> bool:
-        return goal in reached([start], lambda real: self._extends.get(real, ()))
+        return goal in reachable([start], lambda real: self._extends.get(real, ()))
 
 
 def _is_compiled(document: Document) -> bool:

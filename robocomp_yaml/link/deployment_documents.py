@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.digraph import inner_first
+from robocomp_yaml.digraph import postorder
 from robocomp_yaml.link import deployment_groups
 from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.link.deployment_names import Names
@@ -158,7 +158,7 @@ def too_large(deployments: Mapping[str, Deployment], disk: Disk) -> dict[str, Di
     sizes: dict[str, tuple[int, int]] = {}
     found: dict[str, Diagnostic | None] = {}
     included = {real: list(_included(model, disk)) for real, model in deployments.items()}
-    for real in inner_first(deployments, lambda real: [other for other in included[real] if other in included]):
+    for real in postorder(deployments, lambda real: [other for other in included[real] if other in included]):
         model, inner = deployments[real], [other for other in included[real] if other in sizes]
         size = sum(entry.instances or 1 for entry in model.entries) + sum(sizes[other][0] for other in inner)
         depth = 1 + max((sizes[other][1] for other in inner), default=0)

@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.expand_deployments import Placed
 from robocomp_yaml.link.knot import grow, tie
@@ -61,7 +61,7 @@ class Names(msgspec.Struct):
         def into(target: Target) -> Iterable[Target]:
             return inside.get(target, ()) if isinstance(target, LinkedGroup) and target is not group else ()
 
-        found = list(reached(inside[group], into))
+        found = list(reachable(inside[group], into))
         if group in found:
             before = [group, *found[: found.index(group)]]
             if here.is_own and not any(isinstance(other, LinkedGroup) and other.broken for other in before):

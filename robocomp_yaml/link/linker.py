@@ -224,10 +224,12 @@ class Linker(msgspec.Struct):
     def _circles(self, graph: dict[str, list[str]]) -> set[tuple[str, str]]:
         """The imports that lie on a circle, each circle reported once, at the first of its documents."""
         circles: set[tuple[str, str]] = set()
-        for members in digraph.knots(graph):
+        for members in digraph.cyclic_components(graph):
             circles |= {(real, other) for real in members for other in graph[real] if other in members}
             first = min(members, key=lambda real: self.tables.modules[real].module.path)
-            around = [self.tables.modules[real].module for real in (*digraph.circle(graph, members, first), first)]
+            around = [
+                self.tables.modules[real].module for real in (*digraph.cycle_through(graph, members, first), first)
+            ]
             places = [
                 Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
                 for one, next_ in pairwise(around)

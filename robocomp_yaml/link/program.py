@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from robocomp_yaml.digraph import inner_first
+from robocomp_yaml.digraph import postorder
 from robocomp_yaml.model.interface import (
     Constant,
     ExceptionType,
@@ -67,7 +67,7 @@ class LinkedModule(msgspec.Struct, frozen=True, eq=False):
 
     def closure(self) -> list[LinkedModule]:
         """This module and all that it imports, directly or not: imported ones first, each once."""
-        return list(inner_first([self], lambda scope: scope.imports))
+        return list(postorder([self], lambda scope: scope.imports))
 
 
 class Port(msgspec.Struct, frozen=True):

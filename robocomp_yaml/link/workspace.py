@@ -97,9 +97,9 @@ def _plugins(tree: Mapping) -> tuple[Plugins, list[Diagnostic]]:
     named = [(node.lexeme, node.span) for node in items(tree, "plugins") if isinstance(node, Scalar)]
     if not named:
         return NONE, []
-    from robocomp_yaml.plugins import finding  # most workspaces name none
+    from robocomp_yaml.plugins import loading  # most workspaces name none
 
-    return finding.found(named)
+    return loading.resolve(named)
 
 
 def above(path: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnostic]]:

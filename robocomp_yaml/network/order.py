@@ -38,7 +38,7 @@ def ordered(
         after: dict[str, dict[str, None]] = {name: {} for name in position}
         for need in kept:
             after[need.source][need.target] = None
-        waves = digraph.waves(after)
+        waves = digraph.generations(after)
         if waves is not None:
             in_order = [tuple(sorted(wave, key=position.__getitem__)) for wave in waves]
             return in_order, {name: tuple(targets) for name, targets in after.items()}, diagnostics
@@ -71,10 +71,10 @@ def _without_circles(
         cost[pair] = max(cost.get(pair, 0), _cost(need))
     dropped: set[tuple[str, str]] = set()
     diagnostics = []
-    for knot in digraph.knots(after):
+    for knot in digraph.cyclic_components(after):
         inside = [pair for pair in cost if pair[0] in knot and pair[1] in knot]
         source, target = min(inside, key=lambda pair: (cost[pair], position[pair[0]], position[pair[1]]))
-        circle = digraph.circle({**after, source: [target]}, knot, source)
+        circle = digraph.cycle_through({**after, source: [target]}, knot, source)
         dropped.add((source, target))
         drop = max((need for need in needs if (need.source, need.target) == (source, target)), key=_cost)
         diagnostics.append(_reported(drop, [*circle, source]))

@@ -21,7 +21,7 @@ from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import UNTAG, Edit, Fix, quoting, removal
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.patterns import pattern
 from robocomp_yaml.source import syntax
 from robocomp_yaml.source.text import MAX_SCALAR, position, size_in_words
@@ -117,7 +117,7 @@ class Sequence(Node):
 
 def below(root: Node) -> Iterable[Node]:
     """A node and all that stands in it, each once."""
-    return reached([root], lambda node: node.children())
+    return reachable([root], lambda node: node.children())
 
 
 def pairs_below(root: Node) -> Iterator[tuple[Scalar, Node]]:

@@ -157,7 +157,7 @@ def tool() -> str:
 def _builds(plugins: Iterable[str]) -> dict[str, str]:
     if not plugins:
         return {}
-    from robocomp_yaml.plugins.finding import identity  # most workspaces name none
+    from robocomp_yaml.plugins.loading import identity  # most workspaces name none
 
     return {name: identity(name) for name in plugins}
 

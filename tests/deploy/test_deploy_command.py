@@ -47,16 +47,16 @@ def deploy(rcyaml: Rcyaml, what: str, *args: str) -> Result:
 
 def test_up_status_and_down(robot: Path, rcyaml: Rcyaml) -> None:
     assert deploy(rcyaml, "plan").stdout.endswith("2 to start\n")
-    assert deploy(rcyaml, "up").stdout == "base  ready\narm   ready\nRobot: 2 processes as wanted\n"
-    assert deploy(rcyaml, "up").stdout == "Robot: nothing to do, 2 processes as wanted\n"
+    assert deploy(rcyaml, "up").stdout == "base  ready\narm   ready\nRobot: 2 processes as desired\n"
+    assert deploy(rcyaml, "up").stdout == "Robot: nothing to do, 2 processes as desired\n"
     assert deploy(rcyaml, "plan").stdout == "nothing to do\n"
     status = deploy(rcyaml, "status")
     assert status.exit_code == 0
     assert [line.split()[:2] for line in status.stdout.splitlines()[1:]] == [["base", "ready"], ["arm", "ready"]]
     assert "base | hello\n" in deploy(rcyaml, "logs").stdout
-    assert deploy(rcyaml, "restart", "arm").stdout == "arm   stopped\narm   ready\nRobot: 2 processes as wanted\n"
+    assert deploy(rcyaml, "restart", "arm").stdout == "arm   stopped\narm   ready\nRobot: 2 processes as desired\n"
     assert deploy(rcyaml, "down").stdout == "arm   stopped\nbase  stopped\n"
-    assert deploy(rcyaml, "down").stdout == "Robot: nothing ran\n"
+    assert deploy(rcyaml, "down").stdout == "Robot: nothing was running\n"
 
 
 def test_all_output_as_json(robot: Path, rcyaml: Rcyaml) -> None:
@@ -89,7 +89,7 @@ def test_a_failure_is_reported_with_the_log(robot: Path, rcyaml: Rcyaml) -> None
     write_tree(robot, {"robot.ddsl.yaml": FAILING})
     result = deploy(rcyaml, "up")
     assert result.exit_code == 1
-    assert result.stdout.endswith("Robot: failed; what was started was stopped\n")
+    assert result.stdout.endswith("Robot: failed; the started processes were stopped\n")
     assert "error[RC7004]: 'hand' ended before it was ready: exit code 3" in result.stderr
     assert "robot.ddsl.yaml:8:3" in result.stderr and "hand | oh\n" in result.stderr
     assert deploy(rcyaml, "status").stdout.count("not started") == 3
@@ -106,7 +106,7 @@ def test_status_fails_if_a_process_does_not_run(robot: Path, rcyaml: Rcyaml) -> 
 @pytest.mark.parametrize(
     ("args", "said"),
     [
-        (("up", "."), "it has none"),
+        (("up", "."), "has no deployment document"),
         (("up", "robot.ddsl.yaml", "amr"), "has no process or group 'amr'; did you mean 'arm'?"),
         (("probe", "robot.ddsl.yaml", "moon"), "has no host 'moon'"),
         (("up", "nowhere.ddsl.yaml"), "does not exist"),
@@ -158,7 +158,9 @@ def test_a_deployment_with_a_broken_document_can_be_stopped(robot: Path, rcyaml:
     write_tree(robot, broken)
     status = deploy(rcyaml, "status")
     assert [line.split()[:2] for line in status.stdout.splitlines()[1:]] == [["base", "ready"], ["arm", "ready"]]
-    assert status.stderr == "robot.ddsl.yaml cannot be read (see `rcyaml check`): this is about what runs of it\n"
+    assert (
+        status.stderr == "robot.ddsl.yaml cannot be read (see `rcyaml check`): the running processes are used instead\n"
+    )
     assert "base | hello\n" in deploy(rcyaml, "logs", "base").stdout
     assert deploy(rcyaml, "up").exit_code == 1
     assert deploy(rcyaml, "down", "arm").stdout == "arm   stopped\n"
@@ -205,7 +207,7 @@ def test_an_interrupted_up_leaves_processes_running(robot: Path, place: Place) -
     until(lambda: place.pids().get("arm"), "arm is started")
     up.send_signal(signal.SIGINT)
     with up.stdout as rest:
-        assert b"what runs goes on" in rest.read()
+        assert b"running processes keep running" in rest.read()
     assert up.wait(20) == 130
     assert all(place.pids().values())
 
@@ -235,7 +237,7 @@ def test_an_attached_up_ends_with_ctrl_c(robot: Path, place: Place) -> None:
     attached = start(robot, "up", "robot.ddsl.yaml", "--attach", stdout=subprocess.PIPE)
     assert attached.stdout
     seen = b""
-    while b"Ctrl-C takes it down" not in seen or b"base | hello" not in seen:
+    while b"Ctrl-C stops it" not in seen or b"base | hello" not in seen:
         seen += os.read(attached.stdout.fileno(), 1000)
     assert start(robot, "restart", ".", "arm").wait(60) == 0  # meanwhile others may work on it
     attached.send_signal(signal.SIGINT)
@@ -254,7 +256,7 @@ def test_an_attached_up_is_interrupted_while_processes_start(robot: Path, place:
         seen += os.read(attached.stdout.fileno(), 1000)
     attached.send_signal(signal.SIGINT)
     with attached.stdout as rest:
-        assert b"interrupted: all was taken down" in rest.read()
+        assert b"interrupted: all processes were stopped" in rest.read()
     assert attached.wait(20) == 130
     place.wait_gone()
 
@@ -305,7 +307,7 @@ def test_on_a_terminal_the_user_chooses(robot: Path, place: Place) -> None:
         pass  # the other end is closed
     os.close(ours)
     assert up.wait(20) == 1
-    assert b"what was started was kept" in seen and seen.count(b"RC7004") == 1
+    assert b"the started processes keep running" in seen and seen.count(b"RC7004") == 1
     assert place.observe()["arm"].state == "running"
     place.down()
 
@@ -368,7 +370,7 @@ def test_several_hosts_need_icegrid_too(robot: Path, rcyaml: Rcyaml, monkeypatch
 def test_a_program_that_a_host_lacks(robot: Path, rcyaml: Rcyaml) -> None:
     write_tree(robot, {"robot.ddsl.yaml": ROBOT.replace("program: sleep", "program: no-such-sleep")})
     result = deploy(rcyaml, "probe")
-    assert result.exit_code == 1 and "no-such-sleep  not there, or not executable, for arm" in result.stdout
+    assert result.exit_code == 1 and "no-such-sleep  missing, or not executable, for arm" in result.stdout
 
 
 def test_a_program_that_lacks_something(robot: Path, rcyaml: Rcyaml) -> None:

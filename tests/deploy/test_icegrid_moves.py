@@ -50,7 +50,7 @@ def _start_one_after_the_other(talk: Deployment) -> None:
     talk.deploy("up", "watch")
     talk.start_node("head")
     said = talk.deploy("up", "--on-failure", "keep", code=1)
-    assert said.count("error[RC7021]") == 1 and "'arm'" in said and "what was started was kept" in said
+    assert said.count("error[RC7021]") == 1 and "'arm'" in said and "the started processes keep running" in said
     assert {name for name, one in talk.status().items() if one["ready"]} == {"watch", "blink"}
     talk.start_node("arm")
 

@@ -82,7 +82,7 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     append(leg / "src" / "specificworker.cpp", "// more\n")
     told = rcyaml("build")
     assert told.exit_code == 1
-    assert "refuses this: ‘opne’ was not declared" in told.stdout
+    assert "rejects this: ‘opne’ was not declared" in told.stdout
     line = (arm / "src" / "specificworker.cpp").read_text().splitlines().index("    return opne();") + 1
     assert f"arm/src/specificworker.cpp:{line}:12" in told.stdout and "    return opne();\n" in told.stdout
     assert "built       leg/bin/LegComp" in told.stdout and "failed      ArmComp" in told.stdout
@@ -136,7 +136,7 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     append(arm / "src" / "specificworker.cpp", "// yet more\n")
     told = rcyaml("build")
     assert (
-        "CMake refuses this: the SDK of the lidar is not there" in told.stdout
+        "CMake rejects this: the SDK of the lidar is not there" in told.stdout
         and "lidar/CMakeLists.txt:" in told.stdout
     )
     assert "3 components: 1 built, 1 up to date, 1 failed" in told.stdout
@@ -146,7 +146,7 @@ def test_a_workspace(rcyaml: Rcyaml, tmp_path: Path) -> None:
     assert build(rcyaml, "leg") == {"LegComp": "built"}
     assert "removed  build/Release/" in rcyaml("build", "--clean").stdout
     assert not (tmp_path / "build" / "Release").exists() and (arm / "bin" / "ArmComp").is_file()
-    assert rcyaml("build", "--clean").stdout == "there is no build tree\n"
+    assert rcyaml("build", "--clean").stdout == "no build tree exists\n"
 
 
 def _compilers(folder: Path) -> list[str]:

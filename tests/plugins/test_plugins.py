@@ -13,7 +13,7 @@ import pytest
 
 from conftest import read_tree, write_tree
 from plugins.wheels import ROOT, SAMPLES, Run, build, install
-from robocomp_yaml.plugins.kinds import KINDS
+from robocomp_yaml.plugins import KINDS
 
 pytestmark = pytest.mark.slow
 
@@ -114,7 +114,7 @@ def test_it_is_explained_where_it_counts(rcyaml: Run, tmp_path: Path) -> None:
     assert rcyaml("explain", below="here").stdout.splitlines()[-1].startswith("ACME001")
     assert "ACME001" not in rcyaml("explain", below="elsewhere").stdout
     elsewhere = rcyaml("explain", "ACME001", below="elsewhere")
-    assert elsewhere.returncode == 2 and "in a workspace that names it" in elsewhere.stderr
+    assert elsewhere.returncode == 2 and "in a workspace that names the plug-in" in elsewhere.stderr
 
 
 @pytest.mark.parametrize("named", ["acme-naming", "acme_naming", "Acme.Naming"])

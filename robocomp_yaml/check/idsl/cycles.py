@@ -19,9 +19,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.modules.values():
         types = {definition.name: definition for definition in reversed(linked.module.types)}
         uses = {name: [other for other in _used(linked, types[name]) if other in types] for name in types}
-        for knot in digraph.knots(uses):
+        for knot in digraph.cyclic_components(uses):
             start = min(knot, key=lambda name: types[name].span)
-            circle = [types[name] for name in digraph.circle(uses, knot, start)]
+            circle = [types[name] for name in digraph.cycle_through(uses, knot, start)]
             first = circle[0]
             inside = [_holds(linked, d, circle[(n + 1) % len(circle)]) for n, d in enumerate(circle)]
             names = [definition.name for definition in (*circle, first)]

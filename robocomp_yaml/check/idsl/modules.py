@@ -14,7 +14,7 @@ from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.references import macro
 from robocomp_yaml.patterns import pattern
@@ -49,7 +49,7 @@ def _meetings(alike: list[LinkedModule], importers: dict[Importer, list[Importer
     seen_by: dict[Importer, dict[LinkedModule, None]] = defaultdict(dict)
     for linked in alike:
         itself: list[Importer] = [linked]
-        for importer in reached(itself, lambda importer: importers.get(importer, ())):
+        for importer in reachable(itself, lambda importer: importers.get(importer, ())):
             seen_by[importer][linked] = None
     for importer, sees in seen_by.items():
         below = [seen_by.get(imported, {}) for imported in importer.imports]

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import NamedTuple
 
 from robocomp_yaml import secrets
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 
 MARK = "RCYAML_PROCESS"
 """The variable in the environment of each process of a deployment, and of its descendants: `FOLDER:NAME`."""
@@ -132,7 +132,7 @@ def descendants(of: Collection[int], alive: dict[int, ProcessEntry]) -> set[int]
     children: dict[int, list[int]] = {}
     for one in alive.values():
         children.setdefault(one.parent, []).append(one.pid)
-    return set(reached(of, lambda pid: children.get(pid, ())))
+    return set(reachable(of, lambda pid: children.get(pid, ())))
 
 
 def memory(members: Collection[int]) -> int:

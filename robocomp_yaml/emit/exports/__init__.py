@@ -44,7 +44,7 @@ def export(network: Network, form: str, plugins: Plugins = NONE) -> dict[str, st
 
 
 def _of_plugin(network: Network, form: str, plugin: Plugin, module: ModuleType) -> dict[str, str]:
-    with plugin.answering(f"export '{form}'", Unwritable):
+    with plugin.guarded(f"export '{form}'", Unwritable):
         files = module.export(network)
         if not isinstance(files, dict) or not all(isinstance(each, str) for item in files.items() for each in item):
             raise TypeError("it gives no texts by their paths")

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
-from robocomp_yaml.digraph import inner_first
+from robocomp_yaml.digraph import postorder
 from robocomp_yaml.emit.graphs.picture import Line, Picture
 
 MOST_COLUMNS = 12
@@ -142,6 +142,6 @@ def layers(nodes: Iterable[str], needs: Mapping[str, Sequence[str]]) -> dict[str
 def _depths(names: Sequence[str], needs: Mapping[str, Sequence[str]]) -> dict[str, int]:
     """How many others stand below each node, one below the other; found without recursion, for chains may be long."""
     depth: dict[str, int] = {}
-    for name in inner_first(names, lambda name: needs.get(name, ())):
+    for name in postorder(names, lambda name: needs.get(name, ())):
         depth[name] = 1 + max((depth[other] for other in needs.get(name, ()) if other in depth), default=-1)
     return depth

@@ -15,15 +15,15 @@ from contextlib import suppress
 
 from robocomp_yaml.building import stamps
 from robocomp_yaml.building.inputs import state
-from robocomp_yaml.building.job import Job, Made
+from robocomp_yaml.building.job import ComponentBuild, Job
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.languages.cpp import commands_file, whole_tree
 from robocomp_yaml.languages.cpp.tree import Failure, Tree, source_of
 from robocomp_yaml.languages.cpp.whole_tree import WholeTree
 
 
-def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
-    done: dict[Unit, Made] = {}
+def build(job: Job, units: list[Unit]) -> dict[Unit, ComponentBuild]:
+    done: dict[Unit, ComponentBuild] = {}
     for unit in units:
         _outdate(unit, job.type)
     for root in dict.fromkeys(unit.root for unit in units):
@@ -33,8 +33,8 @@ def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
         except OSError as error:
             reason, hint = _refused(error)
             for unit in group:
-                job.failed(unit, reason, hint=hint)
-                done[unit] = Made(False)
+                job.add_failure(unit, reason, hint=hint)
+                done[unit] = ComponentBuild(False)
     return {unit: done[unit] for unit in units}
 
 
@@ -73,14 +73,14 @@ def _outdate(unit: Unit, type_: str) -> None:
                 os.utime(unit.program, (0, 0))
 
 
-def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
+def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, ComponentBuild]:
     with WholeTree.locked(root, job) as whole:
         if whole is None:
             path = whole_tree.folder_of(root, job.type)
             for unit in units:
-                job.failed(unit, f"{path} is not of rcyaml", hint="move it away")
-            return dict.fromkeys(units, Made(False))
-        done: dict[Unit, Made] = {}
+                job.add_failure(unit, f"{path} is not of rcyaml", hint="move it away")
+            return dict.fromkeys(units, ComponentBuild(False))
+        done: dict[Unit, ComponentBuild] = {}
         whole.admit(units)
         while whole.members:
             failure = whole.tree.configure(job) if whole.wants_configuring(job) else None
@@ -91,25 +91,25 @@ def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
             if made.is_of_all or not whole.leave_out(made):
                 for unit in whole.members:
                     made.tell(job, unit)
-                    done[unit] = Made(False)
+                    done[unit] = ComponentBuild(False)
                 break
         for unit in [unit for unit in units if unit not in done]:
             made_alone = _in_own_tree(job, unit, Tree(source_of(unit), whole.own(unit), unit.root))
             whole.remember(unit, is_fit=made_alone is not None)
-            done[unit] = made_alone or Made(False)
+            done[unit] = made_alone or ComponentBuild(False)
         whole.save()
         commands_file.write(root, [whole.folder, *whole.own_folders()])
     return done
 
 
-def _alone(job: Job, unit: Unit) -> dict[Unit, Made]:
+def _alone(job: Job, unit: Unit) -> dict[Unit, ComponentBuild]:
     tree = Tree.own_of(unit)
     made = _in_own_tree(job, unit, tree)
     commands_file.write(unit.folder, [tree.folder])
-    return {unit: made or Made(False)}
+    return {unit: made or ComponentBuild(False)}
 
 
-def _in_own_tree(job: Job, unit: Unit, tree: Tree) -> Made | None:
+def _in_own_tree(job: Job, unit: Unit, tree: Tree) -> ComponentBuild | None:
     """None where it cannot be configured."""
     failure = tree.configure(job)
     if failure is None:

@@ -10,8 +10,8 @@ from contextlib import contextmanager, suppress
 
 import msgspec
 
-from robocomp_yaml.building.job import Job, Made, Step
-from robocomp_yaml.building.said import Said
+from robocomp_yaml.building.compiler_output import CompilerOutput
+from robocomp_yaml.building.job import BuildStep, ComponentBuild, Job
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import has_errors
@@ -68,9 +68,9 @@ class Failure(msgspec.Struct, frozen=True):
             end = len(text[0].rstrip()) + 1 if text else 2
             begin = len(text[0]) - len(text[0].lstrip()) + 1 if text else 1
             span = Span(_shown(path), line, begin, line, max(end, begin + 1))
-            job.tell([codes.ERROR_OF_COMPILER.at(span, tool="CMake", text=self.text, more="\n".join(self.more))])
+            job.add([codes.ERROR_OF_COMPILER.at(span, tool="CMake", text=self.text, more="\n".join(self.more))])
         else:
-            job.failed(unit, self.text, more=self.more)
+            job.add_failure(unit, self.text, more=self.more)
 
 
 class Tree(msgspec.Struct, frozen=True):
@@ -99,7 +99,7 @@ class Tree(msgspec.Struct, frozen=True):
 
     def configure(self, job: Job) -> Failure | None:
         """Raises FileNotFoundError where there is no CMake."""
-        job.report(Step(0, 0, f"Configuring {_shown(self.folder)}"))
+        job.report(BuildStep(0, 0, f"Configuring {_shown(self.folder)}"))
         cache, source = self.cache, os.path.abspath(self.source)
         if cache and os.path.realpath(cache.get("CMAKE_HOME_DIRECTORY", "")) != os.path.realpath(source):
             with suppress(OSError):  # it was moved
@@ -114,7 +114,7 @@ class Tree(msgspec.Struct, frozen=True):
         )  # fmt: skip
         return _failure(lines, source) if ended.code else None
 
-    def make(self, job: Job, parts: Mapping[Unit, str]) -> dict[Unit, Made] | Failure:
+    def make(self, job: Job, parts: Mapping[Unit, str]) -> dict[Unit, ComponentBuild] | Failure:
         """Makes components: `parts` are their folders in the tree, '' for all that is in it. A failure where CMake was
         to run again for it, and could not."""
         run = _Run(self, job, parts)
@@ -129,7 +129,7 @@ class Tree(msgspec.Struct, frozen=True):
             return _failure(run.lines, os.path.abspath(self.source))
         shares = ninja_log.shares(before, ninja_log.read(self.folder), ended.cpu)
         read = ninja_log.read_files(job.processes, self.folder, self.root) if is_ninja else {}
-        done: dict[Unit, Made] = {}
+        done: dict[Unit, ComponentBuild] = {}
         for unit, part in parts.items():
             is_made = not ended.code or (unit not in run.failed and self._is_made(job, unit, part, is_ninja))
             mine = (part and f"{part}/", os.path.realpath(unit.program))
@@ -138,9 +138,9 @@ class Tree(msgspec.Struct, frozen=True):
             if not is_made:
                 run.explain(unit)
             elif not os.path.exists(unit.program):
-                job.failed(unit, f"its build left no {unit.program}")
+                job.add_failure(unit, f"its build left no {unit.program}")
                 is_made = False
-            done[unit] = Made(is_made, cpu, tuple(sorted(files)))
+            done[unit] = ComponentBuild(is_made, cpu, tuple(sorted(files)))
         return done
 
     @contextmanager
@@ -186,7 +186,7 @@ class _Run:
         self.is_unconfigured = False
         self._tree, self._job, self._parts = tree, job, parts
         self._piece: list[str] = []
-        self._said = Said(tree.folder, "the C++ compiler")
+        self._said = CompilerOutput(tree.folder, "the C++ compiler")
         self._unheard: list[str] = []
 
     def line(self, line: str) -> None:
@@ -196,7 +196,7 @@ class _Run:
             self.flush()
         if status:
             done, total, what = int(status[1]), int(status[2] or 100), status[3]
-            self._job.report(Step(done, total, what))
+            self._job.report(BuildStep(done, total, what))
         elif line.startswith("ninja: error: rebuilding") or "cmake_check_build_system] Error" in line:
             self.is_unconfigured = True
         else:
@@ -208,7 +208,7 @@ class _Run:
         if not piece:
             return
         found = list(self._said.diagnostics(piece))
-        self._job.tell(found)
+        self._job.add(found)
         outputs = next((match[1] for line in piece if (match := _FAILED.match(line))), None)
         if outputs is None:
             self._unheard += piece
@@ -224,11 +224,11 @@ class _Run:
     def explain(self, unit: Unit) -> None:
         """Why a component is not built, where no compiler has told it."""
         lines = self.failed.get(unit, self._unheard)
-        if lines or not has_errors(self._job.told):
+        if lines or not has_errors(self._job.diagnostics):
             said = [line for line in lines if line.strip() and not line.startswith("collect2:")]
             missing = next((match[1] for line in said if (match := _UNDEFINED.search(line))), "")
             reason = f"the linker finds no definition of {missing}" if missing else "a step of its build failed"
-            self._job.failed(unit, reason, more=said[-_LAST:])
+            self._job.add_failure(unit, reason, more=said[-_LAST:])
 
     def _owner(self, outputs: list[str]) -> Unit | None:
         for unit, part in self._parts.items():

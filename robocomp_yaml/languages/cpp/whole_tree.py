@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 
-from robocomp_yaml.building.job import Job, Step
+from robocomp_yaml.building.job import BuildStep, Job
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.languages.cpp.tree import LISTS, Failure, Tree, source_of
 from robocomp_yaml.source.regular import text as text_of
@@ -78,7 +78,7 @@ class WholeTree:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
-                job.report(Step(0, 0, f"Waiting for another build in {folder}"))
+                job.report(BuildStep(0, 0, f"Waiting for another build in {folder}"))
                 fcntl.flock(lock, fcntl.LOCK_EX)
             yield cls(root, job.type)
 

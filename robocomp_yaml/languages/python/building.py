@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 
-from robocomp_yaml.building.job import Job, Made, Step
+from robocomp_yaml.building.job import BuildStep, ComponentBuild, Job
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
@@ -20,20 +20,20 @@ _MARK = "\x1ercyaml "
 _LAST = 10  # lines that are shown of what fails outside of the user's code
 
 
-def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
-    done: dict[Unit, Made] = {}
+def build(job: Job, units: list[Unit]) -> dict[Unit, ComponentBuild]:
+    done: dict[Unit, ComponentBuild] = {}
     with ThreadPoolExecutor(job.jobs) as pool:
         try:
             running = {unit: pool.submit(_tried, job, unit) for unit in units}
             for number, (unit, future) in enumerate(running.items()):
-                job.report(Step(number, len(units), f"Trying {unit.name}"))
+                job.report(BuildStep(number, len(units), f"Trying {unit.name}"))
                 code, cpu, lines = future.result()
                 found = list(_diagnostics(lines))
-                job.tell(found)
+                job.add(found)
                 if code and not has_errors(found):
                     said = [line for line in lines if not line.startswith(_MARK)]
-                    job.failed(unit, "its code cannot be imported", more=said[-_LAST:])
-                done[unit] = Made(code == 0, cpu)
+                    job.add_failure(unit, "its code cannot be imported", more=said[-_LAST:])
+                done[unit] = ComponentBuild(code == 0, cpu)
         except BaseException:
             job.processes.end()
             raise

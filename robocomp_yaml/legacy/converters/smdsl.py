@@ -8,7 +8,7 @@ from __future__ import annotations
 import msgspec
 from lark import Token, Tree
 
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.emit.xml_text import HEAD, comment, element
 from robocomp_yaml.legacy.document import Notes
 from robocomp_yaml.legacy.draft import MachineDraft, Reader
@@ -130,7 +130,7 @@ class _SmdslConverter:
 
     def _cycles(self, top: _Block, inner: list[_Block]) -> None:
         """Report states that are nested only in themselves."""
-        placed = reached(top.states, lambda state: state.states)
+        placed = reachable(top.states, lambda state: state.states)
         for block in inner:
             parent = self.known.get(block.name)
             if parent is not None and parent not in placed:

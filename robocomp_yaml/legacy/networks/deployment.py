@@ -10,7 +10,7 @@ import msgspec
 
 from robocomp_yaml.diag.codes import managers as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.digraph import reached
+from robocomp_yaml.digraph import reachable
 from robocomp_yaml.legacy.document import List, Map, Notes, Raw
 from robocomp_yaml.legacy.draft import DeploymentDraft
 from robocomp_yaml.legacy.ledger import LedgerEntry
@@ -217,7 +217,7 @@ class _DeploymentBuilder(msgspec.Struct, eq=False):
     def is_in_cycle(self, node: NetworkNode) -> bool:
         """Whether a node depends on itself through others. A deployment ignores one of these dependences."""
         waits = self.waits
-        return node.name in reached(waits.get(node.name, ()), lambda name: waits.get(name, ()))
+        return node.name in reachable(waits.get(node.name, ()), lambda name: waits.get(name, ()))
 
     def keep_dependences(self, node: NetworkNode) -> None:
         """Keep the dependences of the file where `after:` is not equivalent."""

@@ -1,4 +1,4 @@
-"""How a deployment is shown: what needs no process to be seen."""
+"""The output of deployments, without any process."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_progress_takes_one_line_of_a_narrow_terminal_for_each(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_progress_has_one_line_for_each_process_on_a_narrow_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = Terminal()
     monkeypatch.setattr(sys, "stdout", terminal)
     monkeypatch.setenv("COLUMNS", "12")
@@ -48,6 +48,9 @@ def test_progress_takes_one_line_of_a_narrow_terminal_for_each(monkeypatch: pyte
 
 
 @pytest.mark.parametrize("option", ["-v", "--quiet", "--color"])
-def test_an_option_of_all_commands_stands_before_them(rcyaml: Callable[..., Result], option: str) -> None:
-    told = rcyaml("deploy", "plan", ".", option)
-    assert told.exit_code == 2 and f"'{option}' stands before the command: rcyaml {option} …" in told.stderr
+def test_a_global_option_is_written_before_the_command(rcyaml: Callable[..., Result], option: str) -> None:
+    result = rcyaml("deploy", "plan", ".", option)
+    assert (
+        result.exit_code == 2
+        and f"'{option}' is an option of rcyaml: write it before the command, rcyaml {option} …" in result.stderr
+    )

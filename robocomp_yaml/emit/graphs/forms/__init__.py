@@ -27,7 +27,7 @@ def draw(picture: Picture, form: str, plugins: Plugins = NONE) -> str:
     """The picture in a form, which is called as its module."""
     if form in plugins.of(GRAPHS):
         plugin, module = plugins.of(GRAPHS)[form]
-        with plugin.answering(f"picture '{form}'"):
+        with plugin.guarded(f"picture '{form}'"):
             drawn = module.draw(picture)
             if not isinstance(drawn, str):
                 raise TypeError("it gives no text")

@@ -1,4 +1,4 @@
-"""What compilers print, as diagnostics at the user's own lines."""
+"""The output of compilers, as diagnostics at lines of the user's code."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_yaml.building.said import Said
+from robocomp_yaml.building.compiler_output import CompilerOutput
 from robocomp_yaml.diag.diagnostic import Diagnostic
 
 CODE = "#include <x.h>\nint main() {\n\treturn opne(1);\n}\n"
 
 
 @pytest.fixture
-def said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def parse(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "arm").mkdir()
     (tmp_path / "arm" / "arm.cpp").write_text(CODE, encoding="utf-8")
 
     def read(text: str) -> list[Diagnostic]:
-        return list(Said("build", "the compiler").diagnostics(text.splitlines()))
+        return list(CompilerOutput("build", "the compiler").diagnostics(text.splitlines()))
 
     return read
 
@@ -28,9 +28,9 @@ def places(found: list[Diagnostic]) -> list[tuple[object, ...]]:
     return [(one.code, one.span.file, one.span.line, one.span.column, one.span.end_column) for one in found]
 
 
-def test_gcc(said) -> None:
-    """Columns are those of a terminal, where a tab is eight; the marks say how long the place is."""
-    found = said(
+def test_gcc(parse) -> None:
+    """Columns are those of a terminal, with tabs of eight; the marks give the length."""
+    found = parse(
         "In file included from ../arm/arm.cpp:1:\n"
         "../arm/arm.cpp: In function ‘int main()’:\n"
         "../arm/arm.cpp:3:16: error: ‘opne’ was not declared in this scope; did you mean ‘open’?\n"
@@ -42,26 +42,26 @@ def test_gcc(said) -> None:
     )
     assert places(found) == [("RC8001", "arm/arm.cpp", 3, 9, 13), ("RC8002", "arm/arm.cpp", 2, 5, 6)]
     assert found[0].message == (
-        "the compiler refuses this: ‘opne’ was not declared in this scope; did you mean ‘open’?"
+        "the compiler rejects this: ‘opne’ was not declared in this scope; did you mean ‘open’?"
     )
     assert [(one.message, one.span.line) for one in found[0].related] == [("in here", 2)]
 
 
-def test_a_header_that_is_missing_and_the_same_twice(said) -> None:
+def test_a_missing_header_and_a_repeated_error(parse) -> None:
     line = "../arm/arm.cpp:1:10: fatal error: x.h: No such file or directory\n"
-    assert places(said(line + "compilation terminated.\n" + line)) == [("RC8001", "arm/arm.cpp", 1, 10, 11)]
+    assert places(parse(line + "compilation terminated.\n" + line)) == [("RC8001", "arm/arm.cpp", 1, 10, 11)]
 
 
-def test_javac(said) -> None:
-    """It tells no column: the mark stands below it."""
-    found = said("arm/arm.cpp:2: error: cannot find symbol\nint main() {\n    ^\n  symbol: class main\n1 error\n")
+def test_javac(parse) -> None:
+    """javac prints no column; the mark below the line shows it."""
+    found = parse("arm/arm.cpp:2: error: cannot find symbol\nint main() {\n    ^\n  symbol: class main\n1 error\n")
     assert [(one.span.line, one.span.column) for one in found] == [(2, 5)]
 
 
-def test_the_slice_compiler_and_the_linker(said) -> None:
-    slice_, link = said("../arm/Arm.ice:4: `Pose' is not defined\narm.cpp:3: undefined reference to `f()'\n")
-    assert slice_.message == "the Slice compiler refuses this: `Pose' is not defined"
-    assert link.message == "the linker refuses this: undefined reference to `f()'"
+def test_the_slice_compiler_and_the_linker(parse) -> None:
+    slice_, link = parse("../arm/Arm.ice:4: `Pose' is not defined\narm.cpp:3: undefined reference to `f()'\n")
+    assert slice_.message == "the Slice compiler rejects this: `Pose' is not defined"
+    assert link.message == "the linker rejects this: undefined reference to `f()'"
 
 
 @pytest.mark.parametrize(
@@ -74,9 +74,9 @@ def test_the_slice_compiler_and_the_linker(said) -> None:
         "a: b: c",
     ],
 )
-def test_what_has_no_place(said, text: str) -> None:
-    assert said(text) == []
+def test_lines_without_a_location(parse, text: str) -> None:
+    assert parse(text) == []
 
 
-def test_a_file_elsewhere_is_named_as_a_whole(said) -> None:
-    assert said("/usr/include/c++/12/vector:1:1: error: x")[0].span.file == "/usr/include/c++/12/vector"
+def test_a_file_outside_has_an_absolute_path(parse) -> None:
+    assert parse("/usr/include/c++/12/vector:1:1: error: x")[0].span.file == "/usr/include/c++/12/vector"

@@ -1,4 +1,4 @@
-"""Choices that plug-ins add to: those of the workspaces that a command line is about."""
+"""Choices that plug-ins extend: the plug-ins of the workspaces of a command line."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ _WORDS = "robocomp_yaml.words"
 
 
 def remember(ctx: click.Context, words: Sequence[str]) -> None:
-    """The words of a command line, before anything is known of them."""
+    """Remembers the words of a command line, before they are parsed."""
     ctx.meta[_WORDS] = tuple(words)
 
 
-class Plugged(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
-    """One of what `known` gives for the plug-ins of the workspaces of the paths on the command line; where there is
-    none, of that of the working folder. Nothing is looked for before somebody asks."""
+class PluginChoice(click.ParamType):  # type: ignore[type-arg]  # older ones are not generic
+    """A choice of the names that `known` returns for the plug-ins of the workspaces of all paths on the command line;
+    without a path, of the working folder. The plug-ins are resolved when the names are needed."""
 
     name = "choice"
 
@@ -38,7 +38,8 @@ class Plugged(click.ParamType):  # type: ignore[type-arg]  # older ones are not 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         choices = self.choices(ctx)
         if value not in choices:
-            _tell_of_plugins(ctx)
+            for path in _paths(ctx):
+                plugins_at(path)  # raises Faulty if the choice may be that of a plug-in that is missing
         return str(click.Choice(choices).convert(value, param, ctx))
 
     def choices(self, ctx: click.Context | None) -> list[str]:
@@ -50,30 +51,30 @@ class Plugged(click.ParamType):  # type: ignore[type-arg]  # older ones are not 
         return [CompletionItem(name) for name in self.choices(ctx) if name.startswith(incomplete)]
 
 
-def here(path: str = ".") -> Plugins:
-    """The plug-ins of the workspace that a path is in. Raises Faulty where one of them cannot be had."""
+def plugins_at(path: str = ".") -> Plugins:
+    """The plug-ins of the workspace that contains a path. Raises Faulty if one of them is missing or broken."""
     from robocomp_yaml.plugins import NONE
 
-    if not _may_name_some(path):
+    if not _may_name_plugins(path):
         return NONE
     from robocomp_yaml.diag.errors import Faulty
     from robocomp_yaml.link.workspace import above
 
-    workspace, said = above(path)
+    workspace, diagnostics = above(path)
     if not workspace.plugins.whole:
-        raise Faulty(said)
+        raise Faulty(diagnostics)
     return workspace.plugins
 
 
 def codes(ctx: click.Context | None = None) -> dict[str, Code]:
-    """The codes of those of the command line."""
+    """The codes of the plug-ins of the command line."""
     return {id_: code for plugins in _plugins(ctx) for id_, code in plugins.codes.items()}
 
 
 def _plugins(ctx: click.Context | None) -> list[Plugins]:
     from robocomp_yaml.plugins import NONE
 
-    paths = [path for path in _paths(ctx) if _may_name_some(path)]
+    paths = [path for path in _paths(ctx) if _may_name_plugins(path)]
     if not paths:
         return [NONE]
     from robocomp_yaml.link.workspace import above
@@ -81,25 +82,19 @@ def _plugins(ctx: click.Context | None) -> list[Plugins]:
     return [above(path)[0].plugins for path in paths]
 
 
-def _may_name_some(path: str) -> bool:
-    """Whether it is worth reading the workspace's settings, for which much is loaded."""
+def _may_name_plugins(path: str) -> bool:
+    """Whether the workspace of a path may name plug-ins. A quick test: reading its settings imports much."""
     from robocomp_yaml.source.discover import WORKSPACE_FILE
     from robocomp_yaml.source.regular import regular
 
-    here = os.path.abspath(path)
-    for end in (len(here), *(at for at in range(len(here) - 1, -1, -1) if here[at] == "/")):
-        folder = here[:end] or "/"
+    folder, below = os.path.abspath(path), ""
+    while folder != below:
         with suppress(OSError), open(os.path.join(folder, WORKSPACE_FILE), "rb", opener=regular) as file:
             return b"plugins" in file.read()
+        folder, below = os.path.dirname(folder), folder
     return False
 
 
 def _paths(ctx: click.Context | None) -> list[str]:
     words = ctx.meta.get(_WORDS, ()) if ctx is not None else ()
     return [word for word in words if os.path.exists(word)] or ["."]
-
-
-def _tell_of_plugins(ctx: click.Context | None) -> None:
-    """What is not known may be that of a plug-in that cannot be had: then it is told why."""
-    for path in _paths(ctx):
-        here(path)

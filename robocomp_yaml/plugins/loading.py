@@ -1,5 +1,5 @@
-"""The plug-ins that a workspace names, found among the installed distributions and loaded; and what tells one build of
-a plug-in from another."""
+"""The plug-ins that a workspace names: resolved among the installed distributions, loaded, and identified by their
+builds."""
 
 from __future__ import annotations
 
@@ -16,53 +16,54 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import meaning, suggest
-from robocomp_yaml.plugins import LANGUAGES, Plugin, Plugins, codes_in, reason_of
-from robocomp_yaml.plugins.kinds import BY_GROUP, Kind
+from robocomp_yaml.plugins import BY_GROUP, LANGUAGES, Kind, Plugin, Plugins, codes_in, reason_of
 from robocomp_yaml.source.digest import digest, states
 
-_OURS = re.compile(r"RC\d")
+_OWN_CODE = re.compile(r"RC\d")
 _CODE = re.compile(r"[A-Z]{2,}\d{3,4}")
 
 
-def found(named: Iterable[tuple[str, Span]]) -> tuple[Plugins, list[Diagnostic]]:
-    """The plug-ins of these names, each with the place that names it, and what is wrong with them."""
-    listed = list(named)
-    said: list[Diagnostic] = []
+def resolve(named: Iterable[tuple[str, Span]]) -> tuple[Plugins, list[Diagnostic]]:
+    """The plug-ins of these names, each with the location of its name, and their diagnostics."""
+    names = list(named)
+    diagnostics: list[Diagnostic] = []
     active: list[Plugin] = []
     seen: set[str] = set()
-    for name, span in listed:
-        if normal(name) in seen:
+    for name, span in names:
+        if normalized(name) in seen:
             continue
-        seen.add(normal(name))
+        seen.add(normalized(name))
         distribution = _distribution(name)
         if distribution is None:
-            said.append(codes.NO_PLUGIN.at(span, name=name, hint=_missing(name)))
+            diagnostics.append(codes.NO_PLUGIN.at(span, name=name, hint=_missing(name)))
             continue
         entries = _entries(distribution)
         if not entries:
-            said.append(codes.NOT_A_PLUGIN.at(span, name=name, hint=_other(name) or "take it out of `plugins:`"))
+            hint = _did_you_mean(name) or "remove it from `plugins:`"
+            diagnostics.append(codes.NOT_A_PLUGIN.at(span, name=name, hint=hint))
             continue
-        plugin = Plugin(normal(name), span, {})
+        plugin = Plugin(normalized(name), span, {})
         for entry in entries:
-            said += _add(plugin, entry, active)
+            diagnostics += _load_entry(plugin, entry, active)
         active.append(plugin)
-    are_broken = any(one.code in (codes.PLUGIN_BROKEN.id, codes.PLUGIN_CLASH.id) for one in said)
-    return Plugins(tuple(active), tuple(normal(name) for name, _ in listed), not said, are_broken), said
+    are_broken = any(one.code in (codes.PLUGIN_BROKEN.id, codes.PLUGIN_CLASH.id) for one in diagnostics)
+    plugins = Plugins(tuple(active), tuple(normalized(name) for name, _ in names), not diagnostics, are_broken)
+    return plugins, diagnostics
 
 
 def load(names: Iterable[str]) -> None:
-    """Makes what plug-ins say known, where their workspace is not read: what they said in an earlier run is told."""
-    found((name, Span("")) for name in names)
+    """Loads plug-ins for the codes of their diagnostics, which an earlier run reported."""
+    resolve((name, Span("")) for name in names)
 
 
-def normal(name: str) -> str:
-    """A distribution's name as installers compare it."""
+def normalized(name: str) -> str:
+    """The name of a distribution in the form in which installers compare it (PEP 503)."""
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
 def identity(name: str) -> str:
-    """What tells one build of a plug-in from another: what its installer recorded, and size and times of its modules,
-    which tell what was changed since, or in a checkout. '' where it is not installed."""
+    """A digest that changes with each build of a plug-in, from the record of its installer, and the sizes and times of
+    its modules, which change in a checkout; '' if it is not installed."""
     distribution = _distribution(name)
     if distribution is None:
         return ""
@@ -102,60 +103,60 @@ def _files(package: str) -> Iterator[str]:
         yield f"{spec.origin} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"
 
 
-def _add(plugin: Plugin, entry: metadata.EntryPoint, others: list[Plugin]) -> Iterator[Diagnostic]:
-    """Puts what an entry point names into the plug-in, or says why that cannot be."""
+def _load_entry(plugin: Plugin, entry: metadata.EntryPoint, others: list[Plugin]) -> Iterator[Diagnostic]:
+    """Adds the module of an entry point to the plug-in, or reports why that is not possible."""
     kind = BY_GROUP[entry.group]
     what = f"{kind.called} '{entry.name}'"
     try:
         module = entry.load()
-    except (Exception, SystemExit) as error:  # noqa: BLE001  # whatever somebody's module does when it is imported
+    except (Exception, SystemExit) as error:  # noqa: BLE001  # an imported module may do anything
         hint = _why_not(error, plugin.name)
         yield codes.PLUGIN_BROKEN.at(plugin.span, name=plugin.name, what=what, reason=reason_of(error), hint=hint)
         return
     if problem := kind.problem(entry.name, module) or _problem_of_codes(module):
-        yield codes.PLUGIN_BROKEN.at(plugin.span, name=plugin.name, what=what, reason=problem, hint=_LATER)
+        yield codes.PLUGIN_BROKEN.at(plugin.span, name=plugin.name, what=what, reason=problem, hint=_TELL_AUTHORS)
         return
     if clash := _clash(kind, entry.name, module, others):
         thing, other = clash
-        hint = "name one of the two" if other != "rcyaml" else _LATER
+        hint = "name one of the two" if other != "rcyaml" else _TELL_AUTHORS
         yield codes.PLUGIN_CLASH.at(plugin.span, name=plugin.name, what=thing, other=other, hint=hint)
         return
-    plugin.pieces[kind.name, entry.name] = module
+    plugin.modules[kind.name, entry.name] = module
     if kind.name == LANGUAGES:
         languages.add(module.LANGUAGE)
 
 
-_LATER = "tell its authors; another version may be right"
+_TELL_AUTHORS = "report it to its authors, or try another version"
 
 
 def _why_not(error: BaseException, name: str) -> str:
     if isinstance(error, ModuleNotFoundError) and error.name:
-        return f"install it again, with all that it needs: `pip install --force-reinstall {name}`"
-    return _LATER
+        return f"install it again, with its dependencies: `pip install --force-reinstall {name}`"
+    return _TELL_AUTHORS
 
 
 def _problem_of_codes(module: ModuleType) -> str:
     for code in codes_in(module):
         if not _CODE.fullmatch(code.id):
-            return f"'{code.id}' is no code: two or more capital letters, and three or four digits"
-        if _OURS.match(code.id):
-            continue  # one of ours, which it may give too; or a clash
+            return f"'{code.id}' is no code: a code has two or more capital letters, and three or four digits"
+        if _OWN_CODE.match(code.id):
+            continue  # a code of rcyaml, which it may report; `_clash` compares them
         try:
-            code.severity, code.message, code.entry  # noqa: B018 (to see whether they are there)
+            code.severity, code.message, code.entry  # noqa: B018 (raises if one is missing)
         except (KeyError, ValueError, OSError) as error:
-            return f"the page of {code.id} is not as it should be: {reason_of(error)}"
+            return f"the page of {code.id} is wrong: {reason_of(error)}"
     return ""
 
 
 def _clash(kind: Kind, name: str, module: ModuleType, others: list[Plugin]) -> tuple[str, str] | None:
-    """What of a module somebody else has already, and who."""
+    """What a module defines that is defined already, and by whom; None if nothing."""
     if name in kind.built_in():
         return f"{kind.called} '{name}'", "rcyaml"
     for other in others:
-        if kind.home and (kind.name, name) in other.pieces:
+        if kind.home and (kind.name, name) in other.modules:
             return f"{kind.called} '{name}'", f"plug-in '{other.name}'"
     for code in codes_in(module):
-        if _OURS.match(code.id):
+        if _OWN_CODE.match(code.id):
             from robocomp_yaml.diag.codes import table
 
             if table().get(code.id) != code:
@@ -167,17 +168,17 @@ def _clash(kind: Kind, name: str, module: ModuleType, others: list[Plugin]) -> t
 
 
 def _installed() -> dict[str, list[str]]:
-    """All plug-ins that are installed, with the names of what they add."""
+    """All installed plug-ins, with the names of their extensions."""
     entries = {distribution.name: _entries(distribution) for distribution in metadata.distributions()}
     return {name: [entry.name for entry in found] for name, found in entries.items() if found}
 
 
 def _missing(name: str) -> Hint:
-    return _other(name) or Hint(f"`pip install {name}` installs it, into the environment that rcyaml runs in")
+    return _did_you_mean(name) or Hint(f"`pip install {name}` installs it into the environment of rcyaml")
 
 
-def _other(name: str) -> Hint | None:
-    """The plug-in that was meant: by a name like its own, or by that of something that it has."""
+def _did_you_mean(name: str) -> Hint | None:
+    """A hint at the plug-in that was probably meant: one with a similar name, or with an extension of this name."""
     known = _installed()
     meant = suggest(name, known) or next((one for one, pieces in known.items() if name in pieces), None)
     return meaning(name, meant) if meant else None
