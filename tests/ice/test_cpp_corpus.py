@@ -19,7 +19,7 @@ from robocomp_yaml.cli import group
 from robocomp_yaml.diag.diagnostic import ERROR
 from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.component import of_language
-from robocomp_yaml.languages.cpp.ports import Ports
+from robocomp_yaml.languages.cpp.ports import port_views
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.component import Component, Language, Use
 from robocomp_yaml.pipeline import analyse
@@ -88,11 +88,11 @@ def test_every_operation_is_declared_as_ice_declares_it(modules: list[LinkedModu
         module = linked.module
         header = (tmp_path / f"{slice_target.file_name(linked)}.h").read_text(encoding="utf-8")
         expected = sorted(operations(header, module.name))
-        services = Ports(component(linked)).implements
+        services = port_views(component(linked)).implements
         got = [operation.declaration for service in services for operation in service.operations]
         ours = [re.sub(r"(, )?\s*const Ice::Current&\) override$", "", text).rstrip(",") for text in got]
         assert sorted(plain(text, module.name) for text in ours) == expected, module.path
-        for proxy in {accessor.proxy for accessor in Ports(component(linked)).requires}:
+        for proxy in {accessor.proxy for accessor in port_views(component(linked)).requires}:
             assert f"class {proxy.rpartition('::')[2]};" in header
         checked += len(expected)
     assert checked == sum(len(i.methods) for m in modules for i in m.module.all_interfaces) > 400

@@ -8,18 +8,23 @@ own below it, so that whatever CMake builds by itself is built here, too. A comp
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 
 from robocomp_yaml.building import stamps
 from robocomp_yaml.building.inputs import state
 from robocomp_yaml.building.job import Job, Made
 from robocomp_yaml.building.unit import Unit
-from robocomp_yaml.languages.cpp import commands_file, whole_tree
+from robocomp_yaml.languages.cpp import whole_tree
 from robocomp_yaml.languages.cpp.tree import Failure, Tree, source_of
 from robocomp_yaml.languages.cpp.whole_tree import WholeTree
+from robocomp_yaml.source.regular import regular, whole
+from robocomp_yaml.transactions import whole_file
+
+_COMMANDS = "compile_commands.json"
 
 
 def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
@@ -98,14 +103,14 @@ def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
             whole.remember(unit, is_fit=made_alone is not None)
             done[unit] = made_alone or Made(False)
         whole.save()
-        commands_file.write(root, [whole.folder, *whole.own_folders()])
+        _write_commands(root, [whole.folder, *whole.own_folders()])
     return done
 
 
 def _alone(job: Job, unit: Unit) -> dict[Unit, Made]:
     tree = Tree.own_of(unit)
     made = _in_own_tree(job, unit, tree)
-    commands_file.write(unit.folder, [tree.folder])
+    _write_commands(unit.folder, [tree.folder])
     return {unit: made or Made(False)}
 
 
@@ -119,3 +124,30 @@ def _in_own_tree(job: Job, unit: Unit, tree: Tree) -> Made | None:
         failure = made
     failure.tell(job, unit)
     return None
+
+
+def _write_commands(root: str, trees: Iterable[str]) -> None:
+    """Joins those of these trees; one that somebody else wrote stays."""
+    path = os.path.join(root, _COMMANDS)
+    entries = [entry for tree in trees for entry in _entries(os.path.join(tree, _COMMANDS))]
+    if os.path.lexists(path) and (os.path.islink(path) or not _is_of_builds(path, root)):
+        return
+    text = json.dumps(entries, indent=1, ensure_ascii=False).encode("utf-8", "surrogateescape") + b"\n"
+    with suppress(OSError):
+        if not os.path.exists(path) or whole(path)[0] != text:
+            whole_file.put(path, text)
+
+
+def _is_of_builds(path: str, root: str) -> bool:
+    """Whether each command in it is of a tree in `build/`."""
+    built = os.path.join(os.path.abspath(root), "build", "")
+    return all(os.path.join(str(entry.get("directory", "")), "").startswith(built) for entry in _entries(path))
+
+
+def _entries(path: str) -> list[dict[str, object]]:
+    try:
+        with open(path, encoding="utf-8", errors="surrogateescape", opener=regular) as file:
+            found = json.load(file)
+    except (OSError, ValueError):
+        return []
+    return [entry for entry in found if isinstance(entry, dict)] if isinstance(found, list) else []

@@ -3,14 +3,15 @@ component in C++ needs the module, and not in documents that were migrated: ther
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
 import msgspec
 
 from robocomp_yaml.check.idsl.names import fault_of
 from robocomp_yaml.diag.codes import idsl as codes
-from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic, Related
+from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
+from robocomp_yaml.emit.lowering.types import results
+from robocomp_yaml.languages._shared.checks import needed_by, result_structs, users
 from robocomp_yaml.languages.cpp import LANGUAGE
 from robocomp_yaml.languages.cpp.globals import GLOBALS
 from robocomp_yaml.languages.cpp.macros import EVER, FAMILIES, is_macro
@@ -24,13 +25,9 @@ _GENERATED = frozenset(("GenericWorker", "Parameters", "SpecificWorker", "Worker
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    users: dict[LinkedModule, list[LinkedComponent]] = defaultdict(list)
-    for component in program.components.values():
-        if component.component.language.target is LANGUAGE:
-            for scope in component.modules():
-                users[scope].append(component)
+    by_module = users(program, LANGUAGE)
     for linked in program.modules.values():
-        yield from _Module(linked, users[linked], program.disk).check()
+        yield from _Module(linked, by_module[linked], program.disk).check()
 
 
 def has_taken(module: Module) -> bool:
@@ -113,9 +110,9 @@ class _Module(msgspec.Struct):
 
     def in_result(self, method: Method) -> Iterator[Diagnostic]:
         """What a method gives back, if it is more than one thing, becomes a struct: its members are named so."""
-        if not _has_result(method):
+        types = results(method)
+        if len(types) < 2:
             return
-        types = [*((method.returns,) if method.returns else ()), *(output.type for output in method.outputs)]
         for number, output in enumerate(method.outputs):
             hides = any(self.is_own(other.type, output.name) for other in method.outputs[number + 1 :])
             if not hides and any(self.is_own(ref, output.name) for ref in types):
@@ -123,7 +120,7 @@ class _Module(msgspec.Struct):
 
     def results(self, interface: Interface) -> Iterator[Diagnostic]:
         """That struct's name."""
-        made = {f"{m.name[:1].upper()}{m.name[1:]}Result": m for m in interface.methods if _has_result(m)}
+        made = result_structs(interface)
         for method in interface.methods:
             if method.name in made:
                 yield self.clash(Name("method", method.name, method.span))
@@ -149,9 +146,7 @@ class _Module(msgspec.Struct):
     def said(self, told: Diagnostic, users: list[LinkedComponent]) -> Diagnostic:
         if not users or is_migrated(told.span.file, self.disk):
             return told
-        component = users[0].component
-        related = Related(f"component {component.name} is in C++, and needs it", component.language.span)
-        return msgspec.structs.replace(told, severity=ERROR, related=(*told.related, related))
+        return msgspec.structs.replace(told, severity=ERROR, related=(*told.related, needed_by(users[0])))
 
 
 def _clash(name: Name, other: str = "") -> Diagnostic:
@@ -165,10 +160,6 @@ def _is_macro_for(name: str, user: LinkedComponent) -> bool:
     component = user.component
     has_qt = component.gui is not None or component.compatibility != ""
     return is_macro(name, component.language.standard or LANGUAGE.standards[0], has_qt)
-
-
-def _has_result(method: Method) -> bool:
-    return len(method.outputs) + (method.returns is not None) > 1
 
 
 def _other(name: str) -> str:

@@ -7,7 +7,6 @@ part, the user's skeleton and the files for CMake.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -18,10 +17,11 @@ from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON, lower
 from robocomp_yaml.emit.lowering.kinds import pattern_count
 from robocomp_yaml.emit.render import render
 from robocomp_yaml.emit.slice import file_name
+from robocomp_yaml.languages._shared.views import ignored_program
 from robocomp_yaml.languages.cpp import LANGUAGE, parameters, qt
-from robocomp_yaml.languages.cpp.ports import AccessorView, Ports, ServiceView
+from robocomp_yaml.languages.cpp.ports import Ports, port_views
 from robocomp_yaml.languages.cpp.qt import QtView, RobocompView
-from robocomp_yaml.languages.cpp.text import comment, one_line, quoted
+from robocomp_yaml.languages.cpp.text import comment, one_line
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
 from robocomp_yaml.transactions.plan import ONCE, FilePlan
 
@@ -42,12 +42,7 @@ class View(msgspec.Struct, frozen=True):
     comment: str
     period: int
     headers: list[str]
-    services: list[ServiceView]
-    implements: list[ServiceView]
-    subscribes: list[ServiceView]
-    accessors: list[AccessorView]
-    requires: list[AccessorView]
-    publishes: list[AccessorView]
+    ports: Ports
     connect_parameters: str
     has_topics: bool
     target: str
@@ -67,7 +62,10 @@ class View(msgspec.Struct, frozen=True):
 
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
     """The component's files but for `slice/`, `etc/` and the run time."""
-    parts = [*(_machine().files(component.machine) if component.machine else []), *windows.form_of(component)]
+    parts = [
+        *(LANGUAGE.part("statemachine").files(component.machine) if component.machine else []),
+        *windows.form_of(component),
+    ]
     view = _view(component, layout)
     if view.robocomp:
         return _robocomp(component, view, parts)
@@ -81,14 +79,8 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
         FilePlan("src/specificworker.h", render("cpp/specificworker.h.j2", view), ONCE),
         FilePlan("src/specificworker.cpp", render("cpp/specificworker.cpp.j2", view), ONCE),
         FilePlan("CMakeLists.txt", render("cpp/CMakeLists.txt.j2", view), ONCE),
-        _ignored(view),
+        ignored_program(view.name),
     ]
-
-
-def _machine() -> ModuleType:
-    from robocomp_yaml.languages.cpp import statemachine  # with all about machines, which few have
-
-    return statemachine
 
 
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
@@ -120,26 +112,19 @@ def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> 
         *parts,
         *(FilePlan(path, render(f"cpp/{name}.j2", view)) for path, name in names.items()),
         *(FilePlan(path, render(f"cpp/{name}.j2", view), ONCE) for path, name in own.items()),
-        _ignored(view),
+        ignored_program(view.name),
     ]
-
-
-def _ignored(view: View) -> FilePlan:
-    """The program is made by a build, where components in Python have a launcher that belongs to the repository."""
-    head = "# This file is yours: rcyaml wrote it once. Below is what the build makes."
-    return FilePlan("bin/.gitignore", f"{head}\n/{view.name}\n", ONCE)
 
 
 def _view(linked: LinkedComponent, layout: Layout) -> View:
     component = linked.component
-    ports = Ports(linked)
+    ports = port_views(linked)
     has_topics = bool(ports.publishes or ports.subscribes)
-    has_services = bool(ports.implements or ports.subscribes)
     lowered = lower(linked)
     is_needed = linked.component.compatibility or not lowered.is_common
     files = [file for file in lowered.files if is_needed or file != COMMON]
     connections = "connections" if has_topics or ports.requires else "/*connections*/"
-    services = "services" if has_services else "/*services*/"
+    services = "services" if ports.services else "/*services*/"
     is_taken = component.name.lower() in _CMAKE_TARGETS
     return View(
         source=one_line(lowered.source),
@@ -147,12 +132,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         comment=comment(lowered.doc),
         period=lowered.period,
         headers=[f"{file}.h" for file in files],
-        services=[*ports.implements, *ports.subscribes],
-        implements=ports.implements,
-        subscribes=ports.subscribes,
-        accessors=[*ports.requires, *ports.publishes],
-        requires=ports.requires,
-        publishes=ports.publishes,
+        ports=ports,
         connect_parameters=f"const runtime::Connections& {connections}, runtime::Services& {services}",
         has_topics=has_topics,
         target=f"{component.name}_component" if is_taken else component.name,
@@ -164,7 +144,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
         slices=_slices(linked),
         parts=" ".join(f"rcyaml::{part}" for part in _parts(linked, has_topics=has_topics)),
         sources=["genericworker.cpp", "parameters.cpp", *(["statemachine.cpp"] if linked.machine else [])],
-        machine=_machine().view(linked.machine) if linked.machine else None,
+        machine=LANGUAGE.part("statemachine").view(linked.machine) if linked.machine else None,
         base=_base(linked),
         qt=qt.qt_view(linked),
         robocomp=qt.robocomp_view(linked, ports),
@@ -175,11 +155,12 @@ def _slices(linked: LinkedComponent) -> list[str]:
     """Each Slice file of the component's own modules, with those that it includes, as words of CMake; CommonBehavior
     stands in the run time."""
 
-    def stem(scope: LinkedModule) -> str:
-        return file_name(scope).removesuffix(".ice")
+    def word(scope: LinkedModule) -> str:
+        stem = file_name(scope).removesuffix(".ice")
+        return '"{}"'.format(stem.replace("\\", "\\\\").replace('"', '\\"'))
 
     return [
-        " ".join(quoted(stem(one)) for one in (scope, *(other for other in scope.closure() if other is not scope)))
+        " ".join(word(one) for one in (scope, *(other for other in scope.closure() if other is not scope)))
         for scope in linked.modules()
         if scope.module.name != BEHAVIOR or not runtime.has_common(linked)
     ]

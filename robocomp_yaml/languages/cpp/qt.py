@@ -8,9 +8,9 @@ from collections.abc import Iterator
 import msgspec
 from msgspec.structs import replace
 
+from robocomp_yaml.languages._shared.text import IN, declaration
 from robocomp_yaml.languages.cpp.names import ice_name, parameter, qualified
 from robocomp_yaml.languages.cpp.ports import AccessorView, Ports, ServiceView
-from robocomp_yaml.languages.cpp.text import IN, declaration
 from robocomp_yaml.languages.cpp.types import input_type, type_name
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Method
@@ -60,7 +60,7 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
     component = linked.component
     if not component.compatibility:
         return None
-    accessors = [*ports.requires, *ports.publishes]
+    accessors = ports.accessors
     served = sorted({port.interface.name.lower() for port in (*linked.implements, *linked.subscribes)})
     return RobocompView(
         base=f"{component.gui.base}, public Ui_guiDlg" if component.gui else "QObject",
@@ -72,7 +72,7 @@ def robocomp_view(linked: LinkedComponent, ports: Ports) -> RobocompView | None:
         namespaces=[ice_name(scope.module.name) for scope in linked.modules()],
         enumerators=[_enumerators(scope) for scope in linked.modules()],
         legacy_sources="|".join(["commonbehaviorI", *(f"{name}I" for name in served)]),
-        services=[_behind_pointer(service) for service in (*ports.implements, *ports.subscribes)],
+        services=[_behind_pointer(service) for service in ports.services],
     )
 
 

@@ -1,12 +1,13 @@
-"""Pieces of C++ source: comments and declarations, laid out as a person would."""
+"""Pieces of C++ source: comments, literals, and expressions laid out as a person would."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
-WIDTH = 120
-IN = "    "
+from robocomp_yaml.languages._shared.text import IN, WIDTH
+
+_LEAST = -(2**63)
 _LITERAL_OR_MARK = re.compile(r""""(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|[][(){},]""", re.DOTALL)
 
 
@@ -16,34 +17,61 @@ def comment(text: str, indent: str = "") -> str:
     return f"\n{indent}".join(f"/// {line}".rstrip() for line in lines)
 
 
-def declaration(head: str, parameters: Sequence[str], tail: str = "", indent: str = "") -> str:
-    """`HEAD(PARAMETERS)TAIL`, with the parameters on lines of their own where it would be too long; without the first
-    line's indent."""
-    line = f"{head}({', '.join(parameters)}){tail}"
-    if len(indent) + len(line) <= WIDTH:
-        return line
-    inner = f"{indent}{IN}"
-    joined = ", ".join(parameters)
-    if len(inner) + len(joined) + 1 + len(tail) > WIDTH:
-        joined = f",\n{inner}".join(parameters)
-    return f"{head}(\n{inner}{joined}){tail}"
-
-
 def one_line(text: str) -> str:
     """A document's text as the rest of a line of comment."""
     return _plain(" ".join(text.split()))
-
-
-def quoted(text: str) -> str:
-    """A string literal; what is no plain character becomes an escape."""
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{escaped}"'
 
 
 def _plain(line: str) -> str:
     """Without what is no text, and without the backslash that would draw the next line into the comment."""
     kept = line if line.isprintable() else "".join(c for c in line if c.isprintable() or c == "\t")
     return kept.rstrip(" \t\\")
+
+
+def literal(data: str) -> str:
+    """A string literal; what does not print becomes an octal escape, which has an end."""
+    escaped = "".join(_CHARS.get(char) or (char if char.isprintable() else _octal(char)) for char in data)
+    return f'"{escaped}"'
+
+
+_CHARS = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r", "?": "\\?"}
+
+
+def _octal(char: str) -> str:
+    return "".join(f"\\{byte:03o}" for byte in char.encode("utf-8", "surrogatepass"))
+
+
+def string(data: str) -> str:
+    """An expression for a std::string, or what becomes one: a literal ends at a NUL."""
+    return (
+        f"std::string({literal(data)}, {len(data.encode('utf-8', 'surrogatepass'))})" if "\0" in data else literal(data)
+    )
+
+
+def number(data: int | float) -> str:
+    if isinstance(data, float):
+        return repr(data)
+    if -(2**31) < data < 2**31:
+        return str(data)
+    return f"({data + 1}LL - 1)" if data == _LEAST else f"{data}LL" if _LEAST < data < 2**63 else repr(float(data))
+
+
+def value(data: object) -> str:
+    """An expression for a runtime::Value, or for what becomes one."""
+    match data:
+        case bool():
+            return "true" if data else "false"
+        case str():
+            return string(data)
+        case int() | float():
+            return number(data)
+        case list():
+            return f"runtime::Value(runtime::Value::List{{{', '.join(map(value, data))}}})"
+        case dict():
+            pairs = ", ".join(f"{{{string(key)}, {value(item)}}}" for key, item in data.items())
+            return f"runtime::Value(runtime::Value::Map{{{pairs}}})"
+        case _:
+            raise TypeError(f"no plain data: {data!r}")
 
 
 def folded(code: str, indent: str) -> str:

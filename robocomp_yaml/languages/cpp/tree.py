@@ -11,12 +11,12 @@ from contextlib import contextmanager, suppress
 import msgspec
 
 from robocomp_yaml.building.job import Job, Made, Step
+from robocomp_yaml.building.processes import Processes
 from robocomp_yaml.building.said import Said
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import has_errors
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.languages.cpp import ninja_log
 from robocomp_yaml.source.regular import text as text_of
 
 NINJA, MAKE = "Ninja", "Unix Makefiles"
@@ -25,6 +25,7 @@ _STATUS = re.compile(r"\[ *(\d+)(?:/(\d+)|%)\] (.*)")
 _FAILED = re.compile(r"FAILED: (.*)")
 _ERROR = re.compile(r"CMake Error(?: at (?P<file>.*?):(?P<line>\d+) \(.*\)| in (?P<folder>.*?))?: ?(?P<text>.*)")
 _CALL = re.compile(r"  (?P<file>\S.*?):(?P<line>\d+) \(.*\)")
+_DEPS = "#deps"
 _UNDEFINED = re.compile(r"undefined reference to [`‘'](.*)['’]")
 _LAST = 10  # lines that are shown of what failed without a word that is understood
 
@@ -120,15 +121,15 @@ class Tree(msgspec.Struct, frozen=True):
         run = _Run(self, job, parts)
         is_ninja = self.cache.get("CMAKE_GENERATOR") != MAKE
         targets = [f"{part}/all" if part else "all" for part in parts.values()]
-        before = ninja_log.read(self.folder)
+        before = _log(self.folder)
         command = self._command(job, targets, is_ninja)
         with self._kept(parts):
             ended = job.processes.run(command, run.line, cwd=self.folder, env=_ENVIRONMENT)
         run.flush()
         if run.is_unconfigured:
             return _failure(run.lines, os.path.abspath(self.source))
-        shares = ninja_log.shares(before, ninja_log.read(self.folder), ended.cpu)
-        read = ninja_log.read_files(job.processes, self.folder, self.root) if is_ninja else {}
+        shares = _shares(before, _log(self.folder), ended.cpu)
+        read = _read_files(job.processes, self.folder, self.root) if is_ninja else {}
         done: dict[Unit, Made] = {}
         for unit, part in parts.items():
             is_made = not ended.code or (unit not in run.failed and self._is_made(job, unit, part, is_ninja))
@@ -290,3 +291,52 @@ def _is_below(path: str, folder: str) -> bool:
 def _shown(path: str) -> str:
     relative = os.path.relpath(path)
     return path if relative.startswith(os.pardir) else relative
+
+
+def _log(folder: str) -> dict[str, tuple[str, ...]]:
+    """Of each output, the entry of its last step: begin and end in milliseconds, time of change, hash."""
+    found: dict[str, tuple[str, ...]] = {}
+    for line in (text_of(os.path.join(folder, ".ninja_log")) or "").splitlines()[1:]:
+        fields = line.split("\t")
+        if len(fields) == 5:
+            found[fields[3]] = (*fields[:3], fields[4])
+    return found
+
+
+def _shares(
+    before: Mapping[str, tuple[str, ...]], after: Mapping[str, tuple[str, ...]], cpu: float
+) -> dict[str, float]:
+    """What each step of a run took of its seconds of processors, in proportion to its time."""
+    taken = {path: int(entry[1]) - int(entry[0]) for path, entry in after.items() if before.get(path) != entry}
+    total = sum(taken.values())
+    return {path: cpu * time / total for path, time in taken.items()} if total else {}
+
+
+def _read_files(processes: Processes, folder: str, root: str) -> dict[str, set[str]]:
+    """Of each object, the files below `root` that its compiler read, but for those of the tree itself."""
+    found: dict[str, set[str]] = {}
+    top, tree = (os.path.join(os.path.realpath(one), "") for one in (root, folder))
+    known: dict[str, str] = {}
+    current: set[str] = set()
+
+    def place(named: str) -> str:
+        """The file as seen from the root; '' where it is not below."""
+        path = os.path.realpath(os.path.join(folder, named))
+        return os.path.normpath(os.path.join(root, path[len(top) :])) if _is_in(path, top, tree) else ""
+
+    def line(line: str) -> None:
+        nonlocal current
+        if line.startswith("    "):
+            if line not in known:
+                known[line] = place(line[4:])
+            if known[line]:
+                current.add(known[line])
+        elif _DEPS in line:
+            current = found.setdefault(line.partition(f": {_DEPS}")[0], set())
+
+    processes.run(["ninja", "-t", "deps"], line, cwd=folder)
+    return found
+
+
+def _is_in(path: str, top: str, tree: str) -> bool:
+    return path.startswith(top) and not path.startswith(tree)

@@ -60,7 +60,7 @@ class WholeTree:
         self.folder = folder_of(root, type_)
         self.tree = Tree(self.folder, self.folder, root)
         self.members: list[Unit] = []
-        self._root, self._is_new = root, True
+        self._is_new = True
         memory = _read(os.path.join(self.folder, _MEMORY))
         self._sources = {name: path for name, path in memory.get("components", {}).items() if _has_lists(path)}
         self._alone = set(memory.get("alone", {}))
@@ -91,14 +91,14 @@ class WholeTree:
     def own_folders(self) -> list[str]:
         return sorted(glob.glob(os.path.join(glob.escape(self.folder), _OWN, "*")))
 
-    def admit(self, units: Iterable[Unit]) -> list[Unit]:
+    def admit(self, units: Iterable[Unit]) -> None:
         """Those that are built in company."""
         self.members = [unit for unit in units if unit.name not in self._alone and not _is_top(unit)]
         for unit in units:
-            self._sources.pop(unit.name, None) if unit not in self.members else None
+            if unit not in self.members:
+                self._sources.pop(unit.name, None)
         self._sources |= {unit.name: os.path.abspath(source_of(unit)) for unit in self.members}
         self._write()
-        return self.members
 
     def leave_out(self, failure: Failure) -> bool:
         """Whether those are known, and out of it, that kept it from being configured."""

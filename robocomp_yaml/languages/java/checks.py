@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 
 from robocomp_yaml.diag.codes import languages as codes
-from robocomp_yaml.diag.diagnostic import Diagnostic, Related
+from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.languages._shared.checks import needed_by, result_structs, users
 from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import PACKAGE
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
@@ -25,12 +26,7 @@ INSIDE = {
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    users: dict[LinkedModule, LinkedComponent] = {}
-    for component in program.components.values():
-        if component.component.language.target is LANGUAGE:
-            for scope in component.modules():
-                users.setdefault(scope, component)
-    for scope, user in users.items():
+    for scope, (user, *_) in users(program, LANGUAGE).items():
         for name, other in _impossible(scope):
             yield _told(name, other, user)
 
@@ -79,7 +75,7 @@ def _is_hidden(ref: TypeRef, member: Member, scope: LinkedModule) -> bool:
 
 def _hidden(interface: Interface) -> Iterator[tuple[Name, str]]:
     """What a method gives back, if it is more than one thing, becomes a class in the interface: it hides a type."""
-    made = {f"{m.name[:1].upper()}{m.name[1:]}Result": m for m in interface.methods if len(results(m)) > 1}
+    made = result_structs(interface)
     for ref in types_of(interface):
         if ref.name in made:
             method = made[ref.name]
@@ -91,12 +87,11 @@ def _other(name: str) -> str:
 
 
 def _told(name: Name, other: str, user: LinkedComponent) -> Diagnostic:
-    related = Related(f"component {user.component.name} is in Java, and needs it", user.component.language.span)
     return codes.IMPOSSIBLE_NAME.at(
         name.span,
         language=LANGUAGE.title,
         kind=name.kind,
         name=name.text,
-        related=[related],
+        related=[needed_by(user)],
         hint=f"call it '{other}'",
     )

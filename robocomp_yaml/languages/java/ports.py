@@ -7,8 +7,10 @@ import msgspec
 from robocomp_yaml.emit.lowering import ports as lowering
 from robocomp_yaml.emit.lowering.names import Names
 from robocomp_yaml.emit.lowering.types import found, results
+from robocomp_yaml.languages._shared.text import IN, declaration
+from robocomp_yaml.languages._shared.views import PortViews
 from robocomp_yaml.languages.java.names import PORTS, ice_name, parameter, proxy, qualified
-from robocomp_yaml.languages.java.text import IN, comment, declaration, literal, one_line
+from robocomp_yaml.languages.java.text import comment, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port
 from robocomp_yaml.model.interface import Enum, Map, Member, Method, Sequence, TypeRef
 
@@ -32,7 +34,7 @@ class OperationView(msgspec.Struct, frozen=True):
 
 
 class ServiceView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port; `arguments` make the run time's, and `comma` stands behind it.
+    """An implemented or subscribed port; `arguments` make the run time's.
     `new_methods` are those that no earlier port has brought."""
 
     title: str
@@ -41,7 +43,6 @@ class ServiceView(msgspec.Struct, frozen=True):
     arguments: str
     operations: list[OperationView]
     new_methods: list[MethodView]
-    comma: str = ","
 
 
 class AccessorView(msgspec.Struct, frozen=True):
@@ -54,15 +55,17 @@ class AccessorView(msgspec.Struct, frozen=True):
     made: str
 
 
-class Ports:
-    """All ports of a component."""
+Ports = PortViews[AccessorView, ServiceView]
 
-    def __init__(self, component: LinkedComponent) -> None:
-        lowered, servants = lowering.lower(component, PORTS), Names(("Services",))
-        self.requires = [_required(accessor) for accessor in lowered.requires]
-        self.publishes = [_published(accessor) for accessor in lowered.publishes]
-        self.implements = [_service(one, servants, "Servant", one.identity) for one in lowered.implements]
-        self.subscribes = [_service(one, servants, "Subscriber", "") for one in lowered.subscribes]
+
+def port_views(component: LinkedComponent) -> Ports:
+    lowered, servants = lowering.lower(component, PORTS), Names(("Services",))
+    return Ports(
+        [_required(accessor) for accessor in lowered.requires],
+        [_published(accessor) for accessor in lowered.publishes],
+        [_service(one, servants, "Servant", one.identity) for one in lowered.implements],
+        [_service(one, servants, "Subscriber", "") for one in lowered.subscribes],
+    )
 
 
 def _required(accessor: lowering.Accessor) -> AccessorView:
@@ -127,13 +130,8 @@ def _method(called: lowering.Called) -> MethodView:
 
 
 def _throws(method: Method, port: Port) -> str:
-    names = [qualified(*_home(ref, port.scope)) for ref in method.throws]
+    names = [type_name(ref, port.scope) for ref in method.throws]
     return f" throws {', '.join(names)}" if names else ""
-
-
-def _home(ref: TypeRef, scope: LinkedModule) -> tuple[LinkedModule, str]:
-    home, definition = found(ref, scope)
-    return home, definition.name
 
 
 def _stub(called: lowering.Called, returns: str) -> list[str]:

@@ -1,11 +1,9 @@
-"""Pieces of Java source: comments, literals and signatures."""
+"""Pieces of Java source: comments and literals."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-WIDTH = 120
-IN = "    "
 _LONGEST = 20_000  # characters of a literal: a class file takes 65,535 bytes
 _CHARS = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 _IN_COMMENTS = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "\\": "&#92;", "@": "&#64;"}
@@ -73,16 +71,3 @@ def value(data: object) -> str:
 
 def listed(items: Sequence[str]) -> str:
     return f"java.util.List.of({', '.join(items)})"
-
-
-def declaration(head: str, parameters: Sequence[str], tail: str, indent: str) -> str:
-    """`HEAD(PARAMETERS)TAIL`, with the parameters on a line of their own, or each, where it would be too long; without
-    the first line's indent."""
-    line = f"{head}({', '.join(parameters)}){tail}"
-    if len(indent) + len(line) <= WIDTH:
-        return line
-    inner = f"{indent}{IN}"
-    joined = ", ".join(parameters)
-    if len(inner) + len(joined) + 1 + len(tail) > WIDTH:
-        joined = f",\n{inner}".join(parameters)
-    return f"{head}(\n{inner}{joined}){tail}"

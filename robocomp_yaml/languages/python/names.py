@@ -45,11 +45,6 @@ def proxy_method(name: str) -> str:
     return f"_{name}" if name in _PROXY_METHODS else python_name(name)
 
 
-def is_forgotten(name: str) -> bool:
-    """Whether Python cannot have the name, and Ice does not escape it."""
-    return name in FORGOTTEN
-
-
 def module_variable(name: str) -> str:
     """The variable that holds a Slice module in a generated file."""
     return f"_{name}" if name in _TAKEN else python_name(name)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import msgspec
 
@@ -20,8 +20,9 @@ from robocomp_yaml.emit.lowering.parameters import (
     titled,
 )
 from robocomp_yaml.emit.render import render
+from robocomp_yaml.languages._shared.views import constraint_views
 from robocomp_yaml.languages.python import LANGUAGE
-from robocomp_yaml.languages.python.text import docstring, literal, one_line
+from robocomp_yaml.languages.python.text import docstring, folded, literal, one_line
 from robocomp_yaml.link.program import LinkedComponent
 from robocomp_yaml.parameters.specification.document import Spelling as PropertySpelling
 from robocomp_yaml.parameters.types import (
@@ -37,7 +38,7 @@ from robocomp_yaml.parameters.types import (
 )
 from robocomp_yaml.transactions.plan import FilePlan
 
-WIDTH = 112
+WIDTH = 92
 _TAKEN = (
     "Literal Mapping Optional Parameters TABLE Values annotations bool composite constraints float int parameters "
     "plain reading str tuple"
@@ -80,31 +81,19 @@ def plan(linked: LinkedComponent) -> FilePlan:
 
 def text(parameters: Parameters, component: str, source: str) -> str:
     """The module with the parameters of a component, made from the document `source`."""
-    return render("python/parameters.py.j2", _view(parameters, component, one_line(source.rpartition("/")[2])))
-
-
-def _view(parameters: Parameters, name: str, source: str) -> View:
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
-    constraints = _constraints(parameters) if parameters.constraints else []
-    return View(
-        source=source,
-        title=docstring(titled(f"The parameters of {name}.", parameters.doc), ""),
+    constraints = constraint_views(parameters, LANGUAGE, literal)
+    view = View(
+        source=one_line(source.rpartition("/")[2]),
+        title=docstring(titled(f"The parameters of {component}.", parameters.doc), ""),
         imports=list(_imports(views, bool(types.enums), bool(parameters.spellings), bool(constraints))),
         enums=[types.enum(enum) for enum in types.enums],
         records=views,
         spellings=[f"{literal(spelling.path)}: {_spelling(spelling)}" for spelling in parameters.spellings],
         constraints=constraints,
     )
-
-
-def _constraints(parameters: Parameters) -> list[ConstraintView]:
-    from robocomp_yaml.languages.python.constraints import lambda_of  # with all about expressions
-
-    return [
-        ConstraintView(literal(each.text), literal(each.message), lambda_of(each.expression, parameters.root))
-        for each in parameters.constraints
-    ]
+    return render("python/parameters.py.j2", view)
 
 
 def _imports(views: list[RecordView], enums: bool, spellings: bool, constraints: bool) -> Iterator[str]:
@@ -161,7 +150,9 @@ class _Types(Types):
         hint = self.spelled(member.type, inner)
         hint = f"Optional[{hint}]" if member.optional else hint
         doc = about_member(member, "\n\n")
-        return MemberView(name, hint, _call("composite.member", arguments, "    "), docstring(doc, "    "))
+        return MemberView(
+            name, hint, folded("composite.member(", arguments, ")", "    ", WIDTH), docstring(doc, "    ")
+        )
 
     def kind(self, type_: Type, group: str | None) -> str:
         match type_:
@@ -222,14 +213,4 @@ def _spelling(spelling: PropertySpelling) -> str:
     words += [f"separators={literal(spelling.separators)}"] if spelling.separators else []
     words += ["trailing=True"] if spelling.trailing else []
     words += [f"count={literal(spelling.count)}"] if spelling.count else []
-    return _call("reading.Spelling", words, "        ")
-
-
-def _call(function: str, arguments: Iterable[str], indent: str) -> str:
-    """On one line, or one argument a line where it would be too long."""
-    words = list(arguments)
-    line = f"{function}({', '.join(words)})"
-    if len(indent) + len(line) <= WIDTH - 20:
-        return line
-    inner = "".join(f"{indent}    {word},\n" for word in words)
-    return f"{function}(\n{inner}{indent})"
+    return folded("reading.Spelling(", words, ")", "        ", WIDTH)

@@ -6,13 +6,12 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
+from robocomp_yaml.languages._shared.text import IN
 from robocomp_yaml.languages.python.names import module_variable, parameters, proxy_method, python_name
 from robocomp_yaml.languages.python.text import about, docstring, signature
 from robocomp_yaml.languages.python.types import hint, qualified, result_hint
 from robocomp_yaml.link.program import Definition, LinkedModule
 from robocomp_yaml.model.interface import Constant, Enum, ExceptionType, Interface, Member, Struct
-
-IN = "    "
 
 
 class MethodStub(msgspec.Struct, frozen=True):

@@ -21,12 +21,16 @@ def docstring(text: str, indent: str) -> str:
 
 def signature(name: str, parameters: Sequence[str], returns: str, indent: str) -> str:
     """`def name(self, …) -> …:`, one parameter a line where it would be too long."""
-    words = ["self", *parameters]
-    line = f"def {name}({', '.join(words)}) -> {returns}:"
-    if len(indent) + len(line) <= WIDTH:
+    return folded(f"def {name}(", ["self", *parameters], f") -> {returns}:", indent)
+
+
+def folded(head: str, items: Sequence[str], tail: str, indent: str, width: int = WIDTH) -> str:
+    """HEAD, the items with commas between them, and TAIL: on one line, or with one item on each line where that is
+    longer than `width` or an item has lines. The first line has no indent."""
+    line = f"{head}{', '.join(items)}{tail}"
+    if len(indent) + len(line) <= width and "\n" not in line:
         return line
-    inner = "".join(f"{indent}    {word},\n" for word in words)
-    return f"def {name}(\n{inner}{indent}) -> {returns}:"
+    return "".join([f"{head}\n", *(f"{indent}    {item},\n" for item in items), f"{indent}{tail.removeprefix(',')}"])
 
 
 def literal(data: object) -> str:

@@ -9,15 +9,19 @@ from generated.machine.tree import ROOT, Tree
 from generated.runtime.semantics.tables import Action, Transition
 
 
-class Entry:
+class EntrySet:
     """`states` to enter; those of them whose `initial` is followed; actions of histories by the state they stand in."""
 
-    def __init__(self, tree: Tree, history: Mapping[int, Sequence[int]]) -> None:
+    def __init__(
+        self, tree: Tree, history: Mapping[int, Sequence[int]], transitions: Iterable[Transition] = ()
+    ) -> None:
         self._tree = tree
         self._history = history
         self.states: set[int] = set()
         self.by_default: set[int] = set()
         self.history_actions: dict[int, tuple[Action, ...]] = {}
+        for transition in transitions:
+            self._add(transition)
 
     def targets(self, transition: Transition) -> list[int]:
         """Where it really goes: a history stands for what is remembered, or for its own transition."""
@@ -41,7 +45,7 @@ class Entry:
             return source
         return self._tree.common_compound([source, *targets])
 
-    def add(self, transition: Transition) -> None:
+    def _add(self, transition: Transition) -> None:
         if not transition.targets:
             return
         for target in transition.targets:
@@ -91,10 +95,3 @@ class Entry:
         for child in self._tree.real_children(parallel):
             if not any(self._tree.is_inside(other, child) for other in self.states):
                 self._descend(child)
-
-
-def entry_of(tree: Tree, history: Mapping[int, Sequence[int]], transitions: Iterable[Transition]) -> Entry:
-    entry = Entry(tree, history)
-    for transition in transitions:
-        entry.add(transition)
-    return entry

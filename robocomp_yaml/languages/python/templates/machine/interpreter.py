@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 from typing import Any, Optional
 
-from generated.machine.entering import Entry, entry_of
+from generated.machine.entering import EntrySet
 from generated.machine.events import INTERNAL, PLATFORM, Data, Event
 from generated.machine.model import ModelError
 from generated.machine.tree import ROOT, Tree
@@ -73,7 +73,7 @@ class Interpreter:
                     return
             steps += 1
             if steps > MAX_STEPS:
-                self.surroundings.complain(f"{MAX_STEPS} steps without an event from outside: the machine stops here")
+                self.surroundings.host.complain(f"{MAX_STEPS} steps without an event from outside: the machine stops here")
                 self.is_running = False
             self._step(enabled)
         self.leave()
@@ -98,7 +98,7 @@ class Interpreter:
 
     def fail(self, name: str, message: str, sendid: str = "") -> None:
         """`error.execution` or `error.communication`, for the machine to handle, and a line in the log."""
-        self.surroundings.complain(message)
+        self.surroundings.host.complain(message)
         self._internal.append(Event(name, PLATFORM, sendid=sendid))
 
     # Which transitions
@@ -148,7 +148,7 @@ class Interpreter:
         if kind == "expr":
             return self.model.condition(condition.name)
         if kind == "guard":
-            return self.surroundings.guard(condition.name)
+            return self.surroundings.host.guard(condition.name)
         if kind == "in":
             return condition.state in self.configuration
         if kind == "not":
@@ -186,7 +186,7 @@ class Interpreter:
         left: set[int] = set()
         for transition in transitions:
             if transition.targets:
-                domain = Entry(self.tree, self._history).domain(transition)
+                domain = EntrySet(self.tree, self._history).domain(transition)
                 left |= {number for number in self.configuration if self.tree.is_inside(number, domain)}
         return left
 
@@ -198,7 +198,7 @@ class Interpreter:
         self.surroundings.cancel_invoked(number, self)
 
     def _enter(self, transitions: Iterable[Transition]) -> None:
-        entry = entry_of(self.tree, self._history, transitions)
+        entry = EntrySet(self.tree, self._history, transitions)
         for number in sorted(entry.states):
             state = self.tree[number]
             self.configuration.add(number)
@@ -290,7 +290,7 @@ class Interpreter:
         self.surroundings.cancel(self.model.value(action.value))
 
     def _do_log(self, action: Action) -> None:
-        self.surroundings.log(action.name, self.model.value(action.value))
+        self.surroundings.host.log(action.name, self.model.value(action.value))
 
     def _do_assign(self, action: Action) -> None:
         self.model.assign(action.name, self.model.value(action.value))
@@ -299,7 +299,7 @@ class Interpreter:
         self.model.run(action.name)
 
     def _do_call(self, action: Action) -> None:
-        self.surroundings.act(action.name)
+        self.surroundings.host.act(action.name)
 
     def _do_if(self, action: Action) -> None:
         for branch in action.branches:

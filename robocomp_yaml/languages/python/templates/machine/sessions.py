@@ -13,9 +13,12 @@ from typing import Any, Optional, Protocol
 from generated.machine.events import EXTERNAL, INTERNAL, Event
 from generated.machine.interpreter import Interpreter
 from generated.machine.model import ModelError
-from generated.machine.sending import PROCESSOR, PROCESSORS, SERVICES, seconds
+from generated.runtime.semantics import events
 from generated.runtime.semantics.tables import Invoke, Machine, Send, State
 
+PROCESSOR = "http://www.w3.org/TR/scxml/#SCXMLEventProcessor"
+PROCESSORS = frozenset(["", "scxml", PROCESSOR, "http://www.w3.org/TR/scxml/"])
+SERVICES = frozenset(["", "scxml", "http://www.w3.org/TR/scxml", "http://www.w3.org/TR/scxml/"])
 Models = Mapping[str, Callable[..., Any]]
 
 
@@ -94,7 +97,7 @@ class Session:
     ) -> None:
         self.id = id_
         self._sessions = sessions
-        self._host = sessions.host
+        self.host = sessions.host
         self._parent = parent
         self._invokeid = invokeid
         self._is_heard = True
@@ -126,23 +129,11 @@ class Session:
 
     # What the interpreter asks for
 
-    def guard(self, name: str) -> bool:
-        return self._host.guard(name)
-
-    def act(self, name: str) -> None:
-        self._host.act(name)
-
-    def log(self, label: str, value: Any) -> None:
-        self._host.log(label, value)
-
-    def complain(self, message: str) -> None:
-        self._host.complain(message)
-
     def entered(self, state: State) -> None:
-        self._tell(self._host.entered, state)
+        self._tell(self.host.entered, state)
 
     def left(self, state: State) -> None:
-        self._tell(self._host.left, state)
+        self._tell(self.host.left, state)
 
     def _tell(self, method: Callable[[str], None], state: State) -> None:
         """The worker has methods for the component's own machine, not for those that it invokes."""
@@ -194,7 +185,7 @@ class Session:
             interpreter.model.assign(send.id_location, sendid)
         try:
             kind, target = value(send.type) or "", value(send.target) or ""
-            delay = seconds(value(send.delay) or "0s")
+            delay = _seconds(value(send.delay) or "0s")
             event = Event(
                 str(value(send.event) or ""), EXTERNAL, interpreter.payload(send.params, send.content), sendid,
                 self.location, PROCESSOR,
@@ -263,3 +254,11 @@ class Session:
             if child.state == number:
                 del self._children[invokeid]
                 child.session.stop()
+
+
+def _seconds(delay: Any) -> float:
+    """`1.5s`, `100ms`."""
+    found = events.seconds(str(delay))
+    if found is None:
+        raise ModelError(f"'{delay}' is no delay, such as 100ms or 1.5s")
+    return found

@@ -92,28 +92,16 @@ def _is_editable(member: Any) -> bool:
     return member.is_editable and not is_group
 
 
-def flat(
-    kind: Kind, value: Any, references: Mapping[Path, str], path: Path = (), editable: bool = False
-) -> Iterator[tuple[str, Entry]]:
+def flat(kind: Kind, value: Any, references: Mapping[Path, str]) -> Iterator[tuple[str, Entry]]:
     """Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them.
     Secrets are hidden; of what was given by reference, the reference stands there."""
-    if value is None:
-        return
-    if isinstance(kind, Recording):
-        for member in kind.members.values():
-            inner = getattr(value, member.attribute)
-            may = editable or _is_editable(member)
-            yield from flat(member.kind, inner, references, (*path, member.key), may)
-    elif isinstance(kind, Listing):
-        yield f"{dotted(path)}.size", Entry(str(len(value)), "int", editable)
-        for place, item in enumerate(value):
-            yield from flat(kind.element, item, references, (*path, place), editable)
-    elif isinstance(kind, Naming):
-        yield f"{dotted(path)}.keys", Entry(" ".join(escaped(name) for name in value), "string", editable)
-        for name, item in value.items():
-            yield from flat(kind.element, item, references, (*path, name), editable)
-    else:
-        yield dotted(path), Entry(references.get(path) or _shown(kind, value, path), kind.name, editable)
+    for each, inner, path, editable in _nodes(kind, value):
+        if isinstance(each, Listing):
+            yield f"{dotted(path)}.size", Entry(str(len(inner)), "int", editable)
+        elif isinstance(each, Naming):
+            yield f"{dotted(path)}.keys", Entry(" ".join(escaped(name) for name in inner), "string", editable)
+        elif isinstance(each, Plain):
+            yield dotted(path), Entry(references.get(path) or _shown(each, inner, path), each.name, editable)
 
 
 def _shown(kind: Plain, value: Any, path: Path) -> str:
@@ -124,18 +112,20 @@ def _shown(kind: Plain, value: Any, path: Path) -> str:
     return secrecy.shown(name if isinstance(name, str) else "", text) if isinstance(value, str) else text
 
 
-def plain_values(kind: Kind, value: Any, path: Path = ()) -> Iterator[tuple[Path, Any]]:
+def plain_values(kind: Kind, value: Any) -> Iterator[tuple[Path, Any]]:
     """Each plain value with its path."""
+    return ((path, inner) for each, inner, path, _ in _nodes(kind, value) if isinstance(each, Plain))
+
+
+def _nodes(kind: Kind, value: Any, path: Path = (), editable: bool = False) -> Iterator[tuple[Kind, Any, Path, bool]]:
+    """The value and all values in it, outer ones first: type, value, path, and whether it may change."""
     if value is None:
         return
+    yield kind, value, path, editable
     if isinstance(kind, Recording):
         for member in kind.members.values():
-            yield from plain_values(member.kind, getattr(value, member.attribute), (*path, member.key))
-    elif isinstance(kind, Listing):
-        for place, item in enumerate(value):
-            yield from plain_values(kind.element, item, (*path, place))
-    elif isinstance(kind, Naming):
-        for name, item in value.items():
-            yield from plain_values(kind.element, item, (*path, name))
-    else:
-        yield path, value
+            inner = getattr(value, member.attribute)
+            yield from _nodes(member.kind, inner, (*path, member.key), editable or _is_editable(member))
+    elif not isinstance(kind, Plain):
+        for step, item in value.items() if isinstance(kind, Naming) else enumerate(value):
+            yield from _nodes(kind.element, item, (*path, step), editable)
