@@ -15,7 +15,7 @@ _TAKEN = frozenset(("p", "of", "runtime", "std"))
 
 
 def lambda_of(expression: Expression, root: RecordType) -> str:
-    """A function of the parameters' values, called `p` in there."""
+    """A lambda with the parameters' values as its argument `p`."""
     return _function("p", _CALLS.of(expression, root), capture="")
 
 

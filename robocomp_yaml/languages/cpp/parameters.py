@@ -91,7 +91,7 @@ def plan(linked: LinkedComponent) -> list[FilePlan]:
 
 
 def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]:
-    """Header and source of a component's parameters, made from the document `source`."""
+    """Header and source file of a component's parameters; `source` is the path of their document."""
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
     headers = [
@@ -170,7 +170,7 @@ class _Types(Types):
         )
 
     def member(self, member: Member, group: str | None) -> MemberView:
-        """`group` is the path of the group that it stands in, None in a struct."""
+        """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), string(member.name)
         made = _BUILDERS.member(f"runtime::Member({key}", member, self.functions, inner)
@@ -188,7 +188,7 @@ class _Types(Types):
         return f"std::optional<{made}>" if member.optional else made
 
     def initial(self, member: Member) -> str:
-        """What stands there before the config is read, and in a record that code makes."""
+        """The initializer of the member: its value before the config is read, and in a record that code creates."""
         data = member.default.data if member.default is not None else None
         match member.type:
             case EnumType(name=name) if isinstance(data, str):
@@ -230,7 +230,7 @@ class _Types(Types):
 
 
 def _enumerators(enum: EnumType) -> dict[str, str]:
-    """The names in code of an enum's names."""
+    """The name in code of each name of an enum."""
     taken = names()
     return {name: taken.take(LANGUAGE.in_code(name)) for name in enum.names}
 

@@ -1,7 +1,7 @@
-"""The C++ target: a component that is built with CMake and needs Ice 3.7 alone.
+"""Plans C++ components, which are built with CMake and need only Ice 3.7.
 
-Most of it is the same for every component: the run time, which is compiled once. What differs are a small generated
-part, the user's skeleton and the files for CMake.
+Most code is the run time, which is the same in all components and is compiled once. A small generated part, the user's
+skeleton and the files for CMake differ.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from robocomp_yaml.transactions.plan import ONCE, FilePlan
 if TYPE_CHECKING:
     from robocomp_yaml.emit.machines.views import MachineView
 
-# Targets that CMake makes by itself.
+# Targets that CMake defines itself.
 _CMAKE_TARGETS = frozenset(
     "all clean depend edit_cache help install package package_source preinstall rebuild_cache test".split()
 )
 
 
 class View(msgspec.Struct, frozen=True):
-    """What the templates show: each file is about the same few things."""
+    """What the templates show. All files of a component use the same view."""
 
     source: str
     name: str
@@ -61,7 +61,7 @@ class View(msgspec.Struct, frozen=True):
 
 
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
-    """The component's files but for `slice/`, `etc/` and the run time."""
+    """The files of a component, except `slice/`, `etc/` and the run time."""
     parts = [
         *(LANGUAGE.part("statemachine").files(component.machine) if component.machine else []),
         *windows.form_of(component),
@@ -84,15 +84,15 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
 
 
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
-    """Which files of the run time a component needs that stands alone."""
+    """Whether a component outside of a workspace needs a file of the run time."""
     folders = {"cmake", "runtime", "slice", *windows.folders(component)}
     parts = set(_parts(component, has_topics=bool(component.publishes or component.subscribes)))
-    left_out = {f"runtime/{part}.cpp" for part in ("expressions", "pattern", "topics") if part not in parts}
-    return lambda path: path.partition("/")[0] in folders and path not in left_out
+    skipped = {f"runtime/{part}.cpp" for part in ("expressions", "pattern", "topics") if part not in parts}
+    return lambda path: path.partition("/")[0] in folders and path not in skipped
 
 
 def _robocomp(component: LinkedComponent, view: View, parts: list[FilePlan]) -> list[FilePlan]:
-    """As plan(), where the user's code is written for RoboComp's own tool."""
+    """As `plan`, for code that was written for RoboComp's own tool."""
     names = {
         "generated/interfaces.h": "interfaces.h",
         "generated/genericworker.h": "robocomp_genericworker.h",
@@ -152,8 +152,8 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
 
 
 def _slices(linked: LinkedComponent) -> list[str]:
-    """Each Slice file of the component's own modules, with those that it includes, as words of CMake; CommonBehavior
-    stands in the run time."""
+    """Each Slice file of the component's own modules, followed by the files that it includes, as words of CMake.
+    CommonBehavior is part of the run time."""
 
     def word(scope: LinkedModule) -> str:
         stem = file_name(scope).removesuffix(".ice")
@@ -167,7 +167,7 @@ def _slices(linked: LinkedComponent) -> list[str]:
 
 
 def _parts(linked: LinkedComponent, *, has_topics: bool) -> Iterator[str]:
-    """The libraries of the run time that it needs."""
+    """The libraries of the run time that the component links."""
     if linked.component.compatibility:
         yield "robocomp"
     if linked.component.gui:
@@ -186,6 +186,6 @@ def _parts(linked: LinkedComponent, *, has_topics: bool) -> Iterator[str]:
 
 
 def _base(linked: LinkedComponent) -> str:
-    """What GenericWorker is derived from."""
+    """The base class of GenericWorker."""
     base = "machine::Worker" if linked.machine else "runtime::Worker"
     return f"runtime::WindowWorker<{base}>" if linked.component.gui else base

@@ -1,6 +1,6 @@
-"""A component's ports as C++ spells them: accessors, and the servants with the worker's methods that they call.
+"""The ports of a component in C++: accessors, servants, and the worker's methods that servants call.
 
-All that is here goes to the templates as it is.
+Templates show these views unchanged.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ _NOT_PUBLISHED = (
 
 
 class MethodView(msgspec.Struct, frozen=True):
-    """A method of the worker: in GenericWorker, which has it so that a user's class without it still compiles, and in
-    the user's class. That says no `override`: a method that an interface has no more would be an error then."""
+    """A method of the worker, in GenericWorker and in the user's class. GenericWorker defines it too, so that a user's
+    class without it compiles. The user's class does not declare it `override`: a method that an interface no longer
+    has would be an error."""
 
     name: str
     comment: str
@@ -44,8 +45,8 @@ class OperationView(msgspec.Struct, frozen=True):
 
 
 class ServiceView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port; `new_methods` are those that no earlier port has brought. `declared` are pairs
-    of an operation and an exception that it declares, in braces; `statement` serves a port that has none."""
+    """An implemented or subscribed port; `new_methods` are the methods that no earlier port has. `declared` are pairs
+    of an operation and an exception that it declares, in braces; `statement` serves a port without any."""
 
     name: str
     title: str
@@ -59,7 +60,7 @@ class ServiceView(msgspec.Struct, frozen=True):
 
 
 class AccessorView(msgspec.Struct, frozen=True):
-    """A proxy that the worker has, and the statement that makes it."""
+    """A proxy of the worker, and the statement that creates it."""
 
     name: str
     proxy: str
@@ -139,7 +140,7 @@ def _served(
 
 
 def method_view(port: Port, method: Method, name: str) -> MethodView:
-    """The worker's method of this name, which an operation of the port calls."""
+    """The worker's method `name`, which an operation of the port calls."""
     scope = port.scope
     returns = "void" if method.returns is None else type_name(method.returns, scope)
     inputs = [(input_type(m.type, scope), parameter(m.name)) for m in method.inputs]
@@ -160,7 +161,7 @@ def method_view(port: Port, method: Method, name: str) -> MethodView:
 
 
 def operation_view(method: Method, scope: LinkedModule, calls: str) -> OperationView:
-    """Calls the method of the worker called so; '' where it has none, because it is not published."""
+    """The operation that calls the worker's method `calls`; '' for an operation that cannot be published."""
     returns = "void" if method.returns is None else type_name(method.returns, scope)
     types = [(type_name(m.type, scope), m.name) for m in method.inputs]
     types += [(f"{type_name(m.type, scope)}&", m.name) for m in method.outputs]
@@ -175,7 +176,7 @@ def operation_view(method: Method, scope: LinkedModule, calls: str) -> Operation
 
 
 def _stub(method: Method, name: str, scope: LinkedModule) -> list[str]:
-    """What a method does until the user writes it."""
+    """The statements of a method until the user writes it."""
     hidden = "this->" if any(member.name == "log" for member in method.outputs) else ""
     lines = [f'{hidden}log.info("{name}() is still to be written");']
     lines += [f"{parameter(member.name)} = {zero(member.type, scope)};" for member in method.outputs]
@@ -183,16 +184,16 @@ def _stub(method: Method, name: str, scope: LinkedModule) -> list[str]:
 
 
 def _described(port: Port, method: Method) -> str:
-    """What the signature does not say."""
+    """What the signature does not show."""
     lines = [method.doc.strip()] if method.doc.strip() else []
     for member in (*method.inputs, *method.outputs):
-        if said := _said(member):
-            lines.append(f"{parameter(member.name)}: {said}")
+        if note := _note(member):
+            lines.append(f"{parameter(member.name)}: {note}")
     if method.throws:
         names = ("::".join(scoped(ref, port.scope)) for ref in method.throws)
         lines.append(f"Throws {', '.join(names)}.")
     return "\n".join(lines)
 
 
-def _said(member: Member) -> str:
+def _note(member: Member) -> str:
     return " ".join(part for part in (one_line(member.doc), f"[{member.unit}]" if member.unit else "") if part)

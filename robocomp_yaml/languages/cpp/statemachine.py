@@ -32,7 +32,7 @@ def view(machine: StateMachine) -> MachineView:
 
 
 def files(machine: StateMachine) -> list[FilePlan]:
-    """The tables of the component's machine."""
+    """The files with the tables of the component's machine."""
     shown = TablesView(
         source=one_line(machine.path.rpartition("/")[2]),
         events=views.events(machine, parameter),
@@ -45,7 +45,7 @@ def files(machine: StateMachine) -> list[FilePlan]:
 
 
 def text(table: object, indent: str = "") -> str:
-    """The table as an aggregate, up to the last field that is not as by default; long ones with one field a line."""
+    """The table as an aggregate, without trailing fields that have their default; a long one has a line per field."""
     if isinstance(table, tuple):
         return _braces("", [text(item, indent + "    ") for item in table], indent)
     if isinstance(table, bool):
@@ -63,9 +63,9 @@ def text(table: object, indent: str = "") -> str:
 
 
 def functions(machine: Machine, name: str) -> str:
-    """A function that makes the tables of a machine, after those for the machines that it invokes.
+    """A function that creates the tables of a machine, after the functions for the machines that it invokes.
 
-    One statement a state: a compiler takes ten times as long for the same in one expression.
+    It has one statement for each state: compilers need ten times as long for a single expression.
     """
     inner = [functions(invoked, f"{name}_{number}") for number, invoked in enumerate(machine.machines, 1)]
     head = Machine(machine.name, machine.datamodel, machine.late, (), (), machine.scripts)

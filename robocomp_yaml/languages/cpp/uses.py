@@ -1,4 +1,4 @@
-"""What a component's own code needs, as a file for CMake that finds it."""
+"""The sources and libraries of the user that a component needs, as a file for CMake that looks them up."""
 
 from __future__ import annotations
 
@@ -20,39 +20,41 @@ _OPERATORS = {
 }  # fmt: skip
 
 
-class File(msgspec.Struct, frozen=True):
-    """A file of the repository; one that is not compiled is a header, of which the folder counts."""
+class UsedFile(msgspec.Struct, frozen=True):
+    """A source file of the repository. A file that is not compiled is a header: its folder is a search path."""
 
     path: str
     is_compiled: bool
 
 
-class View(msgspec.Struct, frozen=True):
-    """`places` are folders, relative to the component's; `libraries` are commands of CMake."""
+class UsesView(msgspec.Struct, frozen=True):
+    """`folders` are the folders to search, relative to the component's; `libraries` are commands of CMake."""
 
     source: str
     name: str
-    places: list[str]
-    files: list[File]
+    folders: list[str]
+    files: list[UsedFile]
     classes: list[str]
     libraries: list[str]
 
 
 def plan(
-    component: Component, sources: Sequence[Source], native: Sequence[Library], places: Sequence[str]
+    component: Component, sources: Sequence[Source], native: Sequence[Library], folders: Sequence[str]
 ) -> list[FilePlan]:
     """`generated/uses.cmake`."""
-    view = _view(component, sources, native, places)
+    view = _view(component, sources, native, folders)
     return [FilePlan("generated/uses.cmake", render("cpp/uses.cmake.j2", view))]
 
 
-def _view(component: Component, sources: Sequence[Source], native: Sequence[Library], places: Sequence[str]) -> View:
+def _view(
+    component: Component, sources: Sequence[Source], native: Sequence[Library], folders: Sequence[str]
+) -> UsesView:
     paths = [source.path for source in sources if not source.is_class]
-    return View(
+    return UsesView(
         source=os.path.basename(component.path),
         name=component.name,
-        places=[f"/{place}" if place != "." else "" for place in places],
-        files=[File(path, path.endswith(COMPILED)) for path in paths],
+        folders=[f"/{folder}" if folder != "." else "" for folder in folders],
+        files=[UsedFile(path, path.endswith(COMPILED)) for path in paths],
         classes=[source.path for source in sources if source.is_class],
         libraries=[_COMMANDS[library.kind](library) for library in native],
     )
@@ -64,7 +66,7 @@ def _package(library: Library) -> str:
         "get_property(component_before DIRECTORY PROPERTY IMPORTED_TARGETS)",
         f"find_package({name} QUIET)",
         f"if(NOT {name}_FOUND)",
-        f'  list(APPEND component_missing "the CMake package {name}: find_package does not find it. If it is there, '
+        f'  list(APPEND component_missing "the CMake package {name}: find_package cannot find it. If it is installed, '
         f'say where: cmake -D{name}_DIR=FOLDER ...")',
         "else()",
         *_versions(library, name, f"the CMake package {name}"),
@@ -94,7 +96,7 @@ def _module(library: Library) -> str:
         f"  pkg_check_modules({variable} QUIET IMPORTED_TARGET {name})",
         "endif()",
         f"if(NOT {variable}_FOUND)",
-        f'  list(APPEND component_missing "the library {name}: pkg-config does not know it")',
+        f'  list(APPEND component_missing "the library {name}: it is unknown to pkg-config")',
         "else()",
         *_versions(library, variable, f"the library {name}"),
         f"  list(APPEND component_linked PkgConfig::{variable})",
@@ -108,7 +110,7 @@ def _library(library: Library) -> str:
     return "\n".join([
         f"find_library({variable} NAMES {name})",
         f"if(NOT {variable})",
-        f'  list(APPEND component_missing "the library {name}: the linker has no lib{name}. If it is installed, say '
+        f'  list(APPEND component_missing "the library {name}: the linker has no lib{name}. If it is installed, set '
         'where: cmake -DCMAKE_LIBRARY_PATH=FOLDER ...")',
         "else()",
         f"  list(APPEND component_linked ${{{variable}}})",

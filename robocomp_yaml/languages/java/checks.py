@@ -1,4 +1,4 @@
-"""Names that Java cannot have where Ice's mapping puts them: told where a component in Java needs the module."""
+"""Names that are illegal in Java after Ice's mapping. They are errors if a component in Java needs the module."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.references import Name, groups, kind_of, types_of
 from robocomp_yaml.model.interface import ExceptionType, Interface, Map, Member, Sequence, Struct, TypeRef
 
-# What slice2java leaves as it is, and Java does not take (`tests/ice/test_java_names.py` asks both).
+# slice2java does not escape these, and Java rejects them (`tests/ice/test_java_names.py` compares with both).
 TYPES = frozenset(
     """CloneNotSupportedException Override Throwable com context current istr java ostr permits record sealed
     serialVersionUID slice var yield""".split()
@@ -28,11 +28,11 @@ INSIDE = {
 def check(program: Program) -> Iterator[Diagnostic]:
     for scope, (user, *_) in users(program, LANGUAGE).items():
         for name, other in _impossible(scope):
-            yield _told(name, other, user)
+            yield _diagnostic(name, other, user)
 
 
 def _impossible(scope: LinkedModule) -> Iterator[tuple[Name, str]]:
-    """Names, and what each should be called."""
+    """The illegal names, each with a proposed one."""
     for definition in scope.module.definitions:
         if definition.name in TYPES and not isinstance(definition, Sequence | Map):
             yield Name(kind_of(definition), definition.name, definition.span), _other(definition.name)
@@ -55,8 +55,8 @@ def _impossible(scope: LinkedModule) -> Iterator[tuple[Name, str]]:
 def _hiding(
     members: Iterable[Member], types: Collection[TypeRef], scope: LinkedModule, own: str = ""
 ) -> Iterator[tuple[Name, str]]:
-    """In a class, a member hides the type of the same name from the code that reads and writes the others; one called
-    `slice` the package of all modules. What is of that type itself leads there as well."""
+    """In a class, a member hides the type of the same name from the code that marshals the other members; a member
+    `slice` hides the package of all modules. A member of that type itself is hidden too."""
     for member in members:
         hidden = any(_is_hidden(ref, member, scope) for ref in types)
         if hidden or member.name == own:
@@ -74,7 +74,7 @@ def _is_hidden(ref: TypeRef, member: Member, scope: LinkedModule) -> bool:
 
 
 def _hidden(interface: Interface) -> Iterator[tuple[Name, str]]:
-    """What a method gives back, if it is more than one thing, becomes a class in the interface: it hides a type."""
+    """A method with several results returns a class inside of the interface, which hides a type of the same name."""
     made = result_structs(interface)
     for ref in types_of(interface):
         if ref.name in made:
@@ -86,7 +86,7 @@ def _other(name: str) -> str:
     return f"the{name[:1].upper()}{name[1:]}" if name[0].islower() else f"{name}Value"
 
 
-def _told(name: Name, other: str, user: LinkedComponent) -> Diagnostic:
+def _diagnostic(name: Name, other: str, user: LinkedComponent) -> Diagnostic:
     return codes.IMPOSSIBLE_NAME.at(
         name.span,
         language=LANGUAGE.title,

@@ -62,7 +62,7 @@ class MemberView(msgspec.Struct, frozen=True):
 
 
 class RecordView(msgspec.Struct, frozen=True):
-    """`function` makes its type in the table; `secret` are the names of members that are not shown, as arguments."""
+    """`function` creates the record's type in the table; `secret` are the names of secret members, as arguments."""
 
     name: str
     comment: str
@@ -96,7 +96,7 @@ def plan(linked: LinkedComponent) -> FilePlan:
 
 
 def text(parameters: Parameters, component: str, source: str) -> str:
-    """The class with the parameters of a component, made from the document `source`."""
+    """The class with the parameters of a component; `source` is the path of their document."""
     types = _Types(parameters.root)
     view = View(
         source=one_line(source.rpartition("/")[2]),
@@ -156,7 +156,7 @@ class _Types(Types):
         )
 
     def member(self, member: Member, group: str | None) -> MemberView:
-        """`group` is the path of the group that it stands in, None in a struct."""
+        """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         name, key = LANGUAGE.in_code(member.code_name), literal(member.name)
         got = f"of.get({key})"
@@ -177,7 +177,7 @@ class _Types(Types):
         return self.spelled(member.type, group)
 
     def read(self, type_: Type, data: str, group: str | None = None, depth: int = 0) -> str:
-        """An expression for the typed value of data."""
+        """An expression that converts data to the typed value."""
         match type_:
             case BasicType(name=name):
                 return _READ[name].format(data)

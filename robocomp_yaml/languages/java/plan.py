@@ -1,7 +1,7 @@
-"""The Java target: a component that `generated/build` builds, with the JDK, slice2java and Ice for Java alone.
+"""Plans Java components, which `generated/build` builds with the JDK, slice2java and Ice for Java.
 
-Most of it is the same for every component: the run time (`templates/runtime/`), which is compiled once. What differs
-are a small generated part, the user's skeleton and two scripts.
+Most code is the run time (`templates/runtime/`), which is the same in all components and is compiled once. A small
+generated part, the user's skeleton and two scripts differ.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ class View(msgspec.Struct, frozen=True):
 
 
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
-    """Which files of the run time a component needs that stands alone: all."""
+    """Whether a component outside of a workspace needs a file of the run time: always."""
     return lambda path: True
 
 
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
-    """The component's files but for `slice/`, `etc/` and the run time."""
+    """The files of a component, except `slice/`, `etc/` and the run time."""
     view = _view(component, layout)
     return [
         parameters.plan(component),

@@ -1,4 +1,4 @@
-"""A component's ports as Java has them: accessors, and the servants with the worker's methods that they call."""
+"""The ports of a component in Java: accessors, servants, and the worker's methods that servants call."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from robocomp_yaml.model.interface import Enum, Map, Member, Method, Sequence, T
 
 
 class MethodView(msgspec.Struct, frozen=True):
-    """A method of the worker: as GenericWorker asks for it, and as the user's class has it at first."""
+    """A method of the worker: abstract in GenericWorker, and as a stub in the user's class."""
 
     comment: str
     declaration: str
@@ -25,7 +25,7 @@ class MethodView(msgspec.Struct, frozen=True):
 
 
 class OperationView(msgspec.Struct, frozen=True):
-    """An operation of a servant, which `call`s the worker's method; `name` is that method."""
+    """An operation of a servant: `call` calls the worker's method, `name` is the method's name."""
 
     declaration: str
     call: str
@@ -34,8 +34,8 @@ class OperationView(msgspec.Struct, frozen=True):
 
 
 class ServiceView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port; `arguments` make the run time's.
-    `new_methods` are those that no earlier port has brought."""
+    """An implemented or subscribed port; `arguments` are those of the run time's `Service`. `new_methods` are the
+    methods that no earlier port has."""
 
     title: str
     servant: str
@@ -46,7 +46,7 @@ class ServiceView(msgspec.Struct, frozen=True):
 
 
 class AccessorView(msgspec.Struct, frozen=True):
-    """A proxy that the worker has; `made` makes it."""
+    """A proxy of the worker; `made` creates it."""
 
     name: str
     proxy: str
@@ -103,7 +103,7 @@ def _service(service: lowering.Service, servants: Names, suffix: str, identity: 
 
 
 def _operation(method: Method, port: Port, calls: str) -> OperationView:
-    """Calls the worker's method called so; '' where it has none, because it is not published."""
+    """The operation that calls the worker's method `calls`; '' for an operation that cannot be published."""
     names = [f"in{number}" for number in range(len(method.inputs))]
     typed = [f"{type_name(m.type, port.scope)} {name}" for m, name in zip(method.inputs, names, strict=True)]
     typed.append("com.zeroc.Ice.Current current")
@@ -135,7 +135,7 @@ def _throws(method: Method, port: Port) -> str:
 
 
 def _stub(called: lowering.Called, returns: str) -> list[str]:
-    """What a method does until the user writes it."""
+    """The statements of a method until the user writes it."""
     method, scope = called.method, called.port.scope
     hidden = "this." if any(member.name == "log" for member in method.inputs) else ""
     lines = [f'{hidden}log.info("{called.name}() is still to be written");']
@@ -148,12 +148,12 @@ def _stub(called: lowering.Called, returns: str) -> list[str]:
 def _described(method: Method, port: Port) -> str:
     lines = [method.doc.strip() or f"{port.interface.name}.{method.name}"]
     for member in (*method.inputs, *method.outputs):
-        if said := _said(member):
-            lines.append(f"{ice_name(member.name)}: {said}")
+        if note := _note(member):
+            lines.append(f"{ice_name(member.name)}: {note}")
     return "\n".join(lines)
 
 
-def _said(member: Member) -> str:
+def _note(member: Member) -> str:
     unit = f"[{member.unit}]" if member.unit else ""
     return " ".join(part for part in (" ".join(member.doc.split()), unit) if part)
 
@@ -184,15 +184,15 @@ def type_name(ref: TypeRef, scope: LinkedModule, *, boxed: bool = False) -> str:
 
 
 def result_type(method: Method, port: Port) -> str:
-    """What a method gives back: several values come in an object of their own."""
-    given = results(method)
-    if len(given) > 1:
+    """The return type of a method: an object if there are several results."""
+    types = results(method)
+    if len(types) > 1:
         return f"{qualified(port.scope, port.interface.name)}.{method.name[:1].upper()}{method.name[1:]}Result"
-    return type_name(given[0], port.scope) if given else "void"
+    return type_name(types[0], port.scope) if types else "void"
 
 
 def zero(ref: TypeRef, scope: LinkedModule) -> str:
-    """The plainest value: zero, empty, the first enumerator, a struct of its defaults."""
+    """The default value: zero, empty, the first enumerator, a struct of its defaults."""
     if ref.is_basic:
         return _ZEROS.get(ref.text, "0")
     home, definition = found(ref, scope)

@@ -1,5 +1,5 @@
-"""Constraints as Python: plain expressions where everything is known, the run time's functions where an optional
-parameter may be missing. The meaning is that of `values.evaluate`."""
+"""Constraints as Python: plain expressions if all values are known, functions of the run time if an optional parameter
+may be missing. The meaning is that of `parameters.expressions`."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ from robocomp_yaml.parameters.specification.expression import (
 )
 from robocomp_yaml.parameters.types import ListType, MapType, RecordType
 
-_OURS = ("unique", "keys", "values")  # the functions that are not Python's
+_OF_RUN_TIME = ("unique", "keys", "values")  # functions that Python does not have
 _TAKEN = frozenset(("p", "constraints", "all", "any", "len", "min", "max", "abs", "sum"))
 
 
 class Code(msgspec.Struct, frozen=True):
-    """Python for an expression; `may_miss` when its value may be None: unknown."""
+    """Python for an expression; `may_miss` if its value may be None, which means unknown."""
 
     text: str
     may_miss: bool = False
 
 
 def lambda_of(expression: Expression, root: RecordType) -> str:
-    """A function of the parameters' values, called `p` in there."""
+    """A lambda with the parameters' values as its argument `p`."""
     return f"lambda p: {_Writer(Scope(root)).code(expression).text}"
 
 
@@ -78,7 +78,7 @@ class _Writer(msgspec.Struct, frozen=True):
                 return self.call(expression)
 
     def operand(self, expression: Expression) -> Code:
-        """In parentheses where it is not one thing."""
+        """The code of an operand, in parentheses if needed."""
         made = self.code(expression)
         is_open = isinstance(expression, Unary | Binary | Compare | Logic) and not made.text.startswith("constraints.")
         return Code(f"({made.text})", made.may_miss) if is_open else made
@@ -126,7 +126,7 @@ class _Writer(msgspec.Struct, frozen=True):
         else:
             parts = [self.code(part) for part in call.arguments if not isinstance(part, Each)]
             argument = Code(f"({_joined(parts)})" if len(parts) > 1 else parts[0].text, _any_may(parts))
-        called = f"constraints.{function}" if function in _OURS else function
+        called = f"constraints.{function}" if function in _OF_RUN_TIME else function
         if argument.may_miss:
             return Code(f"constraints.call({called}, lambda: {argument.text})", True)
         return Code(f"{called}{argument.text}" if argument.text.startswith("(") else f"{called}({argument.text})")

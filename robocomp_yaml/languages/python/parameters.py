@@ -1,4 +1,4 @@
-"""A component's parameters as Python: a class for each record, whose members say type, limits, default and unit."""
+"""A component's parameters as Python: a class for each record, whose members have type, limits, default and unit."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def plan(linked: LinkedComponent) -> FilePlan:
 
 
 def text(parameters: Parameters, component: str, source: str) -> str:
-    """The module with the parameters of a component, made from the document `source`."""
+    """The module with the parameters of a component; `source` is the path of their document."""
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
     constraints = constraint_views(parameters, LANGUAGE, literal)
@@ -123,7 +123,7 @@ class _Types(Types):
 
     def __init__(self, root: RecordType) -> None:
         members = {LANGUAGE.in_code(member.code_name) for _, record in records(root)[0] for member in record.members}
-        super().__init__(root, Names((*_TAKEN, *members)), _SPELLING)  # a class's members hide what else is called so
+        super().__init__(root, Names((*_TAKEN, *members)), _SPELLING)  # a class's members hide types of the same name
 
     def enum(self, enum: EnumType) -> EnumView:
         names = ", ".join(map(literal, enum.names))
@@ -138,7 +138,7 @@ class _Types(Types):
         )
 
     def member(self, member: Member, group: str | None) -> MemberView:
-        """`group` is the path of the group that it stands in, None in a struct."""
+        """`group` is the path of the member's group, None in a struct."""
         inner = path_of(member, group)
         arguments = [self.kind(member.type, inner)]
         if member.default is not None:

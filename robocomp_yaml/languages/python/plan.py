@@ -1,7 +1,7 @@
-"""The Python target: a component that runs with Python 3.9 and Ice 3.7 alone.
+"""Plans Python components, which need only Python 3.9 and Ice 3.7.
 
-Most of it is the same for every component: the run time (`templates/runtime/`, `semantics`). What differs are a few
-small generated files, the user's skeleton and a launcher.
+Most code is the run time (`templates/runtime/`, `semantics`), which is the same in all components. A few small
+generated files, the user's skeleton and a launcher differ.
 """
 
 from __future__ import annotations
@@ -35,18 +35,18 @@ if TYPE_CHECKING:
 
 
 class SliceModule(msgspec.Struct, frozen=True):
-    """A Slice module: the name Ice gives it, and the variable that holds it."""
+    """A Slice module: Ice's name for it, and the variable that holds it."""
 
     name: str
     variable: str
 
 
 class View(msgspec.Struct, frozen=True):
-    """What the templates show: each file is about the same few things.
+    """What the templates show. All files of a component use the same view.
 
     `files` are literals of Python; `has_behavior` says that CommonBehavior's Slice is ours, not the user's; `stage`,
-    `window`, `qt_base`, `sequences` and `spread` are for components in Qt's event loop; `imports` names the modules
-    that the file at hand uses.
+    `window`, `qt_base`, `sequences` and `spread` are for components in Qt's event loop; `imports` are the modules that
+    the rendered file uses.
     """
 
     source: str
@@ -76,7 +76,7 @@ class View(msgspec.Struct, frozen=True):
 
 
 def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
-    """The component's files but for `slice/`, `etc/` and the run time."""
+    """The files of a component, except `slice/`, `etc/` and the run time."""
     view = _view(component, layout)
     methods = [method for port in view.ports.services for method in port.new_methods]
     proxies = [port.proxy for port in view.ports.accessors]
@@ -108,11 +108,11 @@ def plan(component: LinkedComponent, layout: Layout) -> list[FilePlan]:
     ]
 
 
-_SCRIPTING = "machine/scripting.py"  # it evaluates what documents say
+_SCRIPTING = "machine/scripting.py"  # it evaluates expressions of documents
 
 
 def _robocomp(view: View) -> list[FilePlan]:
-    """What code written for RoboComp's own tool imports, and a skeleton like its own."""
+    """The modules that code for RoboComp's own tool imports, and a skeleton as that tool writes it."""
     every = tuple(module.variable for module in view.modules)
     view = replace(view, imports=", ".join(every), spread=every)
     return [
@@ -123,14 +123,14 @@ def _robocomp(view: View) -> list[FilePlan]:
 
 
 def _rendered(template: str, view: View, code: Iterable[str] = ()) -> str:
-    """The template, importing those modules that the pieces of code name."""
+    """The rendered template, which imports the modules that the pieces of code use."""
     named = {name for piece in code for name in re.findall(r"(\w+)\.", piece)}
     imports = ", ".join(sorted(module.variable for module in view.modules if module.variable in named))
     return render(f"python/{template}.j2", replace(view, imports=imports))
 
 
 def needs(component: LinkedComponent) -> Callable[[str], bool]:
-    """Which files of the run time a component needs that stands alone."""
+    """Whether a component outside of a workspace needs a file of the run time."""
     folders = {"runtime", "slice", *windows.folders(component)}
     left_out = set() if component.machine and LANGUAGE.part("statemachine").scripts(component.machine) else {_SCRIPTING}
     return lambda path: path.partition("/")[0] in folders and path not in left_out
@@ -167,7 +167,7 @@ def _view(linked: LinkedComponent, layout: Layout) -> View:
 
 
 def _base(linked: LinkedComponent) -> str:
-    """What GenericWorker is derived from."""
+    """The base classes of GenericWorker."""
     machine = "MachineWorker" if linked.machine else ""
     window = "WindowWorker" if linked.component.gui else ""
     return ", ".join(base for base in (window, machine) if base) or "Worker"
@@ -183,14 +183,14 @@ def _identifiers(linked: LinkedComponent) -> Iterator[str]:
 
 
 def _stage(linked: LinkedComponent) -> str:
-    """The module whose `Stage` the component's worker lives on, or '' for the usual one."""
+    """The module with the `Stage` of the component's worker; '' for the default."""
     if linked.component.compatibility:
         return "generated.robocomp.stage"
     return "generated.qt.stage" if linked.component.gui else ""
 
 
 def _sequences(linked: LinkedComponent) -> Iterator[str]:
-    """For each module that has any: the module and the names of its sequences, as arguments."""
+    """For each module with sequences: the module and the names of the sequences, as arguments."""
     for scope in linked.modules():
         names = [f'"{python_name(d.name)}"' for d in scope.module.definitions if isinstance(d, Sequence)]
         if names:

@@ -1,6 +1,6 @@
-"""A component's ports as Python spells them: accessors, and the worker's methods with their signatures.
+"""The ports of a component in Python: accessors, and the worker's methods with their signatures.
 
-All that is here goes to the templates as it is.
+Templates show these views unchanged.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from robocomp_yaml.model.interface import Method
 
 
 class MethodView(msgspec.Struct, frozen=True):
-    """A method of the worker that a servant calls; `value` is what its stub returns, '' where there is nothing;
-    `plain_signature` has no hints."""
+    """A method of the worker that a servant calls; `value` is what its stub returns, '' for nothing; `plain_signature`
+    has no type hints."""
 
     operation: str
     name: str
@@ -36,7 +36,7 @@ class MethodView(msgspec.Struct, frozen=True):
 
 
 class ServedView(msgspec.Struct, frozen=True):
-    """An implemented or subscribed port. `new_methods` are those that no earlier port has brought."""
+    """An implemented or subscribed port. `new_methods` are the methods that no earlier port has."""
 
     name: str
     identity: str
@@ -48,7 +48,7 @@ class ServedView(msgspec.Struct, frozen=True):
 
 
 class AccessorView(msgspec.Struct, frozen=True):
-    """A proxy that the worker has. `absent` and `timeout` are '' where the run time's default holds."""
+    """A proxy of the worker. `absent` and `timeout` are '' for the run time's default."""
 
     name: str
     topic: str
@@ -118,7 +118,7 @@ def _method(called: lowering.Called, modules: Sequence[str]) -> MethodView:
 
 
 def _details(method: Method, names: Sequence[str], throws: Sequence[str]) -> Iterator[str]:
-    """What the signature does not say."""
+    """What the signature does not show."""
     for name, member in zip(names, method.inputs, strict=True):
         if note := about(member):
             yield f"{name}: {note}"

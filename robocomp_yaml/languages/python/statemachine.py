@@ -19,7 +19,7 @@ from robocomp_yaml.transactions.plan import FilePlan
 
 
 def text(table: object, indent: str = "") -> str:
-    """A call of the table's class, without what is as by default; long ones with one argument a line."""
+    """A constructor call without arguments that have their default; a long one has a line per argument."""
     inner = indent + "    "
     if isinstance(table, tuple):
         return folded("(", [text(item, inner) for item in table], ",)" if len(table) == 1 else ")", indent)
@@ -46,12 +46,12 @@ def view(machine: StateMachine) -> MachineView:
 
 
 def files(machine: StateMachine, component: str) -> list[FilePlan]:
-    """The tables of the component's machine."""
+    """The files with the tables of the component's machine."""
     return [FilePlan("generated/statemachine.py", tables(machine, component))]
 
 
 def tables(machine: StateMachine, component: str) -> str:
-    """The module that holds the tables."""
+    """The module with the tables."""
     literal = text(lower.lower(machine))
     return render(
         "python/statemachine.py.j2",
@@ -71,5 +71,5 @@ def _without_texts(literal: str) -> str:
 
 
 def scripts(machine: StateMachine) -> bool:
-    """Whether it, or a machine that it invokes, has expressions of Python."""
+    """Whether a machine, or one that it invokes, has Python expressions."""
     return machine.datamodel == PYTHON or any(map(scripts, MachineIndex(machine).invoked()))
