@@ -1,8 +1,7 @@
-"""Which names the headers that generated C++ includes define as macros, and which outside of any namespace, asked of
-the compiler.
+"""Asks the compiler which macros the headers of generated C++ define, and which names are in no namespace.
 
-`make macros` writes them to robocomp_yaml/languages/cpp/, and keeps what stands there: another version of a compiler or of a
-library knows others.
+`make macros` adds them to robocomp_yaml/languages/cpp/. Names in it stay: other versions of compilers and libraries have
+other names.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ GLOBALS = TABLE.with_name("globals.py")
 FAMILIES = ("GL_", "QT_", "Q_")
 SETS = {"ALWAYS": "in every component", "SINCE_20": "with C++20 and later", "QT": "where there is a dialog"}
 _HEAD = """\
-\"\"\"Names that the headers which generated C++ includes define as macros: nothing else can have them in C++.
+\"\"\"Names of the macros that the headers of generated C++ define: nothing else in C++ can have them.
 
 Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
 \"\"\"
@@ -40,8 +39,7 @@ def is_macro(name: str, standard: int, has_dialog: bool) -> bool:
         or (has_dialog and (name in QT or name.startswith(FAMILIES)))
     )"""
 _GLOBALS_HEAD = """\
-\"\"\"Names of the C library's functions, types and variables, which stand outside of any namespace: in C++ none can be
-called so.
+\"\"\"Names of the C library's functions, types and variables, which are in no namespace: nothing in C++ can have them.
 
 Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
 \"\"\"
@@ -146,7 +144,7 @@ def main() -> None:
         known[name] |= macros
     known["SINCE_20"] -= known["ALWAYS"]
     known["QT"] -= known["ALWAYS"]
-    TABLE.write_text(table(known), encoding="utf-8")  # before the rest asks for it
+    TABLE.write_text(table(known), encoding="utf-8")  # before it is imported below
     names = found_globals()
     if GLOBALS.is_file():
         from robocomp_yaml.languages.cpp import globals as cpp_globals

@@ -18,9 +18,9 @@ from robocomp_yaml.building import stamps
 from robocomp_yaml.building.inputs import state
 from robocomp_yaml.building.job import Job, Made
 from robocomp_yaml.building.unit import Unit
-from robocomp_yaml.languages.cpp import whole_tree
-from robocomp_yaml.languages.cpp.tree import Failure, Tree, source_of
-from robocomp_yaml.languages.cpp.whole_tree import WholeTree
+from robocomp_yaml.languages.cpp import workspace_tree
+from robocomp_yaml.languages.cpp.tree import BuildTree, Failure, source_of
+from robocomp_yaml.languages.cpp.workspace_tree import WorkspaceTree
 from robocomp_yaml.source.regular import regular, whole
 from robocomp_yaml.transactions import whole_file
 
@@ -53,12 +53,12 @@ def clean(units: Sequence[Unit], everything: bool, type_: str | None) -> list[st
     for root in dict.fromkeys(unit.root for unit in units):
         group = [unit for unit in units if unit.root == root]
         if group[0].is_alone:
-            folders = [Tree.own_of(group[0]).folder]
+            folders = [BuildTree.own_of(group[0]).folder]
         elif everything:
-            folders = whole_tree.folders(root, type_)
+            folders = workspace_tree.folders(root, type_)
         else:
-            folders = [folder for unit in group for folder in whole_tree.parts(root, type_, unit.name)]
-            whole_tree.forget_configuration(root, type_)
+            folders = [folder for unit in group for folder in workspace_tree.parts(root, type_, unit.name)]
+            workspace_tree.forget_configuration(root, type_)
         for folder in folders:
             if os.path.isdir(folder):
                 shutil.rmtree(folder)
@@ -84,9 +84,9 @@ def _outdate(unit: Unit, type_: str) -> None:
 
 
 def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
-    with WholeTree.locked(root, job) as whole:
+    with WorkspaceTree.locked(root, job) as whole:
         if whole is None:
-            path = whole_tree.folder_of(root, job.type)
+            path = workspace_tree.folder_of(root, job.type)
             for unit in units:
                 job.failed(unit, f"{path} was not created by rcyaml", hint="move it away")
             return dict.fromkeys(units, Made(False))
@@ -104,7 +104,7 @@ def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
                     done[unit] = Made(False)
                 break
         for unit in [unit for unit in units if unit not in done]:
-            made_alone = _in_own_tree(job, unit, Tree(source_of(unit), whole.own(unit), unit.root))
+            made_alone = _in_own_tree(job, unit, BuildTree(source_of(unit), whole.own(unit), unit.root))
             whole.remember(unit, is_fit=made_alone is not None)
             done[unit] = made_alone or Made(False)
         whole.save()
@@ -113,13 +113,13 @@ def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
 
 
 def _alone(job: Job, unit: Unit) -> dict[Unit, Made]:
-    tree = Tree.own_of(unit)
+    tree = BuildTree.own_of(unit)
     made = _in_own_tree(job, unit, tree)
     _write_commands(unit.folder, [tree.folder])
     return {unit: made or Made(False)}
 
 
-def _in_own_tree(job: Job, unit: Unit, tree: Tree) -> Made | None:
+def _in_own_tree(job: Job, unit: Unit, tree: BuildTree) -> Made | None:
     """The result; None if CMake cannot configure the component."""
     failure = tree.configure(job)
     if failure is None:

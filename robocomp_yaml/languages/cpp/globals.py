@@ -1,5 +1,4 @@
-"""Names of the C library's functions, types and variables, which stand outside of any namespace: in C++ none can be
-called so.
+"""Names of the C library's functions, types and variables, which are in no namespace: nothing in C++ can have them.
 
 Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
 """

@@ -71,7 +71,7 @@ class GetterView(msgspec.Struct, frozen=True):
     setter_definitions: list[str]
 
 
-class View(msgspec.Struct, frozen=True):
+class ParametersView(msgspec.Struct, frozen=True):
     source: str
     name: str
     comment: str
@@ -99,7 +99,7 @@ def texts(parameters: Parameters, component: str, source: str) -> dict[str, str]
         *(["pattern.h"] if pattern_count(parameters.root) else []),
     ]  # fmt: skip
     enums = [types.enum(enum) for enum in types.enums]
-    view = View(
+    view = ParametersView(
         source=one_line(source.rpartition("/")[2]),
         name=component,
         comment=comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),

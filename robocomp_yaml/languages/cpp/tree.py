@@ -74,7 +74,7 @@ class Failure(msgspec.Struct, frozen=True):
             job.failed(unit, self.text, more=self.more)
 
 
-class Tree(msgspec.Struct, frozen=True):
+class BuildTree(msgspec.Struct, frozen=True):
     """`source` is the folder of the CMakeLists.txt, `folder` the tree. Only files below `root` are the user's: changes
     of other files that compilers read are ignored."""
 
@@ -83,7 +83,7 @@ class Tree(msgspec.Struct, frozen=True):
     root: str
 
     @classmethod
-    def own_of(cls, unit: Unit) -> Tree:
+    def own_of(cls, unit: Unit) -> BuildTree:
         """The tree of a component outside of a workspace."""
         return cls(source_of(unit), unit.path("build"), unit.folder)
 
@@ -181,7 +181,7 @@ _ENVIRONMENT = {"NINJA_STATUS": "[%f/%t] "}
 class _Run:
     """The output of a run of Ninja or make, step by step."""
 
-    def __init__(self, tree: Tree, job: Job, parts: Mapping[Unit, str]) -> None:
+    def __init__(self, tree: BuildTree, job: Job, parts: Mapping[Unit, str]) -> None:
         self.lines: list[str] = []
         self.failed: dict[Unit, list[str]] = {}
         self.is_unconfigured = False

@@ -79,7 +79,7 @@ class GetterView(msgspec.Struct, frozen=True):
     setters: list[str]
 
 
-class View(msgspec.Struct, frozen=True):
+class ParametersView(msgspec.Struct, frozen=True):
     source: str
     comment: str
     enums: list[EnumView]
@@ -98,7 +98,7 @@ def plan(linked: LinkedComponent) -> FilePlan:
 def text(parameters: Parameters, component: str, source: str) -> str:
     """The class with the parameters of a component; `source` is the path of their document."""
     types = _Types(parameters.root)
-    view = View(
+    view = ParametersView(
         source=one_line(source.rpartition("/")[2]),
         comment=comment(titled(f"The parameters of {component} while it runs.", parameters.doc)),
         enums=[types.enum(enum) for enum in types.enums],

@@ -64,7 +64,7 @@ class RecordView(msgspec.Struct, frozen=True):
     members: list[MemberView]
 
 
-class View(msgspec.Struct, frozen=True):
+class ParametersView(msgspec.Struct, frozen=True):
     source: str
     title: str
     imports: list[str]
@@ -84,7 +84,7 @@ def text(parameters: Parameters, component: str, source: str) -> str:
     types = _Types(parameters.root)
     views = [types.record(path, record) for path, record in types.records]
     constraints = constraint_views(parameters, LANGUAGE, literal)
-    view = View(
+    view = ParametersView(
         source=one_line(source.rpartition("/")[2]),
         title=docstring(titled(f"The parameters of {component}.", parameters.doc), ""),
         imports=list(_imports(views, bool(types.enums), bool(parameters.spellings), bool(constraints))),

@@ -15,7 +15,7 @@ from contextlib import contextmanager, suppress
 
 from robocomp_yaml.building.job import Job, Step
 from robocomp_yaml.building.unit import Unit
-from robocomp_yaml.languages.cpp.tree import LISTS, Failure, Tree, source_of
+from robocomp_yaml.languages.cpp.tree import LISTS, BuildTree, Failure, source_of
 from robocomp_yaml.source.regular import text as text_of
 from robocomp_yaml.transactions import whole_file
 
@@ -54,12 +54,12 @@ def _is_created(folder: str) -> bool:
     return (text_of(os.path.join(folder, LISTS)) or "").startswith(_HEAD)
 
 
-class WholeTree:
+class WorkspaceTree:
     """`members` are the components of this build in the tree. Components of earlier builds stay in the tree too."""
 
     def __init__(self, root: str, type_: str) -> None:
         self.folder = folder_of(root, type_)
-        self.tree = Tree(self.folder, self.folder, root)
+        self.tree = BuildTree(self.folder, self.folder, root)
         self.members: list[Unit] = []
         self._is_new = True
         memory = _read(os.path.join(self.folder, _MEMORY))
@@ -68,7 +68,7 @@ class WholeTree:
 
     @classmethod
     @contextmanager
-    def locked(cls, root: str, job: Job) -> Iterator[WholeTree | None]:
+    def locked(cls, root: str, job: Job) -> Iterator[WorkspaceTree | None]:
         """The tree, as soon as no other build uses it; None if rcyaml did not create the folder."""
         folder = folder_of(root, job.type)
         if os.path.isdir(folder) and os.listdir(folder) not in ([], [_LOCK]) and not _is_created(folder):
