@@ -83,7 +83,7 @@ def test_it_waits_no_longer_than_its_timeout(
 def test_it_fails_at_once(client: Program, start: Start, served: str, nobody: str, tmp_path: Path) -> None:
     failing = start(client.command(tmp_path, proxies(served, Arm2=nobody)))
     assert failing.exit_code() == 1
-    assert last_line(failing) == f"ERROR Client: Arm2 at {nobody} is not there (connection refused)"
+    assert last_line(failing) == f"ERROR Client: Arm2 at {nobody} does not answer (connection refused)"
 
 
 def test_it_does_not_mind(client: Program, start: Start, served: str, nobody: str, tmp_path: Path) -> None:
@@ -104,4 +104,4 @@ def test_why_it_is_absent(client: Program, start: Start, served: str, tmp_path: 
     text = address.format(endpoint=served.partition(":")[2])
     failing = start(client.command(tmp_path, proxies(served, Arm2=text)))
     assert failing.exit_code() == 1
-    assert last_line(failing) == f"ERROR Client: Arm2 at {text} is not there ({why})"
+    assert last_line(failing) == f"ERROR Client: Arm2 at {text} does not answer ({why})"

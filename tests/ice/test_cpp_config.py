@@ -129,7 +129,7 @@ def test_a_port_that_is_taken(server: Program, start: Start, tmp_path: Path) -> 
 @pytest.mark.parametrize("wrong", ["arm:tcp -p x", ":tcp -p 1", '"'])
 def test_a_wrong_proxy(programs: Programs, start: Start, tmp_path: Path, wrong: str) -> None:
     write(tmp_path, f"ArmProxy = {wrong}\n")
-    message = f"the proxy to Arm is '{wrong}' in my.config: that is no proxy ("
+    message = f"the proxy to Arm is '{wrong}' in my.config, which is not a proxy ("
     assert fails(start, programs("Client"), tmp_path, "my.config").startswith(message)
 
 
@@ -147,14 +147,14 @@ def test_a_wrong_period(server: Program, start: Start, tmp_path: Path, wrong: st
 def test_bytes_that_are_no_text(server: Program, start: Start, endpoints: dict[str, str], tmp_path: Path) -> None:
     """In a comment they do not matter; nor do a BOM and CRLF."""
     write(tmp_path, b"# \xe1rbol\nArm.Endpoints = tcp -p \xff\xfe\n")
-    assert fails(start, server, tmp_path, "my.config") == "my.config:2: this line is not in UTF-8"
+    assert fails(start, server, tmp_path, "my.config") == "my.config:2: this line is not UTF-8"
     lines = [f"{key} = {value}".encode() for key, value in endpoints.items()]
     write(tmp_path, b"\xef\xbb\xbf" + b"\r\n".join([*lines, b"name = \xc3\xb1", b"# \xe1rbol", b""]))
     start([server.path, "my.config"], cwd=tmp_path).wait_for("Server is running")
 
 
 def test_wrong_usage(server: Program, start: Start) -> None:
-    for arguments, said in ((["a", "b"], "one CONFIG, please, not 2: a b"), (["-x"], "there is no option -x")):
+    for arguments, said in ((["a", "b"], "expected one CONFIG, got 2: a b"), (["-x"], "unknown option -x")):
         running = start([server.path, *arguments])
         assert running.exit_code() == 2
         assert running.output.startswith(f"Server: {said}\n\nusage: bin/Server [CONFIG]")

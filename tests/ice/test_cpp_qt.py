@@ -47,7 +47,7 @@ def test_a_window_and_its_worker_have_threads(
     assert ticks > 10, "about 50 in half a second, however busy the worker and this machine are"
     RoboCompArm.ArmPrx.uncheckedCast(ice.stringToProxy(f"arm:tcp -h 127.0.0.1 -p {port}")).move([], False)
     assert running.exit_code(3) == 0
-    assert "ending without it" not in running.output
+    assert "the process ends anyway" not in running.output
 
 
 @needs_qt
@@ -56,11 +56,11 @@ def test_signals_stop_a_window(qt_programs: Programs, start: Start, tmp_path: Pa
     for number in (signal.SIGINT, signal.SIGTERM):
         running = start(command, env=OFFSCREEN).wait_for("Window is running")
         assert running.stop(number) == 0
-        assert "ending without it" not in running.output
+        assert "the process ends anyway" not in running.output
     assert start([*command, "--startup-check"], env=OFFSCREEN).exit_code() == 0
     refused = start(command, env=NO_SCREEN)
     assert refused.exit_code() == 1
-    assert "there is no screen for the window" in refused.output and refused.output.count("\n") == 1
+    assert "the window has no screen" in refused.output and refused.output.count("\n") == 1
 
 
 @needs_qt
@@ -124,7 +124,7 @@ def test_robocomps_generations(
     assert calling.stop() == 0
     behavior(port).killYourSelf()
     assert serving.exit_code(3) == 0
-    assert "Destroying SpecificWorker\n" in serving.output and "ending without it" not in serving.output
+    assert "Destroying SpecificWorker\n" in serving.output and "the process ends anyway" not in serving.output
 
 
 @needs_qt

@@ -28,7 +28,7 @@ def server(programs: Programs, free_port: Ports, tmp_path: Path) -> list[str | P
 def test_a_signal_stops_it(server: list[str | Path], start: Start, number: int) -> None:
     running = start(server).wait_for("Server is running")
     assert running.stop(number) == 0
-    assert "ending without it" not in running.output, "at once: nothing holds it up"
+    assert "the process ends anyway" not in running.output, "at once: nothing holds it up"
     assert "terminate" not in running.output
 
 
@@ -43,7 +43,7 @@ def test_with_a_method_that_is_stuck(
     call = RoboCompArm.ArmPrx.uncheckedCast(ice.stringToProxy(f"arm:{endpoint}")).blockAsync(60)
     running.wait_for("blocking")
     assert running.stop(number, within=2.0) == 0
-    assert "WARNING stop: a method is still running after 1.5 s: ending without it" in running.output
+    assert "WARNING stop: a method is still running after 1.5 s: the process ends anyway" in running.output
     assert call.exception(5) is not None
 
 
@@ -59,7 +59,7 @@ def test_start_and_stop_again_and_again(server: list[str | Path], start: Start) 
     for _ in range(10):
         running = start([*server, "--startup-check"])
         assert running.exit_code() == 0
-        assert "Server starts as it should" in running.output
+        assert "Server: the startup check has passed" in running.output
 
 
 @pytest.fixture
@@ -119,27 +119,27 @@ def test_what_it_is_told(turns: list[str | Path], start: Start, behavior: Ask, p
         asked.setPeriod(wrong)
         assert asked.getPeriod() == 20
         said = f"period.compute is {wrong} ms, and must be at least 1 ms"
-        running.wait_for(f"WARNING Turns: setPeriod({wrong}) refused: {said}")
+        running.wait_for(f"WARNING Turns: setPeriod({wrong}) rejected: {said}")
     asked.setParameterList(asked.getParameterList())
     running.wait_for("INFO Turns: parameters changed by setParameterList: none")
     changed = asked.getParameterList()
     changed["a"].value, changed["period.compute"].value = "2", "99"
     asked.setParameterList(changed)
-    running.wait_for("WARNING Turns: setParameterList refused: there is no parameter 'a'")
+    running.wait_for("WARNING Turns: setParameterList rejected: there is no parameter 'a'")
     assert asked.getPeriod() == 20, "all, or none"
     config = Path(turns[1])
     config.write_text(config.read_text() + "period.compute = 30\n")
     asked.reloadConfig()
     assert asked.getPeriod() == 30
-    running.wait_for("INFO Turns: the config is read again; the period is 30 ms")
+    running.wait_for("INFO Turns: config reloaded, the period is 30 ms")
     config.write_text("period.compute = soon\n")
     asked.reloadConfig()
     assert asked.getPeriod() == 30
-    running.wait_for("WARNING Turns: reloadConfig refused: ")
+    running.wait_for("WARNING Turns: reloadConfig rejected: ")
     running.wait_for("period.compute must be a whole number (ms), and is 'soon'")
     asked.killYourSelf()
     assert running.exit_code(2) == 0
-    assert "INFO Turns: asked to stop" in running.output
+    assert "INFO Turns: stop requested through CommonBehavior" in running.output
 
 
 def test_it_answers_while_it_waits(

@@ -153,7 +153,7 @@ def test_file_and_options_are_told_apart(component: Component, start: Start) -> 
     assert running.exit_code() == 1
     said = "basicPeriod is 2000 ms, and must be from 1 to 1000 ms; motors[0].vel is 9 rad/s, and must be from 0 to 2"
     where = f"{component.config} and --motors.0.vel on the command line"
-    assert f"2 parameters cannot be as given by {where}: {said} rad/s\n" in running.output
+    assert f"2 parameters have invalid values in {where}: {said} rad/s\n" in running.output
 
 
 def test_a_file_that_is_wrong_by_itself(component: Component, start: Start) -> None:
@@ -239,7 +239,7 @@ def test_a_bad_value_is_refused_and_all_others_with_it(
     asked = behavior(component.port)
     before = asked.getParameterList()
     asked.setParameterList(changed(asked, **{"mode": "fast", key: value}))
-    running.wait_for(f"WARNING ParaComp: setParameterList refused: {said}")
+    running.wait_for(f"WARNING ParaComp: setParameterList rejected: {said}")
     assert asked.getParameterList() == before
     assert "[mode" not in running.output
 
@@ -248,7 +248,7 @@ def test_the_user_is_refused_too(component: Component, start: Start, behavior: A
     running = component.run(start).wait_for("ParaComp is running")
     asked = behavior(component.port)
     asked.setParameterList(changed(asked, basicPeriod="7"))
-    running.wait_for("refused: motors[0].vel is 9")
+    running.wait_for("rejected: motors[0].vel is 9")
     assert asked.getParameterList()["basicPeriod"].value == "7", "all, or none"
 
 
@@ -260,14 +260,14 @@ def test_reading_the_config_again(component: Component, start: Start, behavior: 
     running.wait_for("[basicPeriod,motors[0].vel] fast /dev/usb 77 s3cret#1 1 a:0.75 b:2")
     component.write(basicPeriod="78", Arm_M0="a,-1,1,9")
     asked.reloadConfig()
-    running.wait_for("reloadConfig refused: ").wait_for("motors[0].vel is 9 rad/s, and must be from 0 to 2 rad/s")
+    running.wait_for("reloadConfig rejected: ").wait_for("motors[0].vel is 9 rad/s, and must be from 0 to 2 rad/s")
     component.write(basicPeriod="78", Arm_Device="/dev/other")
     asked.reloadConfig()
     running.wait_for("device cannot be changed while the component runs: it is not editable")
     assert asked.getParameterList()["basicPeriod"].value == "77"
     component.config.unlink()
     asked.reloadConfig()
-    until(lambda: running.output.count("reloadConfig refused") == 3, "the third refusal")
+    until(lambda: running.output.count("reloadConfig rejected") == 3, "the third refusal")
     assert asked.getParameterList()["basicPeriod"].value == "77"
 
 
@@ -330,7 +330,7 @@ def test_what_is_hidden_stays_when_it_comes_back(component: Component, start: St
     running.wait_for("parameters changed by setParameterList: locks.1\n")
     for key, value in (("locks_2", "***"), ("server", "http://bob:***@elsewhere")):
         asked.setParameterList(changed(asked, locks_size="3" if key == "locks_2" else "2", **{key: value}))
-        running.wait_for(f"refused: {key.replace('_', '.')} is to hold ***, which stands for what is not shown")
+        running.wait_for(f"rejected: {key.replace('_', '.')} cannot be ***, which is shown instead of a secret")
     told = [line for line in running.output.splitlines() if not line.startswith("safe:")]
     assert not [line for line in told for secret in (*SECRETS, "ash", "8000") if secret in line]
 

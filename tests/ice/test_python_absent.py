@@ -69,7 +69,7 @@ def test_it_fails_at_once(build: Build, start: Start, free_port: Ports) -> None:
     failing = start(client(build, port, absent="fail").command)
     assert failing.exit_code() == 1
     (line,) = failing.output.splitlines()
-    assert line.endswith(f"ERROR Client: Arm at arm:tcp -h 127.0.0.1 -p {port} is not there (connection refused)")
+    assert line.endswith(f"ERROR Client: Arm at arm:tcp -h 127.0.0.1 -p {port} does not answer (connection refused)")
 
 
 def test_it_does_not_mind(build: Build, start: Start, free_port: Ports) -> None:

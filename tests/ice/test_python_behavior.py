@@ -79,13 +79,13 @@ def test_what_it_is_told(component: Built, start: Start, behavior: Ask, port: in
     for wrong in (0, -5):
         asked.setPeriod(wrong)
         assert asked.getPeriod() == 20
-        running.wait_for(f"WARNING Worker: setPeriod({wrong}) refused")
+        running.wait_for(f"WARNING Worker: setPeriod({wrong}) rejected")
     asked.setParameterList(asked.getParameterList())
     running.wait_for("parameters changed by setParameterList: none")
     changed = asked.getParameterList()
     changed["Arm.Speed"].value, changed["period.compute"].value = "2", "99"
     asked.setParameterList(changed)
-    running.wait_for("setParameterList refused: there is no parameter 'Arm.Speed'")
+    running.wait_for("setParameterList rejected: there is no parameter 'Arm.Speed'")
     assert asked.getPeriod() == 20, "all, or none"
     config = component.root / "etc" / "config"
     config.write_text(config.read_text() + "period.compute = 30\n")

@@ -107,7 +107,7 @@ def test_a_port_that_is_taken(arm: Built, start: Start) -> None:
 @pytest.mark.parametrize("wrong", ["hand:tcp -p x", ":tcp -p 1", '"'])
 def test_a_wrong_proxy(both: Built, start: Start, free_port: Ports, wrong: str) -> None:
     both.configure({"Arm.Endpoints": f"tcp -p {free_port()}", "HandProxy": wrong})
-    assert fails(start, both).startswith(f"the proxy to Hand is '{wrong}' in etc/config: that is no proxy (")
+    assert fails(start, both).startswith(f"the proxy to Hand is '{wrong}' in etc/config, which is not a proxy (")
 
 
 def test_a_proxy_without_endpoint(both: Built, start: Start, free_port: Ports) -> None:
@@ -138,13 +138,13 @@ def test_bytes_that_are_no_text(arm: Built, start: Start, free_port: Ports) -> N
     arm.configure({})
     config = arm.root / "etc" / "config"
     config.write_bytes(b"# \xe1rbol\nArm.Endpoints = tcp -p \xff\xfe\n")
-    assert fails(start, arm) == "etc/config:2: this line is not in UTF-8"
+    assert fails(start, arm) == "etc/config:2: this line is not UTF-8"
     config.write_bytes(b"# \xe1rbol\nArm.Endpoints = tcp -p %d # \xe1\n" % free_port())
     start(arm.command).wait_for("ArmComp is running")
 
 
 def test_wrong_usage(arm: Built, start: Start) -> None:
-    for arguments, said in ((["a", "b"], "one CONFIG, please, not 2: a b"), (["-x"], "there is no option -x")):
+    for arguments, said in ((["a", "b"], "expected one CONFIG, got 2: a b"), (["-x"], "unknown option -x")):
         running = start([*arm.command, *arguments])
         assert running.exit_code() == 2
         assert running.output.startswith(f"ArmComp: {said}\n\nusage: bin/ArmComp [CONFIG]")
@@ -167,7 +167,7 @@ def test_a_newer_python_in_front(arm: Built, free_port: Ports, tmp_path: Path) -
     environment = {**os.environ, "PATH": f"{front.parent}:{os.environ['PATH']}"}
     program = [arm.command[1], "--startup-check"]
     done = subprocess.run(program, env=environment, capture_output=True, text=True)
-    assert done.returncode == 0 and "ArmComp starts as it should" in done.stdout + done.stderr
+    assert done.returncode == 0 and "ArmComp: the startup check has passed" in done.stdout + done.stderr
 
 
 def test_without_ice(arm: Built) -> None:
@@ -176,7 +176,7 @@ def test_without_ice(arm: Built) -> None:
     done = subprocess.run(arm.command, env=environment, capture_output=True, text=True)
     assert done.returncode == 1 and not done.stdout
     (line,) = done.stderr.splitlines()
-    assert line.startswith("ArmComp: RCYAML_PYTHON names /no/such/python, which is not there: let it name a Python")
+    assert line.startswith("ArmComp: RCYAML_PYTHON names /no/such/python, which does not exist: set it to a Python")
 
 
 def test_the_slice_folder_is_gone(arm: Built, start: Start) -> None:
@@ -190,6 +190,6 @@ def test_slice_that_ice_refuses(arm: Built, start: Start) -> None:
     (arm.root / "slice" / "Arm.ice").write_text("module M { nonsense }\n")
     running = start(arm.command, cwd=arm.root)
     assert running.exit_code() == 1
-    said = "Ice does not take slice/Arm.ice (see above): compile the component again"
+    said = "Ice rejects slice/Arm.ice (see above): compile the component again"
     assert running.output.splitlines()[-1].endswith(said)
     assert "Traceback" not in running.output

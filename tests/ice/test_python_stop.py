@@ -37,7 +37,7 @@ def write(arm: Built, methods: str) -> None:
 def test_a_signal_stops_it(arm: Built, start: Start, number: int) -> None:
     running = start(arm.command).wait_for("ArmComp is running")
     assert running.stop(number) == 0
-    assert "ending without it" not in running.output, "at once: nothing holds it up"
+    assert "the process ends anyway" not in running.output, "at once: nothing holds it up"
     assert "Traceback" not in running.output and "terminate" not in running.output
 
 
@@ -48,7 +48,7 @@ def test_with_a_method_that_is_stuck(arm: Built, start: Start, ice: Any, slices:
     call = proxy(ice, arm).blockAsync(60)
     running.wait_for("blocking")
     assert running.stop(number, within=2.0) == 0
-    assert "ending without it" in running.output
+    assert "the process ends anyway" in running.output
     assert call.exception(5) is not None
 
 
@@ -111,7 +111,7 @@ def test_start_and_stop_again_and_again(arm: Built, start: Start) -> None:
     for _ in range(5):
         running = start([*arm.command, "--startup-check"])
         assert running.exit_code() == 0
-        assert "ArmComp starts as it should" in running.output
+        assert "ArmComp: the startup check has passed" in running.output
 
 
 def test_ice_admin_stops_it(arm: Built, start: Start, ice: Any, free_port: Ports) -> None:

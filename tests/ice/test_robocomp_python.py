@@ -128,7 +128,7 @@ def test_more_of_qt_than_there_is(build: Build, start: Start, tmp_path: Path) ->
         (component.root / "src" / "specificworker.py").write_text(f"{line}from genericworker import *\n")
         refused = start(component.command, env={"PYTHONPATH": str(tmp_path / "hidden")})
         assert refused.exit_code() == 1
-        assert "src/ needs more of Qt than there is" in refused.output and "pip install" in refused.output
+        assert "src/ needs a part of Qt that is not installed" in refused.output and "pip install" in refused.output
         assert "Traceback" not in refused.output
 
 

@@ -74,7 +74,7 @@ class TestCMake:
             "  libraries: [{cmake: LostPackage}, {pkg-config: lost-module}, {link: lostlibrary}, {pip: numpy}]\n"
         )
         said = configured(compiled(rcyaml, tmp_path, CPP + uses))
-        assert said.startswith("exit 1 ") and "SpeechComp uses what is not there (speech.cdsl.yaml):" in said
+        assert said.startswith("exit 1 ") and "SpeechComp uses what is missing (speech.cdsl.yaml):" in said
         for name in ("lost.cpp", "lostClass", "LostPackage", "lost-module", "lostlibrary"):
             assert f" {name}: " in said
         assert "numpy" not in said
@@ -93,7 +93,7 @@ class TestCMake:
         path = root / "generated/uses.cmake"
         path.write_text(f'set(Old_DIR "{tmp_path}/cmake")\n{path.read_text()}')
         said = configured(root)
-        assert "the CMake package Old is there as version 3.10.1, and must be >3.10.1" in said
+        assert "the CMake package Old has version 3.10.1, and must be >3.10.1" in said
         assert ">=3.9" not in said and "<4" not in said
 
 

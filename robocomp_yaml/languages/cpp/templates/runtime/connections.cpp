@@ -17,8 +17,8 @@ namespace
 {
 
 constexpr auto pause = 250ms;     // between two attempts
-constexpr auto remind = 5s;       // between two lines about it
-constexpr auto patience = 2000ms; // that one attempt may take
+constexpr auto remind = 5s;       // between two log lines about the wait
+constexpr auto patience = 2000ms; // the timeout of one attempt
 
 std::string seconds(std::chrono::milliseconds time)
 {
@@ -51,7 +51,7 @@ std::shared_ptr<Ice::ObjectPrx> Connections::connect(const Requirement& requirem
         const auto why = ping(proxy, timeout.value_or(patience));
         if (!why.empty())
         {
-            throw StartError(what + " is not there (" + why + ")");
+            throw StartError(what + " does not answer (" + why + ")");
         }
     }
     return timeout ? proxy->ice_invocationTimeout(static_cast<int>(timeout->count())) : proxy;
@@ -73,7 +73,7 @@ const Settings& Connections::settings() const
 
 std::shared_ptr<Ice::ObjectPrx> Connections::parse(const std::string& sought, const std::string& text) const
 {
-    const auto problem = sought + " is '" + text + "' in " + settings_.where() + ": that is no proxy";
+    const auto problem = sought + " is '" + text + "' in " + settings_.where() + ", which is not a proxy";
     try
     {
         if (auto proxy = communicator_->stringToProxy(text))

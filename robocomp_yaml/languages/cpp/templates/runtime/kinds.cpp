@@ -295,7 +295,7 @@ Value Kind::takeMember(const Member& each, const Value& raw, const Path& path, T
     }
     if (each.hasDefault)
     {
-        Taking checked; // by the compiler
+        Taking checked; // the compiler has checked defaults
         return each.kind.take(each.defaultValue, path, checked);
     }
     if (each.kind.form == Form::group)
@@ -324,7 +324,7 @@ void Kind::checkSize(std::size_t count, const Path& path, Taking& taking) const
     taking.refuse(path, "has " + entries + ", and must have " + wanted, entries, wanted);
 }
 
-/// The value of data of the right type, else nothing.
+/// The value of data that has the right type, else nothing.
 Value Kind::of(const Value& raw) const
 {
     const auto* number = raw.as<double>();
@@ -336,7 +336,7 @@ Value Kind::of(const Value& raw) const
         if (number != nullptr && std::isfinite(*number) && std::trunc(*number) == *number)
         {
             const bool fits = *number >= -0x1p63 && *number < 0x1p63;
-            return fits ? Value(static_cast<long long>(*number)) : raw; // what does not fit is beyond any limit
+            return fits ? Value(static_cast<long long>(*number)) : raw; // other values are beyond every limit
         }
         return raw.as<long long>() != nullptr ? raw : Value();
     case Form::decimal:
@@ -366,14 +366,14 @@ Value Kind::read(const std::string& text) const
     }
 }
 
-/// A value of this type, or what was to be one, for messages.
+/// A value, or an invalid one, for messages.
 std::string Kind::shown(const Value& raw) const
 {
     const bool isPlainValue = raw.isNumber() || raw.as<bool>() != nullptr || raw.as<std::string>() != nullptr;
     return isSecret && isPlainValue ? hidden : shownValue(raw);
 }
 
-/// What a value is.
+/// The values of the type, for messages.
 std::string Kind::words() const
 {
     switch (form)
@@ -391,7 +391,7 @@ std::string Kind::words() const
     }
 }
 
-/// Which values it may have: of a secret, only how many.
+/// The allowed values, for messages; of a secret, only their number.
 std::string Kind::oneOf() const
 {
     if (isSecret)
@@ -399,7 +399,7 @@ std::string Kind::oneOf() const
     return "one of " + joinedNames(values_);
 }
 
-/// What the value must do to be within the limits, or an empty text.
+/// Which limit the value must meet, for messages; empty if it meets all.
 std::string Kind::limit(const Value& value) const
 {
     const auto in = unit.empty() ? "" : " " + unit;

@@ -63,7 +63,7 @@ std::vector<Problem> Store::problems(
 Store::Found Store::read(Texts properties, const Texts& overrides, const std::string& folder) const
 {
     auto known = properties;
-    const auto robocomp = properties.find("Period.Compute"); // RoboComp's own spelling
+    const auto robocomp = properties.find("Period.Compute"); // RoboComp's own name
     if (robocomp != properties.end())
     {
         known.emplace("period.compute", robocomp->second);
@@ -157,7 +157,7 @@ void Store::changeTexts(const Texts& changes)
                 (listed != now.end() && listed->second.text.find(hidden) != std::string::npos);
             if (isHidden && reader.used().count(key) != 0 && text.find(hidden) != std::string::npos)
             {
-                taking.refuse({}, key + " is to hold " + hidden + ", which stands for what is not shown");
+                taking.refuse({}, key + " cannot be " + hidden + ", which is shown instead of a secret");
             }
         }
         auto made = table_.kind.take(read, {}, taking);
@@ -195,7 +195,7 @@ Texts Store::others() const
     return listed;
 }
 
-/// The plain values by their dotted paths, as they are now: a reference is not followed again.
+/// The plain values by their dotted paths, as they are now: references are not read again.
 std::map<std::string, Value> Store::known() const
 {
     auto found = plainValues(table_.kind, values_);
@@ -251,7 +251,7 @@ int Store::number(const std::string& path, int otherwise) const
     return number != nullptr ? static_cast<int>(*number) : otherwise;
 }
 
-/// Puts new values in the place of the old ones, if they may be there.
+/// Replaces the values, if the new ones are valid and may change.
 void Store::replace(Value made, Taking taking)
 {
     std::vector<Difference> changed;
@@ -312,7 +312,7 @@ std::vector<Problem> Store::broken(const Value& made) const
     return problems;
 }
 
-/// One thread at a time tells the news, in order and without the lock on the values, so that listeners may change more.
+/// Calls the listeners, in one thread at a time, in order and without the lock: listeners may change values.
 void Store::tell()
 {
     std::unique_lock lock(mutex_);

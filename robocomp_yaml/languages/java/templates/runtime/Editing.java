@@ -8,12 +8,12 @@ import java.util.Map;
 import java.util.Objects;
 import java.util.function.BiConsumer;
 
-/** Changes of values: one value put into data, what differs, and values as a flat list of texts. */
+/** Edits of values: setting one value in data, differences, and values as a flat list of texts. */
 final class Editing {
     private Editing() {
     }
 
-    /** The same data, which may be changed. */
+    /** A copy of the data that may be changed. */
     static Object copy(Object data) {
         if (data instanceof Map<?, ?> map) {
             Map<String, Object> made = new LinkedHashMap<>();
@@ -29,8 +29,8 @@ final class Editing {
     }
 
     /**
-     * Sets the value at a path, null removes it; false where there is no such path. The number after the last one of a
-     * list is a new entry.
+     * Sets the value at a path, or removes it if it is null; returns false for an unknown path. The index after the
+     * last entry of a list appends an entry.
      */
     static boolean put(Kind kind, Object data, List<String> steps, Object value) {
         Kind at = kind;
@@ -56,7 +56,7 @@ final class Editing {
         return false;
     }
 
-    /** The type that stands there, or null. */
+    /** The type at a step, or null. */
     private static Kind stepped(Kind kind, Object data, String step) {
         if (kind.isRecord() && kind.members.containsKey(step) && data instanceof Map) {
             return kind.members.get(step).kind;
@@ -120,7 +120,7 @@ final class Editing {
         return found;
     }
 
-    /** What has changed, and whether it may: a parameter may with all that it holds, a record's member by itself. */
+    /** The changed paths, and whether each may change: an editable parameter with all of its content, or a member. */
     static void differences(
         Kind kind, Object old, Object made, List<Object> path, boolean mayChange, BiConsumer<List<Object>, Boolean> tell) {
         if (Objects.equals(old, made)) {
@@ -147,7 +147,7 @@ final class Editing {
 
     /**
      * Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them.
-     * Secrets are hidden; of what was given by reference, the reference stands there.
+     * Secrets are hidden; a value that came from a reference is shown as the reference.
      */
     static void flat(
         Kind kind, Object value, Map<List<Object>, String> references, List<Object> path, boolean mayChange,
