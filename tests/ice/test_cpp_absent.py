@@ -97,7 +97,7 @@ def test_it_does_not_mind(client: Program, start: Start, served: str, nobody: st
     [
         ("hand:{endpoint}", "the process answers, but has no such object"),
         ("arm:tcp -h no-such-host.invalid -p 1", "host no-such-host.invalid is unknown"),
-        ("arm", "it has no endpoint, and there is no locator to ask"),
+        ("arm", "it has no endpoint, and no locator is configured"),
     ],
 )
 def test_why_it_is_absent(client: Program, start: Start, served: str, tmp_path: Path, address: str, why: str) -> None:

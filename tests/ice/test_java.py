@@ -212,7 +212,7 @@ def test_what_the_launcher_lacks_is_said(built: Callable[[str], Path], tmp_path:
         return done.stderr
 
     assert said(JAVA_HOME="/nowhere") == (
-        "Server: there is no Java: apt install openjdk-17-jre-headless, or set JAVA_HOME\n"
+        "Server: Java is not installed: apt install openjdk-17-jre-headless, or set JAVA_HOME\n"
     )
     assert "Server: Ice 3.7 for Java is not installed: apt install libzeroc-ice3.7-java" in said(ICE_JAVA="/nowhere")
     (root / "build" / "Server.jar").unlink()

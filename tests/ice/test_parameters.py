@@ -248,7 +248,7 @@ def test_the_user_is_refused_too(component: Component, start: Start, behavior: A
     running = component.run(start).wait_for("ParaComp is running")
     asked = behavior(component.port)
     asked.setParameterList(changed(asked, basicPeriod="7"))
-    running.wait_for("rejected: motors[0].vel is 9")
+    running.wait_for("refused: motors[0].vel is 9")
     assert asked.getParameterList()["basicPeriod"].value == "7", "all, or none"
 
 

@@ -112,7 +112,7 @@ def test_a_wrong_proxy(both: Built, start: Start, free_port: Ports, wrong: str) 
 
 def test_a_proxy_without_endpoint(both: Built, start: Start, free_port: Ports) -> None:
     both.configure({"Arm.Endpoints": f"tcp -p {free_port()}", "HandProxy": "hand"})
-    start(both.command).wait_for("waiting for Hand at hand ... (it has no endpoint, and there is no locator to ask)")
+    start(both.command).wait_for("waiting for Hand at hand ... (it has no endpoint, and no locator is configured)")
 
 
 @pytest.mark.parametrize("wrong", ["soon", "0", "-3", "1.5"])

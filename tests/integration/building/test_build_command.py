@@ -242,5 +242,5 @@ def test_without_cmake_it_is_said_what_to_install(
     monkeypatch.setenv("PATH", str(tmp_path))
     result = rcyaml("build")
     assert result.exit_code == 1
-    assert "error[RC8003]: ArmComp cannot be built: there is no program 'cmake'" in result.stdout
+    assert "error[RC8003]: ArmComp cannot be built: the program 'cmake' is missing" in result.stdout
     assert "sudo apt install cmake" in result.stdout
