@@ -45,6 +45,11 @@ Made by `make macros`, which adds what the compiler at hand knows. Do not edit: 
 \"\"\"
 
 from __future__ import annotations"""
+SUFFIXES = ("", "f", "l", "f32", "f32x", "f64", "f64x", "f128")
+_GLOBALS_FOOT = f"""
+_SUFFIXES = {SUFFIXES}  # of the types of numbers
+GLOBALS = _OTHERS.union(f"{{name}}{{suffix}}" for name in _FUNCTIONS for suffix in _SUFFIXES)
+""".replace("'", '"')
 _SLICE = "module M { struct S { int a; }; exception E { S s; }; interface I { S f(out int a) throws E; }; };\n"
 _INCLUDE = re.compile(r"^#include <(?!Q|\{|genericworker)([^>]+)>", re.MULTILINE)
 
@@ -128,6 +133,14 @@ def table(sets: dict[str, set[str]]) -> str:
     return "\n\n".join(parts) + "\n"
 
 
+def globals_table(names: set[str]) -> str:
+    """The module globals.py: mathematical functions are listed once for all of their types."""
+    functions = {name for name in names if all(f"{name}{suffix}" in names for suffix in SUFFIXES)}
+    others = names - {f"{name}{suffix}" for name in functions for suffix in SUFFIXES}
+    parts = [f"{_GLOBALS_HEAD}\n", _listed("_FUNCTIONS", functions, "  # of mathematics"), _listed("_OTHERS", others)]
+    return "\n".join(parts) + _GLOBALS_FOOT
+
+
 def _listed(name: str, names: set[str], comment: str = "") -> str:
     words = textwrap.fill(" ".join(sorted(names)), 112, break_long_words=False, break_on_hyphens=False)
     return f'{name} = frozenset({comment}\n    """{textwrap.indent(words, "    ").lstrip()}""".split()\n)'
@@ -150,7 +163,7 @@ def main() -> None:
         from robocomp_yaml.languages.cpp import globals as cpp_globals
 
         names |= cpp_globals.GLOBALS
-    GLOBALS.write_text(f"{_GLOBALS_HEAD}\n\n{_listed('GLOBALS', names)}\n", encoding="utf-8")
+    GLOBALS.write_text(globals_table(names), encoding="utf-8")
 
 
 if __name__ == "__main__":
