@@ -55,7 +55,7 @@ _INCLUDE = re.compile(r"^#include <(?!Q|\{|genericworker)([^>]+)>", re.MULTILINE
 
 
 def found() -> dict[str, set[str]]:
-    """The macros of this machine, by the sets of the table that they belong to; no `QT` where there is none."""
+    """The macros of this machine, by the sets of the table; without `QT` if Qt is not installed."""
     with tempfile.TemporaryDirectory() as folder:
         include = headers(Path(folder))
         always = _macros(include, 17)
@@ -69,8 +69,8 @@ def found() -> dict[str, set[str]]:
 
 
 def found_globals() -> set[str]:
-    """The names of this machine that cannot be those of namespaces: each word of the headers is tried, but for what is
-    known as a macro or a keyword."""
+    """The names of this machine that a namespace cannot have: each word of the headers is tried, except for known macros
+    and keywords."""
     sys.path.insert(0, str(ROOT))
     from robocomp_yaml.languages.cpp import KEYWORDS
     from robocomp_yaml.languages.cpp.macros import EVER
@@ -91,7 +91,7 @@ def found_globals() -> set[str]:
 
 
 def headers(folder: Path) -> list[str]:
-    """All that the fixed sources include, and what slice2cpp makes."""
+    """Includes of the fixed sources and of slice2cpp's code."""
     (folder / "M.ice").write_text(_SLICE)
     subprocess.run(["slice2cpp", "--output-dir", str(folder), "M.ice"], cwd=folder, check=True)
     sources = sorted(path for path in (TABLE.parent / "templates").rglob("*") if path.is_file())
@@ -104,7 +104,7 @@ def headers(folder: Path) -> list[str]:
 
 
 def _macros(headers: list[str], standard: int, *flags: str) -> set[str]:
-    """Those that an interface can name, and that stand for something else than themselves."""
+    """The macros that an interface can name, and that do not expand to themselves."""
     source = "".join(f"#include <{header}>\n" for header in headers)
     listed = _preprocessed(source, standard, "-dM", *flags)
     names = set(re.findall(r"^#define (\w+)", listed, re.MULTILINE))
@@ -116,13 +116,13 @@ def _macros(headers: list[str], standard: int, *flags: str) -> set[str]:
 
 
 def _preprocessed(source: str, standard: int, *flags: str) -> str:
-    """With what a component's build defines by itself: for Ice, and in CMake's Release."""
+    """With the macros that a component's build defines: for Ice, and for CMake's Release."""
     command = ["g++", f"-std=c++{standard}", "-DICE_CPP11_MAPPING", "-DNDEBUG", "-O2", "-E", *flags, "-x", "c++", "-"]
     return subprocess.run(command, input=source, capture_output=True, text=True, check=True).stdout
 
 
 def _can_be_named(name: str) -> bool:
-    """Slice takes underscores between other characters only, and leaves `ice…` to Ice; some families are large."""
+    """Slice allows underscores only between other characters, and reserves `ice…`; some families are large."""
     return all(name.split("_")) and not name.lower().startswith("ice") and not name.startswith(FAMILIES)
 
 

@@ -1,4 +1,4 @@
-"""The config of a C++ component: where it comes from, its two spellings, and what is wrong with it in one line."""
+"""The config of a C++ component: its location, its two spellings, and its errors in one line."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def endpoints(free_port: Ports) -> dict[str, str]:
 
 
 def fails(start: Start, program: Program, folder: Path, *arguments: str) -> str:
-    """The one line that it says before it ends, without the time."""
+    """The only line of output before the component ends, without the time."""
     running = start([program.path, *arguments], cwd=folder)
     assert running.exit_code() == 1, running.output
     (line,) = running.output.splitlines()
@@ -39,7 +39,7 @@ def write(folder: Path, text: str | bytes) -> None:
 
 
 def test_toml_dialect(server: Program, start: Start, free_port: Ports, ice: Any, tmp_path: Path) -> None:
-    """Keys the other way round, values in double quotes."""
+    """Keys in the other spelling, values in double quotes."""
     arm = free_port()
     properties = {
         "Endpoints.Arm": f'"tcp -h 127.0.0.1 -p {arm}"',
@@ -70,7 +70,7 @@ def test_ice_config_names_the_file(server: Program, start: Start, endpoints: dic
 def test_the_current_folder_does_not_matter(
     server: Program, start: Start, endpoints: dict[str, str], tmp_path: Path
 ) -> None:
-    """The default config is the component's own, also when the program is reached through a link."""
+    """The default config is the component's own, also if the program is started through a link."""
     copy = Program("Server", tmp_path / "copy")
     (copy.root / "bin").mkdir(parents=True)
     shutil.copy(server.path, copy.path)
@@ -145,7 +145,7 @@ def test_a_wrong_period(server: Program, start: Start, tmp_path: Path, wrong: st
 
 
 def test_bytes_that_are_no_text(server: Program, start: Start, endpoints: dict[str, str], tmp_path: Path) -> None:
-    """In a comment they do not matter; nor do a BOM and CRLF."""
+    """Such bytes are allowed in comments; so are a BOM and CRLF."""
     write(tmp_path, b"# \xe1rbol\nArm.Endpoints = tcp -p \xff\xfe\n")
     assert fails(start, server, tmp_path, "my.config") == "my.config:2: this line is not UTF-8"
     lines = [f"{key} = {value}".encode() for key, value in endpoints.items()]

@@ -1,4 +1,4 @@
-"""A C++ component stops in order, within two seconds, whatever it is doing; CommonBehavior and the worker's period."""
+"""A C++ component stops in order, within two seconds, at any time; CommonBehavior and the worker's period."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Ask = Callable[[int], Any]
 
 @pytest.fixture
 def server(programs: Programs, free_port: Ports, tmp_path: Path) -> list[str | Path]:
-    """The command that starts it."""
+    """The command of the component."""
     ports = {f"{name}.Endpoints": f"tcp -h 127.0.0.1 -p {free_port()}" for name in ("Arm", "Hand")}
     return programs("Server").command(tmp_path, ports)
 
@@ -69,7 +69,7 @@ def port(free_port: Ports) -> int:
 
 @pytest.fixture
 def turns(programs: Programs, port: int, tmp_path: Path) -> list[str | Path]:
-    """The command that starts a component whose worker says when it has a turn."""
+    """The command of a component whose worker prints each turn."""
     endpoint = f"tcp -h 127.0.0.1 -p {port}"
     return programs("Turns").command(
         tmp_path, {"CommonBehavior.Endpoints": endpoint, "Ice.Warn.Connections": 0, "a": 1}
@@ -77,13 +77,13 @@ def turns(programs: Programs, port: int, tmp_path: Path) -> list[str | Path]:
 
 
 def rows(running: Running) -> list[tuple[int, int]]:
-    """The number and the moment of each turn so far."""
+    """The number and the time of each turn so far."""
     lines = [line.split() for line in running.output.splitlines() if line.startswith("turn ")]
     return [(int(line[1]), int(line[2])) for line in lines if len(line) == 4]
 
 
 def test_a_turn_every_period(turns: list[str | Path], start: Start) -> None:
-    """A failure is logged and survived; after a turn that took long, the next ones come on the old beat."""
+    """A failure is logged, and the next turn follows; after a long turn, the following ones keep the old beat."""
     running = start(turns)
     until(lambda: len(rows(running)) > 20, "twenty turns")
     assert "ERROR Turns: compute() failed: the third one fails\n" in running.output
@@ -157,7 +157,7 @@ def test_it_answers_while_it_waits(
 def test_a_call_that_came_too_early(
     programs: Programs, start: Start, ice: Any, slices: None, free_port: Ports, tmp_path: Path
 ) -> None:
-    """It waits for the end of initialize(); when that never comes, it gets an exception, and does not hold us up."""
+    """It waits until initialize() returns; if it never does, the call fails and does not delay the end."""
     import Ice
     import RoboCompArm
 
@@ -174,7 +174,7 @@ def test_a_call_that_came_too_early(
 
 
 def test_ices_own_process_facet(server: list[str | Path], start: Start, ice: Any, free_port: Ports) -> None:
-    """IceGrid stops programs so."""
+    """As IceGrid does."""
     import Ice
 
     endpoint = f"tcp -h 127.0.0.1 -p {free_port()}"

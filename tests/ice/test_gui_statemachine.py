@@ -1,5 +1,5 @@
-"""A window and a state machine in one component: buttons fire events, and handlers, in the worker's thread, hand things
-to the window."""
+"""A window and a state machine in one component: buttons fire events, and handlers, in the worker's thread, pass jobs to
+the window."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Java components over real Ice: they call and are called by components in other languages, publish, listen, stop."""
+"""Java components over real Ice: they call components in other languages and are called, publish, subscribe, stop."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ BOTH = pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["
 
 @pytest.fixture(scope="session")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """The folder of a component, built by the first test that asks."""
+    """The folder of a component, which the first test that needs it builds."""
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
     folder = shared / "java ñ"  # with a blank and more
@@ -51,7 +51,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
 
 @pytest.fixture
 def program(built: Callable[[str], Path], tmp_path: Path) -> Program:
-    """`program("Server", {key: value})`: the command that runs it with a config that holds these."""
+    """`program("Server", {key: value})`: the command that runs it with a config with these properties."""
 
     def command(name: str, properties: dict[str, str]) -> list[str | Path]:
         config = tmp_path / f"{name}.config"
@@ -201,7 +201,7 @@ def test_what_cannot_start_says_why(
 
 
 def test_what_the_launcher_lacks_is_said(built: Callable[[str], Path], tmp_path: Path) -> None:
-    """Without Java, without Ice, without a build; each with what mends it."""
+    """Without Java, without Ice, without a build; each message has a hint."""
     root = tmp_path / "server"
     shutil.copytree(built("Server"), root)
     program = root / "bin" / "Server"
@@ -239,7 +239,7 @@ def test_a_method_that_lacks_is_named_by_the_build(built: Callable[[str], Path],
 
 
 def test_a_build_refuses_what_it_cannot_do(built: Callable[[str], Path], tmp_path: Path) -> None:
-    """Another's program in its place, an old compiler, no compiler; a failed build leaves the last one."""
+    """A file of another program, an old compiler, no compiler; a failed build keeps the last program."""
     root = tmp_path / "server"
     shutil.copytree(built("Server"), root)
     program, build_ = root / "bin" / "Server", root / "generated" / "build"

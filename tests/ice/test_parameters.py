@@ -65,7 +65,7 @@ class Component:
         return self.folder / "my.config"
 
     def write(self, **changes: str | None) -> None:
-        """The config; keys with '_' for '.'; None leaves one out."""
+        """The config; '_' in keys stands for '.'; None removes a property."""
         held = {**CONFIG, "CommonBehavior.Endpoints": f"tcp -h 127.0.0.1 -p {self.port}"}
         for key, value in changes.items():
             held[key.replace("_", ".")] = value  # type: ignore[assignment]
@@ -101,7 +101,7 @@ Ask = Callable[[int], Any]
 
 
 def changed(asked: Any, **changes: str) -> dict[str, Any]:
-    """The parameter list with other values; keys with '_' for '.'."""
+    """The parameter list with other values; '_' in keys stands for '.'."""
     listed = asked.getParameterList()
     made = type(next(iter(listed.values())))
     for key, value in changes.items():
@@ -217,7 +217,7 @@ def test_changes_from_another_process(component: Component, start: Start, behavi
     asked.setPeriod(44)
     running.wait_for("[period.compute] fast")
     asked.setParameterList(changed(asked, basicPeriod="9"))
-    running.wait_for("[basicPeriod] fast /dev/usb 10 ")  # which a listener did
+    running.wait_for("[basicPeriod] fast /dev/usb 10 ")  # by a listener
 
 
 @pytest.mark.parametrize(
@@ -354,7 +354,7 @@ def test_any_plain_value_can_come_from_a_file(component: Component, start: Start
     asked = behavior(component.port)
     assert asked.getParameterList()["basicPeriod"].value == "${file:period}"
     (component.folder / "vel").unlink()
-    asked.setParameterList(changed(asked, mode="fast"))  # what was read is not read again
+    asked.setParameterList(changed(asked, mode="fast"))  # references are not read again
     running.wait_for("[mode] fast /dev/usb 77")
     (component.folder / "vel").write_text("0.25")
     (component.folder / "period").write_text("88")
@@ -398,7 +398,7 @@ PAPER = ROOT / "examples" / "jointmotor"
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_papers_component(rcyaml: Callable[..., Any], tmp_path: Path, start: Start, language: str) -> None:
-    """JointMotorComp as it is in the paper: compiled with its values, it reads them."""
+    """JointMotorComp of the paper: compiled with its values, it reads them."""
     shutil.copytree(PAPER, tmp_path, dirs_exist_ok=True)
     root, spoken = tmp_path / language, of_languages.spoken(language)
     if not root.is_dir():  # the example is in two languages
@@ -410,7 +410,7 @@ def test_the_papers_component(rcyaml: Callable[..., Any], tmp_path: Path, start:
     worker = root / spoken.worker
     worker.write_text(spoken.paper + spoken.stubs(worker.read_text()))
     spoken.build(root)
-    (program,) = (root / "bin").glob("[!.]*")  # beside a .gitignore
+    (program,) = (root / "bin").glob("[!.]*")  # not the .gitignore
     running = start([*spoken.command(program), "--startup-check"])
     running.wait_for("Dunkermotoren /dev/ttyUSB0 115200 220 2\n")
     running.wait_for("dunker0 A 1 -3.14 3.14 0 0.9\ndunker1 B 0 -3.14 3.14 0 0.9\n")

@@ -1,4 +1,4 @@
-"""CommonBehavior of a Python component, asked by another process; and its worker's period."""
+"""CommonBehavior of a Python component, called from another process; and its worker's period."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def component(build: Build, port: int) -> Built:
 
 
 def turns(running: Running) -> list[tuple[int, int]]:
-    """The number and the moment of each turn so far."""
+    """The number and the time of each turn so far."""
     rows = [line.split() for line in running.output.splitlines() if line.startswith("turn ")]
     return [(int(row[1]), int(row[2])) for row in rows if len(row) == 4]
 
@@ -112,7 +112,7 @@ def test_it_answers_while_it_starts(component: Built, start: Start, behavior: As
 
 
 def test_the_period(component: Built, start: Start) -> None:
-    """No drift; an exception costs one turn; turns missed in a long one are left out; the rest keep the beat."""
+    """No drift; an exception costs one turn; turns missed in a long one are skipped; the others keep the beat."""
     running = start(component.command)
     until(lambda: len(turns(running)) >= 15, "15 turns")
     seen = dict(turns(running))

@@ -1,4 +1,4 @@
-"""The config of a Python component: where it comes from, its two spellings, and what is wrong with it in one line."""
+"""The config of a Python component: its location, its two spellings, and its errors in one line."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def both(build: Build) -> Built:
 
 
 def fails(start: Start, component: Built, *arguments: str, code: int = 1) -> str:
-    """The one line that it says before it ends, without the time."""
+    """The only line of output before the component ends, without the time."""
     running = start([*component.command, *arguments], cwd=component.root)
     assert running.exit_code() == code, running.output
     (line,) = running.output.splitlines()
@@ -36,7 +36,7 @@ def fails(start: Start, component: Built, *arguments: str, code: int = 1) -> str
 
 
 def test_toml_dialect(both: Built, start: Start, free_port: Ports, ice: Any) -> None:
-    """Keys the other way round, values in double quotes."""
+    """Keys in the other spelling, values in double quotes."""
     arm = free_port()
     both.configure(
         {
@@ -125,7 +125,7 @@ def test_a_wrong_period(arm: Built, start: Start, wrong: str) -> None:
 
 
 def test_lines_that_are_no_properties(arm: Built, start: Start, free_port: Ports) -> None:
-    """Ice warns and goes on; a BOM and CRLF are nothing special."""
+    """Ice warns and continues; a BOM and CRLF are allowed."""
     arm.configure({})
     text = f"\ufeffArm.Endpoints = tcp -p {free_port()}\r\nno property\r\n# é\r\nname = ñ\r\n"
     (arm.root / "etc" / "config").write_bytes(text.encode())
@@ -134,7 +134,7 @@ def test_lines_that_are_no_properties(arm: Built, start: Start, free_port: Ports
 
 
 def test_bytes_that_are_no_text(arm: Built, start: Start, free_port: Ports) -> None:
-    """In a comment they do not matter."""
+    """Such bytes are allowed in comments."""
     arm.configure({})
     config = arm.root / "etc" / "config"
     config.write_bytes(b"# \xe1rbol\nArm.Endpoints = tcp -p \xff\xfe\n")
@@ -157,7 +157,7 @@ def test_help_needs_no_ice(arm: Built) -> None:
 
 
 def test_a_newer_python_in_front(arm: Built, free_port: Ports, tmp_path: Path) -> None:
-    """One without Ice: the component runs in the workspace's."""
+    """That Python has no Ice: the component runs with the workspace's."""
     arm.configure({"Arm.Endpoints": f"tcp -p {free_port()}"})
     (tmp_path / "front").mkdir()
     front = tmp_path / "front" / "python3"
@@ -171,7 +171,7 @@ def test_a_newer_python_in_front(arm: Built, free_port: Ports, tmp_path: Path) -
 
 
 def test_without_ice(arm: Built) -> None:
-    """What is set is the only one that is tried."""
+    """If the variable is set, no other Python is tried."""
     environment = {**os.environ, "RCYAML_PYTHON": "/no/such/python"}
     done = subprocess.run(arm.command, env=environment, capture_output=True, text=True)
     assert done.returncode == 1 and not done.stdout

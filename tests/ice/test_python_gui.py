@@ -1,4 +1,4 @@
-"""Python components with a window, offscreen: it answers whatever the worker does, and closing it stops the component."""
+"""Python components with a window, offscreen: it answers while the worker is busy, and closing it stops the component."""
 
 from __future__ import annotations
 
@@ -126,7 +126,9 @@ def test_signals_stop_it(window: Callable[..., tuple[Built, int]], start: Start,
     component, _ = window("QWidget")
     running = start(component.command, env=OFFSCREEN).wait_for("Any is running")
     assert running.stop(number) == 0
-    assert "the process ends anyway" not in running.output and "Traceback" not in running.output.split("initialize in")[0]
+    assert (
+        "the process ends anyway" not in running.output and "Traceback" not in running.output.split("initialize in")[0]
+    )
 
 
 @pytest.mark.parametrize("base", BASES)
@@ -139,7 +141,7 @@ def test_the_skeleton_runs(window: Callable[..., tuple[Built, int]], start: Star
 
 
 def test_it_waits_for_others_with_its_window_open(build: Build, start: Start, free_port: Ports) -> None:
-    """A signal ends it while a proxy is not there yet."""
+    """A signal stops the component while a server is still absent."""
     pytest.importorskip("PySide6", reason="PySide6 is not installed (PySide6-Essentials<6.11)")
     keys: dict[str, Any] = {"gui": {"toolkit": "qt", "base": "QWidget"}, "requires": ["Arm"]}
     built = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", **keys)})["Any"]
@@ -221,7 +223,7 @@ class SpecificWorker(GenericWorker):
 
 @pytest.mark.parametrize("base", BASES)
 def test_robocomps_own(build: Build, start: Start, base: str) -> None:
-    """There the worker is the window."""
+    """The worker is the window."""
     pytest.importorskip("PySide6", reason="PySide6 is not installed (PySide6-Essentials<6.11)")
     keys: dict[str, Any] = {"gui": {"toolkit": "qt", "base": base}, "compatibility": "robocomp"}
     built = build({**INTERFACES, "any.cdsl.yaml": cdsl("Any", **keys)})["Any"].configure({})

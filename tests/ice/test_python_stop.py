@@ -1,4 +1,4 @@
-"""A Python component stops in order, within two seconds, whatever it is doing."""
+"""A Python component stops in order, within two seconds, at any time."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_with_a_compute_that_is_stuck(arm: Built, start: Start, number: int) -> 
 
 
 def test_while_it_initializes(arm: Built, start: Start, ice: Any, slices: None) -> None:
-    """A call that waits for the end of initialize() gets an exception, and does not hold it up."""
+    """A call that waits for initialize() fails, and does not delay the end."""
     write(arm, "    def initialize(self):\n        print('busy')\n        while not self._stopping.wait(0.1): pass\n")
     running = start(arm.command).wait_for("busy")
     call = proxy(ice, arm).moveAsync([], False)
@@ -107,7 +107,7 @@ def test_many_signals(arm: Built, start: Start) -> None:
 
 
 def test_start_and_stop_again_and_again(arm: Built, start: Start) -> None:
-    """The end of the process is clean: threads that are still in Ice would abort it now and then."""
+    """The process ends cleanly: threads that are still in Ice would sometimes abort it."""
     for _ in range(5):
         running = start([*arm.command, "--startup-check"])
         assert running.exit_code() == 0
@@ -127,7 +127,7 @@ def test_ice_admin_stops_it(arm: Built, start: Start, ice: Any, free_port: Ports
 
 
 def test_before_it_has_started(arm: Built, start: Start) -> None:
-    """At any moment of its start: never a traceback."""
+    """At any moment of its start, without a traceback."""
     for delay in (0.15, 0.2, 0.25, 0.3, 0.35):
         running = start(arm.command)
         time.sleep(delay)
