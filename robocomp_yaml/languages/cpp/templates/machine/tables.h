@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// State machines: an interpreter of SCXML (https://www.w3.org/TR/scxml/) for machines that are given as tables.
+/// State machines: an interpreter of SCXML (https://www.w3.org/TR/scxml/) for machines in the form of tables.
 namespace machine
 {
 

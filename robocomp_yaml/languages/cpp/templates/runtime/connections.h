@@ -63,7 +63,7 @@ private:
     using Milliseconds = std::chrono::milliseconds;
 
     std::shared_ptr<Ice::ObjectPrx> connect(const Requirement& requirement) const;
-    std::shared_ptr<Ice::ObjectPrx> parse(const std::string& sought, const std::string& text) const;
+    std::shared_ptr<Ice::ObjectPrx> parse(const std::string& label, const std::string& text) const;
 
     /// Waits until the object answers a ping; `what` is its name in messages.
     void waitFor(

@@ -57,10 +57,10 @@ std::function<bool(Value&)> elements(const Value::List& items, const Function& e
         while (at < items.size())
         {
             const auto& item = items[at++];
-            const auto isWanted = condition ? condition(item) : Value(true);
-            if (isWanted.isNothing() || isTrue(isWanted))
+            const auto holds = condition ? condition(item) : Value(true);
+            if (holds.isNothing() || isTrue(holds))
             {
-                value = isWanted.isNothing() ? Value() : element ? element(item) : item;
+                value = holds.isNothing() ? Value() : element ? element(item) : item;
                 return true;
             }
         }

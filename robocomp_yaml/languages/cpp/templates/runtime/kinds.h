@@ -94,7 +94,7 @@ public:
     std::vector<Member> members;
 
 private:
-    Value takePlain(const Value& given, const Path& path, Taking& taking) const;
+    Value takePlain(const Value& data, const Path& path, Taking& taking) const;
     Value takeList(const Value& raw, const Path& path, Taking& taking) const;
     Value takeMap(const Value& raw, const Path& path, Taking& taking) const;
     Value takeRecord(const Value& raw, const Path& path, Taking& taking) const;

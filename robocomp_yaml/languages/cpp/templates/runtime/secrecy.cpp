@@ -151,20 +151,20 @@ bool isSecret(const std::string& name)
 
 std::string withoutPasswords(const std::string& text)
 {
-    std::string said = text;
-    for (auto at = said.find("://"); at != std::string::npos; at = said.find("://", at + 3))
+    std::string result = text;
+    for (auto at = result.find("://"); at != std::string::npos; at = result.find("://", at + 3))
     {
-        const auto end = std::min(said.find_first_of(" \t\r\n\f\v/?#'\"<>", at + 3), said.size());
-        const auto sign = said.rfind('@', end);
-        const auto colon = said.find_first_of(":@", at + 3);
-        const bool hasPassword = sign != std::string::npos && colon != std::string::npos && said[colon] == ':' &&
+        const auto end = std::min(result.find_first_of(" \t\r\n\f\v/?#'\"<>", at + 3), result.size());
+        const auto sign = result.rfind('@', end);
+        const auto colon = result.find_first_of(":@", at + 3);
+        const bool hasPassword = sign != std::string::npos && colon != std::string::npos && result[colon] == ':' &&
             colon + 1 < sign && sign < end;
-        if (hasPassword && isBehindScheme(said, at))
+        if (hasPassword && isBehindScheme(result, at))
         {
-            said.replace(colon + 1, sign - colon - 1, hidden);
+            result.replace(colon + 1, sign - colon - 1, hidden);
         }
     }
-    return said;
+    return result;
 }
 
 std::string shown(const std::string& name, const std::string& text)

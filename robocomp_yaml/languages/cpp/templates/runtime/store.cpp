@@ -50,7 +50,7 @@ void Store::load(const Texts& properties, const Texts& overrides, const std::str
         isLoaded_ = true;
         others_ = std::move(found.others);
     }
-    tell();
+    notify();
 }
 
 std::vector<Problem> Store::problems(
@@ -108,7 +108,7 @@ void Store::change(const std::map<std::string, Value>& values)
         auto made = taking.problems.empty() ? table_.kind.take(changed, {}, taking) : Value();
         replace(std::move(made), std::move(taking));
     }
-    tell();
+    notify();
 }
 
 void Store::edit(const std::function<Value(const Value&)>& edit)
@@ -119,7 +119,7 @@ void Store::edit(const std::function<Value(const Value&)>& edit)
         auto made = table_.kind.take(edit(values_), {}, taking);
         replace(std::move(made), std::move(taking));
     }
-    tell();
+    notify();
 }
 
 void Store::changeTexts(const Texts& changes)
@@ -163,7 +163,7 @@ void Store::changeTexts(const Texts& changes)
         auto made = table_.kind.take(read, {}, taking);
         replace(std::move(made), std::move(taking));
     }
-    tell();
+    notify();
 }
 
 void Store::listen(Listener listener)
@@ -295,7 +295,7 @@ void Store::replace(Value made, Taking taking)
     }
     if (isLoaded_)
     {
-        news_.push_back(std::move(change));
+        pending_.push_back(std::move(change));
     }
 }
 
@@ -313,18 +313,18 @@ std::vector<Problem> Store::broken(const Value& made) const
 }
 
 /// Calls the listeners, in one thread at a time, in order and without the lock: listeners may change values.
-void Store::tell()
+void Store::notify()
 {
     std::unique_lock lock(mutex_);
-    if (isTelling_)
+    if (isNotifying_)
     {
         return;
     }
-    isTelling_ = true;
-    while (!news_.empty())
+    isNotifying_ = true;
+    while (!pending_.empty())
     {
-        const auto change = std::move(news_.front());
-        news_.pop_front();
+        const auto change = std::move(pending_.front());
+        pending_.pop_front();
         const auto listeners = listeners_;
         lock.unlock();
         for (const auto& listener : listeners)
@@ -340,7 +340,7 @@ void Store::tell()
         }
         lock.lock();
     }
-    isTelling_ = false;
+    isNotifying_ = false;
 }
 
 }

@@ -99,7 +99,7 @@ private:
     std::map<std::string, Value> known() const;
     void replace(Value made, Taking taking);
     std::vector<Problem> broken(const Value& made) const;
-    void tell();
+    void notify();
 
     const Table table_;
     mutable std::mutex mutex_;
@@ -109,8 +109,8 @@ private:
     Texts others_;
     std::function<void(const Value&)> publish_;
     std::vector<Listener> listeners_;
-    std::deque<Change> news_;
-    bool isTelling_ = false;
+    std::deque<Change> pending_;
+    bool isNotifying_ = false;
 };
 
 }

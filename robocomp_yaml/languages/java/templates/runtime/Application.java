@@ -93,7 +93,7 @@ final class Application {
         try {
             communicator.waitForShutdown();
         } catch (com.zeroc.Ice.CommunicatorDestroyedException error) {
-            return; // it was told to stop before it had started
+            return; // it was stopped before it had started
         }
         stopping.request(0);
     }
@@ -115,7 +115,7 @@ final class Application {
         } catch (Stopped error) {
             return;
         } catch (Throwable error) { // what the user's code may throw
-            if (!stopping.isRequested()) { // what it was doing may fail when it is told to stop
+            if (!stopping.isRequested()) { // stopping may make the start fail
                 log.error("cannot start", error);
                 stopping.request(1);
             }

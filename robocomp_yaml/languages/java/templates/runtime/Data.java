@@ -31,12 +31,12 @@ public abstract class Data {
 
     @Override
     public final String toString() {
-        List<String> said = new ArrayList<>();
+        List<String> fields = new ArrayList<>();
         of.forEach((key, value) -> {
             boolean isHidden = secret.contains(key) && !value.equals("") && !value.equals(0L) && !value.equals(0.0);
-            said.add(key + "=" + (isHidden ? Secrecy.HIDDEN : value));
+            fields.add(key + "=" + (isHidden ? Secrecy.HIDDEN : value));
         });
-        return getClass().getSimpleName() + "(" + String.join(", ", said) + ")";
+        return getClass().getSimpleName() + "(" + String.join(", ", fields) + ")";
     }
 
     /** Values of the generated classes, and Java's own numbers, as the store keeps them. */

@@ -122,26 +122,26 @@ final class Editing {
 
     /** The changed paths, and whether each may change: an editable parameter with all of its content, or a member. */
     static void differences(
-        Kind kind, Object old, Object made, List<Object> path, boolean mayChange, BiConsumer<List<Object>, Boolean> tell) {
+        Kind kind, Object old, Object made, List<Object> path, boolean mayChange, BiConsumer<List<Object>, Boolean> report) {
         if (Objects.equals(old, made)) {
             return;
         }
         if (kind.isRecord() && old instanceof Map<?, ?> before && made instanceof Map<?, ?> after) {
             for (Member member : kind.members.values()) {
                 differences(member.kind, before.get(member.key), after.get(member.key), Paths.inside(path, member.key),
-                    mayChange || member.mayChange(), tell);
+                    mayChange || member.mayChange(), report);
             }
         } else if (old instanceof List<?> before && made instanceof List<?> after && before.size() == after.size()) {
             for (int place = 0; place < before.size(); place++) {
-                differences(kind.element, before.get(place), after.get(place), Paths.inside(path, place), mayChange, tell);
+                differences(kind.element, before.get(place), after.get(place), Paths.inside(path, place), mayChange, report);
             }
         } else if (kind.form == Kind.Form.MAP && old instanceof Map<?, ?> before && made instanceof Map<?, ?> after
             && before.keySet().equals(after.keySet())) {
             for (Object name : before.keySet()) {
-                differences(kind.element, before.get(name), after.get(name), Paths.inside(path, name), mayChange, tell);
+                differences(kind.element, before.get(name), after.get(name), Paths.inside(path, name), mayChange, report);
             }
         } else {
-            tell.accept(path, mayChange);
+            report.accept(path, mayChange);
         }
     }
 
@@ -187,22 +187,22 @@ final class Editing {
     }
 
     /** Each plain value with its path. */
-    static void plainValues(Kind kind, Object value, List<Object> path, BiConsumer<List<Object>, Object> tell) {
+    static void plainValues(Kind kind, Object value, List<Object> path, BiConsumer<List<Object>, Object> report) {
         if (value == null) {
             return;
         }
         if (kind.isRecord()) {
             for (Member member : kind.members.values()) {
-                plainValues(member.kind, ((Map<?, ?>) value).get(member.key), Paths.inside(path, member.key), tell);
+                plainValues(member.kind, ((Map<?, ?>) value).get(member.key), Paths.inside(path, member.key), report);
             }
         } else if (value instanceof List<?> items) {
             for (int place = 0; place < items.size(); place++) {
-                plainValues(kind.element, items.get(place), Paths.inside(path, place), tell);
+                plainValues(kind.element, items.get(place), Paths.inside(path, place), report);
             }
         } else if (value instanceof Map<?, ?> map) {
-            map.forEach((name, item) -> plainValues(kind.element, item, Paths.inside(path, name), tell));
+            map.forEach((name, item) -> plainValues(kind.element, item, Paths.inside(path, name), report));
         } else {
-            tell.accept(path, value);
+            report.accept(path, value);
         }
     }
 }

@@ -73,9 +73,9 @@ public final class Gate {
     /** The exception in place of one that the operation does not declare, which is logged here. */
     public UnknownException failed(String method, Throwable error) {
         log.error(method + "() failed", error);
-        String said = error.getMessage() == null ? "" : ": " + error.getMessage().replaceAll("\\s+", " ");
+        String message = error.getMessage() == null ? "" : ": " + error.getMessage().replaceAll("\\s+", " ");
         return new UnknownException(
-            Log.ALREADY_LOGGED + method + ": " + error.getClass().getSimpleName() + said, null);
+            Log.ALREADY_LOGGED + method + ": " + error.getClass().getSimpleName() + message, null);
     }
 
     /** Executes the waiting calls in their order. */

@@ -190,14 +190,14 @@ public final class Kind {
         }
         if (value == null) {
             String wanted = words() + (unit.isEmpty() ? "" : " (" + unit + ")");
-            String said = shown(raw);
-            taking.refuse(path, "must be " + wanted + ", and is " + said, said, wanted, unit);
+            String text = shown(raw);
+            taking.refuse(path, "must be " + wanted + ", and is " + text, text, wanted, unit);
             return null;
         }
         String wanted = limit(value);
         if (!wanted.isEmpty()) {
-            String said = takesAnyText() ? shown(raw) : stripped(shown(raw));
-            taking.refuse(path, "is " + said + (unit.isEmpty() ? "" : " " + unit) + ", and must " + wanted, said,
+            String text = takesAnyText() ? shown(raw) : stripped(shown(raw));
+            taking.refuse(path, "is " + text + (unit.isEmpty() ? "" : " " + unit) + ", and must " + wanted, text,
                 wanted, unit);
         }
         return value;
@@ -205,7 +205,7 @@ public final class Kind {
 
     private Object takeList(Object raw, List<Object> path, Taking taking) {
         if (!(raw instanceof List<?> items)) {
-            taking.refuse(path, "must be a list, and is " + said(raw), said(raw), "a list", "");
+            taking.refuse(path, "must be a list, and is " + shownValue(raw), shownValue(raw), "a list", "");
             return null;
         }
         checkSize(items.size(), path, taking);
@@ -217,7 +217,7 @@ public final class Kind {
             HashSet<Object> seen = new HashSet<>();
             for (Object item : made) {
                 if (item != null && !seen.add(item)) {
-                    String twice = element.isPlain() ? element.shown(item) : said(item);
+                    String twice = element.isPlain() ? element.shown(item) : shownValue(item);
                     taking.refuse(path, "holds " + twice + " twice", twice, "entries that all differ", "");
                     break;
                 }
@@ -228,7 +228,7 @@ public final class Kind {
 
     private Object takeMap(Object raw, List<Object> path, Taking taking) {
         if (!(raw instanceof Map<?, ?> map) || !map.keySet().stream().allMatch(String.class::isInstance)) {
-            taking.refuse(path, "must be a mapping of names to values, and is " + said(raw), said(raw), "a mapping", "");
+            taking.refuse(path, "must be a mapping of names to values, and is " + shownValue(raw), shownValue(raw), "a mapping", "");
             return null;
         }
         checkSize(map.size(), path, taking);
@@ -240,7 +240,7 @@ public final class Kind {
     private Object takeRecord(Object raw, List<Object> path, Taking taking) {
         if (!(raw instanceof Map<?, ?> map)) {
             String words = "a mapping of " + String.join(", ", members.keySet());
-            taking.refuse(path, "must be " + words + ", and is " + said(raw), said(raw), words, "");
+            taking.refuse(path, "must be " + words + ", and is " + shownValue(raw), shownValue(raw), words, "");
             return null;
         }
         for (Object key : map.keySet()) {
@@ -385,11 +385,11 @@ public final class Kind {
     /** A value, or an invalid one, for messages. */
     String shown(Object raw) {
         return isSecret && (raw instanceof String || raw instanceof Number || raw instanceof Boolean)
-            ? Secrecy.HIDDEN : said(raw);
+            ? Secrecy.HIDDEN : shownValue(raw);
     }
 
     /** A value for messages, shortened. */
-    static String said(Object raw) {
+    static String shownValue(Object raw) {
         String text = raw instanceof References.Referred referred ? referred.reference()
             : raw instanceof String string ? "'" + Secrecy.url(string) + "'"
             : raw instanceof Map ? "a mapping" : raw instanceof List ? "a list"

@@ -21,8 +21,8 @@ public final class Store {
 
     final Table table;
     private final List<Consumer<Change>> listeners = new CopyOnWriteArrayList<>();
-    private final Deque<Change> news = new ArrayDeque<>();
-    private boolean isTelling;
+    private final Deque<Change> pending = new ArrayDeque<>();
+    private boolean isNotifying;
     private volatile Map<String, Object> values;
     private Map<List<Object>, String> references;
     private Map<String, String> others;
@@ -68,7 +68,7 @@ public final class Store {
             });
             replace(taking.problems.isEmpty() ? taken(changed, taking) : null, taking);
         }
-        tell();
+        notifyListeners();
     }
 
     /** As `change`, with the keys and texts of `entries()`. */
@@ -97,7 +97,7 @@ public final class Store {
             }
             replace(taken(read, taking), taking);
         }
-        tell();
+        notifyListeners();
     }
 
     /** The plain values by their dotted paths, as they are now: references are not read again. */
@@ -120,7 +120,7 @@ public final class Store {
             replace(read.values, taking);
             others = read.others;
         }
-        tell();
+        notifyListeners();
     }
 
     public void listen(Consumer<Change> listener) {
@@ -230,19 +230,19 @@ public final class Store {
         kept.putAll(taking.references);
         references = kept;
         values = made;
-        news.add(new Change(changed.stream().map(Paths::inWords).toList()));
+        pending.add(new Change(changed.stream().map(Paths::inWords).toList()));
     }
 
     /** Calls the listeners, in one thread at a time, in order and without the lock: listeners may change values. */
-    private void tell() {
+    private void notifyListeners() {
         while (true) {
             Change change;
             synchronized (this) {
-                if (isTelling || news.isEmpty()) {
+                if (isNotifying || pending.isEmpty()) {
                     return;
                 }
-                isTelling = true;
-                change = news.poll();
+                isNotifying = true;
+                change = pending.poll();
             }
             for (Consumer<Change> listener : listeners) {
                 try {
@@ -252,7 +252,7 @@ public final class Store {
                 }
             }
             synchronized (this) {
-                isTelling = false;
+                isNotifying = false;
             }
         }
     }

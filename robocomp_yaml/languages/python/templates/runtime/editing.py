@@ -94,7 +94,7 @@ def _is_editable(member: Any) -> bool:
 
 def flat(kind: Kind, value: Any, references: Mapping[Path, str]) -> Iterator[tuple[str, Entry]]:
     """Each plain value by its dotted path, with the sizes of lists and the keys of maps, as properties have them.
-    Secrets are hidden; of what was given by reference, the reference stands there."""
+    Secrets are hidden; a value that came from a reference is shown as the reference."""
     for each, inner, path, editable in _nodes(kind, value):
         if isinstance(each, Listing):
             yield f"{dotted(path)}.size", Entry(str(len(inner)), "int", editable)

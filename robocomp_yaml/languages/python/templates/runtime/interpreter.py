@@ -175,7 +175,7 @@ def _why_unusable(path: str, what: str, root: str) -> str:
     import subprocess
 
     try:
-        asked = subprocess.run(
+        done = subprocess.run(
             [path, "-I", "-S", "-c", _VERSION],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=_SECONDS,
         )  # fmt: skip
@@ -183,10 +183,10 @@ def _why_unusable(path: str, what: str, root: str) -> str:
         return "did not answer within {} s".format(_SECONDS)
     except OSError as error:
         return "cannot be started ({})".format(error.strerror)
-    answer = asked.stdout.decode("utf-8", "replace").split()
+    answer = done.stdout.decode("utf-8", "replace").split()
     if len(answer) != 3 or answer[0] != "Python" or not (answer[1] + answer[2]).isdigit():
-        said = asked.stderr.decode("utf-8", "replace").strip().splitlines()
-        return "does not work as Python ({})".format(said[-1] if said else "exit code {}".format(asked.returncode))
+        errors = done.stderr.decode("utf-8", "replace").strip().splitlines()
+        return "does not work as Python ({})".format(errors[-1] if errors else "exit code {}".format(done.returncode))
     version = (int(answer[1]), int(answer[2]))
     return "" if version >= OLDEST else _too_old(version)
 

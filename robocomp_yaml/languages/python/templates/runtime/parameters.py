@@ -99,7 +99,7 @@ class Store:
         self.table = table
         self._lock = threading.Lock()
         self._listeners: list[Listener] = []
-        self._news: deque[Change] = deque()
+        self._pending: deque[Change] = deque()
         self._notifying = threading.Lock()
         self._shown: Any = None
         self.values, self._references, self.unread = self._read(properties, overrides, folder)
@@ -221,14 +221,14 @@ class Store:
         kept = {path: text for path, text in self._references.items() if not _is_within(path, changed)}
         before, self.values, self._references = self.values, made, {**kept, **taking.references}
         self._show()
-        self._news.append(Change(tuple(in_words(path) for path, _ in changed), before, made))
+        self._pending.append(Change(tuple(in_words(path) for path, _ in changed), before, made))
 
     def _notify(self) -> None:
         """Calls the listeners, in one thread at a time, in order and without the lock: listeners may change values."""
-        while self._news and self._notifying.acquire(blocking=False):
+        while self._pending and self._notifying.acquire(blocking=False):
             try:
-                while self._news:
-                    change = self._news.popleft()
+                while self._pending:
+                    change = self._pending.popleft()
                     for listener in tuple(self._listeners):
                         try:
                             listener(change)
