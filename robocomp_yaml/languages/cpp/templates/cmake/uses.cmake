@@ -72,8 +72,8 @@ macro(rcyaml_use_package name)
   get_property(component_before DIRECTORY PROPERTY IMPORTED_TARGETS)
   find_package(${name} QUIET)
   if(NOT ${name}_FOUND)
-    list(APPEND component_missing "the CMake package ${name}: find_package cannot find it. If it is installed, \
-set its folder: cmake -D${name}_DIR=FOLDER ...")
+    list(APPEND component_missing
+      "the CMake package ${name}: find_package cannot find it. If it is installed: cmake -D${name}_DIR=FOLDER ...")
   else()
     rcyaml_check_versions("the CMake package ${name}" ${name} ${ARGN})
     get_property(component_after DIRECTORY PROPERTY IMPORTED_TARGETS)
@@ -112,8 +112,8 @@ macro(rcyaml_use_library name)
   string(MAKE_C_IDENTIFIER "component_${name}_library" component_variable)
   find_library(${component_variable} NAMES ${name})
   if(NOT ${component_variable})
-    list(APPEND component_missing "the library ${name}: the linker has no lib${name}. If it is installed, \
-set its folder: cmake -DCMAKE_LIBRARY_PATH=FOLDER ...")
+    list(APPEND component_missing
+      "the library ${name}: the linker has no lib${name}. If it is installed: cmake -DCMAKE_LIBRARY_PATH=FOLDER ...")
   else()
     list(APPEND component_linked ${${component_variable}})
   endif()
