@@ -214,18 +214,18 @@ Value Kind::takePlain(const Value& data, const Path& path, Taking& taking) const
 
 Value Kind::takeList(const Value& raw, const Path& path, Taking& taking) const
 {
-    const auto* items = raw.as<Value::List>();
-    if (items == nullptr)
+    const auto* list = raw.as<Value::List>();
+    if (list == nullptr)
     {
         taking.refuse(path, "must be a list, and is " + shownValue(raw), shownValue(raw), "a list");
         return {};
     }
-    checkSize(items->size(), path, taking);
+    checkSize(list->size(), path, taking);
     Value::List items;
     bool isTwice = false;
-    for (std::size_t place = 0; place < items->size(); ++place)
+    for (std::size_t place = 0; place < list->size(); ++place)
     {
-        auto item = element->take((*items)[place], path + Step{"", static_cast<long>(place)}, taking);
+        auto item = element->take((*list)[place], path + Step{"", static_cast<long>(place)}, taking);
         if (unique_ && !isTwice && !item.isNothing() && holds(items, item))
         {
             isTwice = true;
