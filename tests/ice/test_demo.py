@@ -44,7 +44,7 @@ def test_without_ice(tmp_path: Path) -> None:
     done = demo(tmp_path, RCYAML_PYTHON="/no/such/python")
     assert done.returncode == 1
     assert "10 documents: nothing wrong\n" in done.stdout and "deploy up" not in done.stdout
-    assert done.stderr.startswith("make: RCYAML_PYTHON names /no/such/python, which is not there")
+    assert done.stderr.startswith("make: RCYAML_PYTHON names /no/such/python, which does not exist")
 
 
 def test_a_call_of_nobody_says_so(tmp_path: Path) -> None:

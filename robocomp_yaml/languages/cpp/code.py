@@ -1,4 +1,4 @@
-"""The specific class as C++ has it: a header with its declarations, and definitions anywhere."""
+"""Parses the specific class in C++: a header with declarations, and definitions in any file."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from robocomp_yaml.emit.specific.code import (
 )
 
 _PARAMETERS = ("parameter_declaration", "optional_parameter_declaration")
-# Qt's additions to C++, which the grammar does not know: blanks of the same length take their place.
+# Qt's additions to C++, which the grammar does not have, are replaced by blanks of the same length.
 _QT = re.compile(rb"\bQ_OBJECT\b|\bQ_SLOTS\b|(?<=[a-z])(\s+)slots\b(?=\s*:)|\bsignals\b(?=\s*:)|\bQ_SIGNALS\b(?=\s*:)")
 
 
@@ -37,7 +37,7 @@ def _parser() -> Parser:
 
 
 def read(path: str, source: str) -> Code:
-    root = _parser().parse(_QT.sub(_instead, source.encode())).root_node
+    root = _parser().parse(_QT.sub(_replacement, source.encode())).root_node
     lines = lines_of(source)
     imports, import_end = [], 0
     for node in root.children:
@@ -60,11 +60,11 @@ def read(path: str, source: str) -> Code:
 
 
 def compiles(code: Code) -> bool:
-    """Its syntax tree alone tells."""
+    """Always true: the syntax tree already has all faults."""
     return True
 
 
-def _instead(found: re.Match[bytes]) -> bytes:
+def _replacement(found: re.Match[bytes]) -> bytes:
     word = b"public" if found[0].endswith(b"ignals") or found[0] == b"Q_SIGNALS" else b""
     return word.ljust(len(found[0])) if b"\n" not in found[0] else found[0]
 
@@ -99,7 +99,7 @@ def _definitions(root: Node, lines: list[str]) -> Iterator[Method]:
 
 
 def _method(node: Node, lines: list[str], nested: bool, *, has_body: bool = True) -> Method | None:
-    """The function that a declaration is about; None where it is about none."""
+    """The function that a declaration declares; None if it declares something else."""
     declarator, around = node.child_by_field_name("declarator"), ""
     while declarator is not None and declarator.type in ("reference_declarator", "pointer_declarator"):
         around += declarator.children[0].type

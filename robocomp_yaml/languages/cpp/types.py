@@ -1,4 +1,4 @@
-"""Types of the documents as C++ sees them through Ice's mapping."""
+"""Types of documents in C++, after Ice's mapping."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ def type_name(ref: TypeRef, scope: LinkedModule) -> str:
 
 
 def input_type(ref: TypeRef, scope: LinkedModule) -> str:
-    """The type of a parameter that is read: small values by value, others by reference."""
+    """The type of an input parameter: small values by value, others by reference."""
     name = type_name(ref, scope)
     is_small = ref.text != "string" if ref.is_basic else isinstance(found(ref, scope)[1], Enum)
     return name if is_small else f"const {name}&"
 
 
 def zero(ref: TypeRef, scope: LinkedModule) -> str:
-    """The plainest value: zero, empty, the first enumerator, a struct of its defaults."""
+    """The default value: zero, empty, the first enumerator, a struct of its defaults."""
     if not ref.is_basic:
         home, definition = found(ref, scope)
         if isinstance(definition, Enum):

@@ -1,4 +1,4 @@
-"""The specific class as Python has it."""
+"""Parses the specific class in Python."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def read(path: str, source: str) -> Code:
 
 
 def compiles(code: Code) -> bool:
-    """Whether Python takes it."""
+    """Whether Python compiles it."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -64,12 +64,12 @@ def compiles(code: Code) -> bool:
 
 
 def _is_condition(node: Node) -> bool:
-    """Whether what stands in it may be there or not."""
+    """Whether a node contains statements that may or may not be executed."""
     return node.type in ("if_statement", "try_statement", "with_statement", "block") or node.type.endswith("_clause")
 
 
 def _classes(root: Node) -> Iterator[Node]:
-    """Classes of the module, under conditions too."""
+    """The classes of the module, also those in conditional statements."""
     for node, _ in below(root, _is_condition):
         inner = field(node, "definition") if node.type == "decorated_definition" else node
         if inner.type == "class_definition":
@@ -110,7 +110,7 @@ def _signature(function: Node) -> Signature:
             limited = limited and word == "*"
             continue
         if keywords:
-            least += "default" not in node.type  # which no servant gives
+            least += "default" not in node.type  # a servant never passes it
             continue
         parameters.append(word)
         names.append(re.split(r"[ :=]", word, maxsplit=1)[0])
@@ -132,7 +132,7 @@ def _imports(root: Node) -> Iterator[Import]:
 
 
 def _with_comments(row: int, lines: list[str]) -> int:
-    """The comment lines right above belong to what follows."""
+    """The first of the comment lines directly above a row."""
     while row and lines[row - 1].lstrip().startswith("#"):
         row -= 1
     return row
@@ -145,7 +145,7 @@ def _behind_docstring(root: Node) -> int:
 
 
 def _last_line(node: Node) -> int:
-    """The line behind a node."""
+    """The number of the line after a node."""
     row, column = node.end_point
     return row + 1 if column else row
 

@@ -242,5 +242,5 @@ def test_without_cmake_the_package_to_install_is_named(
     monkeypatch.setenv("PATH", str(tmp_path))
     result = rcyaml("build")
     assert result.exit_code == 1
-    assert "error[RC8003]: ArmComp cannot be built: there is no program 'cmake'" in result.stdout
+    assert "error[RC8003]: ArmComp cannot be built: the program 'cmake' is missing" in result.stdout
     assert "sudo apt install cmake" in result.stdout

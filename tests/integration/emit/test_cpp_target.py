@@ -1,4 +1,4 @@
-"""The C++ target: the files it plans, their names, and what stands in them."""
+"""The C++ target: the files that it plans, their names and contents."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ Link = Callable[[Mapping[str, str]], LinkedComponent]
 
 
 def files(component: LinkedComponent) -> dict[str, str]:
-    """Its own, and in `generated/` those that are the same in all that stand alone; without the version of these."""
+    """The component's own files, and those of the run time in `generated/`, without its version."""
     version = runtime.version("cpp")
     return {file.path: file.text.replace(version, "VERSION") for file in of_language(component)}
 
 
 def is_runtime(path: str) -> bool:
-    """Whether a file of a component that stands alone is the same in all of them."""
+    """Whether a file of a component outside of a workspace is the same in all of them."""
     return path.startswith(tuple(f"generated/{folder}/" for folder in ("cmake", "runtime", "slice")))
 
 

@@ -12,6 +12,7 @@ import pytest
 from click.testing import Result
 
 from conftest import write_tree
+from robocomp_yaml.languages import language
 
 Run = Callable[..., Result]
 
@@ -28,12 +29,13 @@ def compiled(rcyaml: Run, folder: Path, text: str, *args: str) -> Path:
 
 
 def configured(root: Path) -> str:
-    """What CMake has to say of the libraries, without Ice."""
+    """The output of CMake about the libraries, without Ice."""
     lists = root / "CMakeLists.txt"
     lists.write_text(
         'cmake_minimum_required(VERSION 3.20)\nproject(X LANGUAGES C)\nset(component_root "${CMAKE_SOURCE_DIR}")\n'
         'file(WRITE "${CMAKE_BINARY_DIR}/x.c" "int main() {return 0;}")\nadd_executable(x "${CMAKE_BINARY_DIR}/x.c")\n'
-        "set(component_target x)\ninclude(generated/uses.cmake)\n"
+        f'set(component_target x)\nset(component_name x)\nset(component_runtime "{language("cpp").templates}")\n'
+        "include(generated/uses.cmake)\n"
         'get_target_property(found x SOURCES)\nmessage("sources ${found}")\n'
         'get_target_property(found x LINK_LIBRARIES)\nmessage("linked ${found}")\n'
     )
@@ -74,7 +76,7 @@ class TestCMake:
             "  libraries: [{cmake: LostPackage}, {pkg-config: lost-module}, {link: lostlibrary}, {pip: numpy}]\n"
         )
         said = configured(compiled(rcyaml, tmp_path, CPP + uses))
-        assert said.startswith("exit 1 ") and "SpeechComp uses what is not there (speech.cdsl.yaml):" in said
+        assert said.startswith("exit 1 ") and "SpeechComp uses what is missing (speech.cdsl.yaml):" in said
         for name in ("lost.cpp", "lostClass", "LostPackage", "lost-module", "lostlibrary"):
             assert f" {name}: " in said
         assert "numpy" not in said
@@ -93,7 +95,7 @@ class TestCMake:
         path = root / "generated/uses.cmake"
         path.write_text(f'set(Old_DIR "{tmp_path}/cmake")\n{path.read_text()}')
         said = configured(root)
-        assert "the CMake package Old is there as version 3.10.1, and must be >3.10.1" in said
+        assert "the CMake package Old has version 3.10.1, and must be >3.10.1" in said
         assert ">=3.9" not in said and "<4" not in said
 
 

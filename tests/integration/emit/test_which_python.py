@@ -171,13 +171,13 @@ def test_all_that_were_tried_are_named(place: Place, tmp_path: Path) -> None:
     assert (
         done.stderr
         == f"""\
-Arm: no Python here has Ice 3.7, which it needs
-  {environment} (the workspace's) sees an Ice that was compiled for another Python (No module named 'IcePy')
+Arm: no Python on this machine has Ice 3.7, which the component needs
+  {environment} (the workspace's) has an Ice that was compiled for another Python (No module named 'IcePy')
   {place.path}/python3 (python3 on the path) has no Ice
   {place.debian} (Debian's) is not executable
 Install it for Debian's Python: sudo apt install python3-zeroc-ice
-Without such rights, it is compiled, which takes minutes: {environment} -m pip install 'zeroc-ice>=3.7.8,<3.8'
-Where another Python has it: RCYAML_PYTHON=/path/to/python
+Without root privileges, compile it, which takes minutes: {environment} -m pip install 'zeroc-ice>=3.7.8,<3.8'
+If another Python has it: RCYAML_PYTHON=/path/to/python
 """
     )
 
@@ -185,7 +185,7 @@ Where another Python has it: RCYAML_PYTHON=/path/to/python
 def test_where_there_is_no_environment_the_hint_makes_one(place: Place, tmp_path: Path) -> None:
     said = place.start().stderr
     environment = tmp_path / "ws" / ".venv"
-    assert f"  {environment}/bin/python (the workspace's) is not there\n" in said
+    assert f"  {environment}/bin/python (the workspace's) does not exist\n" in said
     assert f"takes minutes: python3 -m venv {environment} && {environment}/bin/python -m pip install 'zero" in said
 
 
@@ -193,11 +193,11 @@ def test_where_there_is_no_environment_the_hint_makes_one(place: Place, tmp_path
     ("ice", "why"),
     [
         ("def intVersion(): return 30800\ndef stringVersion(): return '3.8.0'\n", "has Ice 3.8.0, not 3.7"),
-        ("import no_such\n", "sees an Ice that was compiled for another Python (No module named 'no_such')"),
+        ("import no_such\n", "has an Ice that was compiled for another Python (No module named 'no_such')"),
         ("raise ImportError('libIce.so.37: cannot open')\n", "cannot load its Ice (libIce.so.37: cannot open)"),
         ("syntax error\n", "cannot load its Ice (invalid syntax (Ice.py, line 1))"),
         ("raise SystemError('broken')\n", "cannot load its Ice (broken)"),
-        ("cold = True\n", "finds something else that is called Ice ("),
+        ("cold = True\n", "has another module named Ice ("),
     ],
 )
 def test_an_ice_that_will_not_do(place: Place, tmp_path: Path, ice: str, why: str) -> None:
@@ -209,7 +209,7 @@ def test_an_ice_that_will_not_do(place: Place, tmp_path: Path, ice: str, why: st
 
 def test_a_folder_of_the_component_is_no_ice(place: Place) -> None:
     (place.root / "src" / "Ice").mkdir(parents=True)
-    assert "(python3 on the path) finds something else that is called Ice (a folder)" in place.start().stderr
+    assert "(python3 on the path) has another module named Ice (a folder)" in place.start().stderr
 
 
 def broken(place: Place, how: str) -> str:
@@ -226,14 +226,14 @@ def broken(place: Place, how: str) -> str:
 
 
 BROKEN = {
-    "nothing": "is not there",
-    "a link": "leads to /no/such/python, which is not there",
+    "nothing": "does not exist",
+    "a link": "is a link to /no/such/python, which does not exist",
     "a folder": "is a folder (did you mean {path}/bin/python?)",
     "not executable": "is not executable",
     "#!/no/such/interpreter\n": "cannot be started (No such file or directory)",
     "\x7fELF nonsense": "cannot be started (Exec format error)",
-    "#!/bin/sh\n": "is no Python that works (exit code 0)",
-    "#!/bin/sh\necho oh >&2; exit 3\n": "is no Python that works (oh)",
+    "#!/bin/sh\n": "does not work as Python (exit code 0)",
+    "#!/bin/sh\necho oh >&2; exit 3\n": "does not work as Python (oh)",
     "#!/bin/sh\necho Python 3 8\n": "is Python 3.8, older than 3.9",
 }
 
@@ -247,7 +247,7 @@ def test_what_is_set_and_cannot_be_used_is_an_error(place: Place, tmp_path: Path
     assert done.returncode == 1 and not done.stdout
     assert done.stderr == (
         f"Arm: RCYAML_PYTHON names {path}, which {BROKEN[how].format(path=path)}: "
-        "let it name a Python that has Ice 3.7, or unset it\n"
+        "set it to a Python that has Ice 3.7, or unset it\n"
     )
 
 
@@ -257,7 +257,7 @@ def test_what_is_set_and_has_no_ice_is_an_error(place: Place, tmp_path: Path) ->
     for given, named in ((str(without), without), ("no-such-python", "no-such-python")):
         done = place.start(RCYAML_PYTHON=given)
         why = "has no Ice" if named == without else "is not on the path"
-        assert done.returncode == 1 and done.stderr.startswith(f"Arm: RCYAML_PYTHON names {named}, which {why}: let it")
+        assert done.returncode == 1 and done.stderr.startswith(f"Arm: RCYAML_PYTHON names {named}, which {why}: set it")
 
 
 @pytest.mark.parametrize("how", BROKEN, ids=range(len(BROKEN)))
@@ -334,7 +334,7 @@ def test_or_says_which_one_is_wanted(place: Place) -> None:
     old_python(place)
     done = place.start()
     assert done.returncode == 1 and "Traceback" not in done.stderr
-    assert "Arm: no Python here has Ice 3.7" in done.stderr
+    assert "Arm: no Python on this machine has Ice 3.7" in done.stderr
     assert "(python3 on the path) is Python 3.6, older than 3.9\n" in done.stderr
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from conftest import write_tree
 from robocomp_yaml.emit.component import of_language
-from robocomp_yaml.languages.cpp.machine_text import string as cpp_string
+from robocomp_yaml.languages.cpp.text import literal as cpp_literal
 from robocomp_yaml.languages.python.statemachine import text as python
 from robocomp_yaml.pipeline import analyse
 from robocomp_yaml.transactions.plan import FilePlan
@@ -94,5 +94,5 @@ def test_robocomps_machine_has_the_name_of_its_file(name: str, member: str, lang
 @pytest.mark.parametrize("text", ['"', "\\", "'''", "\n", "??/", "é\0", '*/ #include "x"', "{{ x }}", "\x1b[0m"])
 def test_texts_stay_texts(text: str) -> None:
     assert eval(python(text)) == text
-    literal = cpp_string(text)
+    literal = cpp_literal(text)
     assert "\n" not in literal and '"' not in literal[1:-1].replace('\\"', "").replace("\\042", "")

@@ -1,6 +1,6 @@
 """The tree of a workspace: one CMakeLists.txt that adds the folders of its C++ components, a tree for each build type.
 
-What it remembers stands beside: which components are in it, and which need a tree of their own.
+A file in the tree keeps which components are in it, and which need a tree of their own.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from contextlib import contextmanager, suppress
 
 from robocomp_yaml.building.job import BuildStep, Job
 from robocomp_yaml.building.unit import Unit
-from robocomp_yaml.languages.cpp.tree import LISTS, Failure, Tree, source_of
+from robocomp_yaml.languages.cpp.tree import LISTS, BuildTree, Failure, source_of
 from robocomp_yaml.source.regular import text as text_of
 from robocomp_yaml.transactions import whole_file
 
@@ -27,50 +27,51 @@ _TOP = re.compile(r"\bCMAKE_(SOURCE|BINARY|HOME)_DIR(ECTORY)?\b")
 
 
 def folder_of(root: str, type_: str) -> str:
+    """The path of the tree of a workspace for a build type."""
     return os.path.normpath(os.path.join(root, BUILD, type_))
 
 
 def folders(root: str, type_: str | None) -> list[str]:
-    """The trees of a workspace that are of rcyaml."""
+    """The trees of a workspace that rcyaml created."""
     found = sorted(glob.glob(os.path.join(glob.escape(os.path.join(root, BUILD)), type_ or "*")))
-    return [os.path.normpath(folder) for folder in found if _is_ours(folder)]
+    return [os.path.normpath(folder) for folder in found if _is_created(folder)]
 
 
 def parts(root: str, type_: str | None, name: str) -> list[str]:
-    """What there is of a component in these trees."""
+    """The folders of a component in these trees."""
     return [os.path.join(folder, kind, name) for folder in folders(root, type_) for kind in (_PARTS, _OWN)]
 
 
 def forget_configuration(root: str, type_: str | None) -> None:
-    """CMake is to run again, which makes what it has put into the folders of components."""
+    """Makes CMake run again, which creates the files that it puts into the folders of components."""
     for folder in folders(root, type_):
         for name in ("build.ninja", "Makefile"):
             with suppress(OSError):
                 os.unlink(os.path.join(folder, name))
 
 
-def _is_ours(folder: str) -> bool:
+def _is_created(folder: str) -> bool:
     return (text_of(os.path.join(folder, LISTS)) or "").startswith(_HEAD)
 
 
-class WholeTree:
-    """`members` are the components in it that are known now; those that were asked for earlier stay in it, too."""
+class WorkspaceTree:
+    """`members` are the components of this build in the tree. Components of earlier builds stay in the tree too."""
 
     def __init__(self, root: str, type_: str) -> None:
         self.folder = folder_of(root, type_)
-        self.tree = Tree(self.folder, self.folder, root)
+        self.tree = BuildTree(self.folder, self.folder, root)
         self.members: list[Unit] = []
-        self._root, self._is_new = root, True
+        self._is_new = True
         memory = _read(os.path.join(self.folder, _MEMORY))
         self._sources = {name: path for name, path in memory.get("components", {}).items() if _has_lists(path)}
         self._alone = set(memory.get("alone", {}))
 
     @classmethod
     @contextmanager
-    def locked(cls, root: str, job: Job) -> Iterator[WholeTree | None]:
-        """The tree, when no other build works in it; None where the folder is somebody else's."""
+    def locked(cls, root: str, job: Job) -> Iterator[WorkspaceTree | None]:
+        """The tree, as soon as no other build uses it; None if rcyaml did not create the folder."""
         folder = folder_of(root, job.type)
-        if os.path.isdir(folder) and os.listdir(folder) not in ([], [_LOCK]) and not _is_ours(folder):
+        if os.path.isdir(folder) and os.listdir(folder) not in ([], [_LOCK]) and not _is_created(folder):
             yield None
             return
         os.makedirs(folder, exist_ok=True)
@@ -91,17 +92,17 @@ class WholeTree:
     def own_folders(self) -> list[str]:
         return sorted(glob.glob(os.path.join(glob.escape(self.folder), _OWN, "*")))
 
-    def admit(self, units: Iterable[Unit]) -> list[Unit]:
-        """Those that are built in company."""
+    def admit(self, units: Iterable[Unit]) -> None:
+        """Adds those components to the tree that can be built together with others."""
         self.members = [unit for unit in units if unit.name not in self._alone and not _is_top(unit)]
         for unit in units:
-            self._sources.pop(unit.name, None) if unit not in self.members else None
+            if unit not in self.members:
+                self._sources.pop(unit.name, None)
         self._sources |= {unit.name: os.path.abspath(source_of(unit)) for unit in self.members}
         self._write()
-        return self.members
 
-    def leave_out(self, failure: Failure) -> bool:
-        """Whether those are known, and out of it, that kept it from being configured."""
+    def exclude(self, failure: Failure) -> bool:
+        """Removes the components that CMake cannot configure; returns whether there were any."""
         names = [name for name, source in self._sources.items() if failure.is_in(source)]
         for name in names:
             del self._sources[name]
@@ -110,14 +111,14 @@ class WholeTree:
         return bool(names)
 
     def remember(self, unit: Unit, *, is_fit: bool) -> None:
-        """One that can be built alone only is not tried in company again."""
+        """Keeps whether a component can only be built alone, so that it is not tried with others again."""
         if is_fit and not _is_top(unit):
             self._alone.add(unit.name)
         else:
             self._alone.discard(unit.name)
 
-    def wants_configuring(self, job: Job) -> bool:
-        """Whether Ninja would not see by itself that CMake is to run."""
+    def must_configure(self, job: Job) -> bool:
+        """Whether CMake must run although Ninja would not notice it."""
         return self._is_new or bool(job.defines) or not self.tree.is_configured
 
     def save(self) -> None:
@@ -141,7 +142,7 @@ class WholeTree:
 
 
 def _is_top(unit: Unit) -> bool:
-    """Whether its CMake takes its own folder for the top, which it is not in company."""
+    """Whether the CMake files of a component treat its folder as the top-level one, which it is only when alone."""
     source = source_of(unit)
     names = glob.glob(os.path.join(glob.escape(source), "*.cmake"))
     return any(
