@@ -17,7 +17,7 @@ from robocomp_yaml.diag.render import tell
 from robocomp_yaml.transactions import whole_file
 
 if TYPE_CHECKING:
-    from robocomp_yaml.api.migrating import Migration
+    from robocomp_yaml.legacy.result import MigrationRun
     from robocomp_yaml.legacy.sources import LegacyFile
 
 LONG = 50
@@ -104,7 +104,7 @@ def _save(path: str, text: str) -> None:
             whole_file.replace(path, text.encode("utf-8", "backslashreplace"))
 
 
-def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, err: bool) -> None:
+def _print(ctx: click.Context, run: MigrationRun, format_: str, dry_run: bool, *, err: bool) -> None:
     """Prints the diagnostics, each document if verbose, and a summary by format: on standard output, or on standard
     error if the report is written to standard output."""
     say = partial(terminal.say, err=err)
@@ -124,7 +124,7 @@ def _print(ctx: click.Context, run: Migration, format_: str, dry_run: bool, *, e
         say("nothing was written (--dry-run)")
 
 
-def _table(run: Migration) -> list[str]:
+def _table(run: MigrationRun) -> list[str]:
     """The table of how many files of each format have which status."""
     from robocomp_yaml.legacy.ledger import STATUSES
 

@@ -19,7 +19,7 @@ DEFAULT = "python"
 @cache
 def table() -> dict[str, TargetLanguage]:
     """Every built-in language by its name, the default first."""
-    folders = registry.named(__path__, packages=True)
+    folders = registry.module_names(__path__, packages=True)
     records = [importlib.import_module(f"{__name__}.{name}").LANGUAGE for name in folders]
     return {one.name: one for one in sorted(records, key=lambda one: (one.name != DEFAULT, one.name))}
 

@@ -90,7 +90,7 @@ class TargetLanguage(msgspec.Struct, frozen=True, kw_only=True, eq=False):
 
     def text(self, path: str) -> str:
         """The text of a file in `templates`."""
-        return resources.whole(os.path.join(self.templates, path))
+        return resources.read(os.path.join(self.templates, path))
 
     def in_code(self, name: str) -> str:
         """The name of a parameter in code: a reserved name gets an underscore."""

@@ -27,9 +27,9 @@ from robocomp_yaml.transactions import whole_file
 _COMMANDS = "compile_commands.json"
 
 
-def build(job: Job, units: list[Unit]) -> dict[Unit, Made]:
+def build(job: Job, units: list[Unit]) -> dict[Unit, ComponentBuild]:
     """Builds the units, and returns the result of each."""
-    done: dict[Unit, Made] = {}
+    done: dict[Unit, ComponentBuild] = {}
     for unit in units:
         _outdate(unit, job.type)
     for root in dict.fromkeys(unit.root for unit in units):
@@ -83,14 +83,14 @@ def _outdate(unit: Unit, type_: str) -> None:
                 os.utime(unit.program, (0, 0))
 
 
-def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
+def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, ComponentBuild]:
     with WorkspaceTree.locked(root, job) as whole:
         if whole is None:
             path = workspace_tree.folder_of(root, job.type)
             for unit in units:
-                job.failed(unit, f"{path} was not created by rcyaml", hint="move it away")
-            return dict.fromkeys(units, Made(False))
-        done: dict[Unit, Made] = {}
+                job.add_failure(unit, f"{path} was not created by rcyaml", hint="move it away")
+            return dict.fromkeys(units, ComponentBuild(False))
+        done: dict[Unit, ComponentBuild] = {}
         whole.admit(units)
         while whole.members:
             failure = whole.tree.configure(job) if whole.must_configure(job) else None
@@ -101,7 +101,7 @@ def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
             if made.is_of_all or not whole.exclude(made):
                 for unit in whole.members:
                     made.report(job, unit)
-                    done[unit] = Made(False)
+                    done[unit] = ComponentBuild(False)
                 break
         for unit in [unit for unit in units if unit not in done]:
             made_alone = _in_own_tree(job, unit, BuildTree(source_of(unit), whole.own(unit), unit.root))
@@ -112,14 +112,14 @@ def _together(job: Job, root: str, units: list[Unit]) -> dict[Unit, Made]:
     return done
 
 
-def _alone(job: Job, unit: Unit) -> dict[Unit, Made]:
+def _alone(job: Job, unit: Unit) -> dict[Unit, ComponentBuild]:
     tree = BuildTree.own_of(unit)
     made = _in_own_tree(job, unit, tree)
     _write_commands(unit.folder, [tree.folder])
-    return {unit: made or Made(False)}
+    return {unit: made or ComponentBuild(False)}
 
 
-def _in_own_tree(job: Job, unit: Unit, tree: BuildTree) -> Made | None:
+def _in_own_tree(job: Job, unit: Unit, tree: BuildTree) -> ComponentBuild | None:
     """The result; None if CMake cannot configure the component."""
     failure = tree.configure(job)
     if failure is None:

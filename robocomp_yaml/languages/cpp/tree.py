@@ -10,9 +10,9 @@ from contextlib import contextmanager, suppress
 
 import msgspec
 
-from robocomp_yaml.building.job import Job, Made, Step
+from robocomp_yaml.building.compiler_output import CompilerOutput
+from robocomp_yaml.building.job import BuildStep, ComponentBuild, Job
 from robocomp_yaml.building.processes import Processes
-from robocomp_yaml.building.said import Said
 from robocomp_yaml.building.unit import Unit
 from robocomp_yaml.diag.codes import building as codes
 from robocomp_yaml.diag.diagnostic import has_errors
@@ -115,7 +115,7 @@ class BuildTree(msgspec.Struct, frozen=True):
         )  # fmt: skip
         return _failure(lines, source) if ended.code else None
 
-    def make(self, job: Job, parts: Mapping[Unit, str]) -> dict[Unit, Made] | Failure:
+    def make(self, job: Job, parts: Mapping[Unit, str]) -> dict[Unit, ComponentBuild] | Failure:
         """Builds components; `parts` are their folders in the tree, '' for the whole tree. Returns a failure if CMake
         had to configure the tree again and could not."""
         run = _Run(self, job, parts)
@@ -130,7 +130,7 @@ class BuildTree(msgspec.Struct, frozen=True):
             return _failure(run.lines, os.path.abspath(self.source))
         shares = _shares(before, _log(self.folder), ended.cpu)
         read = _read_files(job.processes, self.folder, self.root) if is_ninja else {}
-        done: dict[Unit, Made] = {}
+        done: dict[Unit, ComponentBuild] = {}
         for unit, part in parts.items():
             is_made = not ended.code or (unit not in run.failed and self._is_made(job, unit, part, is_ninja))
             mine = (part and f"{part}/", os.path.realpath(unit.program))
@@ -139,7 +139,7 @@ class BuildTree(msgspec.Struct, frozen=True):
             if not is_made:
                 run.explain(unit)
             elif not os.path.exists(unit.program):
-                job.failed(unit, f"its build did not create {unit.program}")
+                job.add_failure(unit, f"its build did not create {unit.program}")
                 is_made = False
             done[unit] = ComponentBuild(is_made, cpu, tuple(sorted(files)))
         return done
@@ -187,7 +187,7 @@ class _Run:
         self.is_unconfigured = False
         self._tree, self._job, self._parts = tree, job, parts
         self._piece: list[str] = []
-        self._reader = Said(tree.folder, "the C++ compiler")
+        self._reader = CompilerOutput(tree.folder, "the C++ compiler")
         self._unassigned: list[str] = []
 
     def line(self, line: str) -> None:
@@ -209,7 +209,7 @@ class _Run:
         if not piece:
             return
         found = list(self._reader.diagnostics(piece))
-        self._job.tell(found)
+        self._job.add(found)
         outputs = next((match[1] for line in piece if (match := _FAILED.match(line))), None)
         if outputs is None:
             self._unassigned += piece
@@ -225,11 +225,11 @@ class _Run:
     def explain(self, unit: Unit) -> None:
         """Reports why a component is not built, unless the compiler's diagnostics say it."""
         lines = self.failed.get(unit, self._unassigned)
-        if lines or not has_errors(self._job.told):
+        if lines or not has_errors(self._job.diagnostics):
             shown = [line for line in lines if line.strip() and not line.startswith("collect2:")]
             missing = next((match[1] for line in shown if (match := _UNDEFINED.search(line))), "")
             reason = f"the linker finds no definition of {missing}" if missing else "a step of its build failed"
-            self._job.failed(unit, reason, more=shown[-_LAST:])
+            self._job.add_failure(unit, reason, more=shown[-_LAST:])
 
     def _owner(self, outputs: list[str]) -> Unit | None:
         for unit, part in self._parts.items():

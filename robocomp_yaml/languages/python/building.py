@@ -32,8 +32,8 @@ def build(job: Job, units: list[Unit]) -> dict[Unit, ComponentBuild]:
                 job.add(found)
                 if code and not has_errors(found):
                     output = [line for line in lines if not line.startswith(_MARK)]
-                    job.failed(unit, "its code cannot be imported", more=output[-_LAST:])
-                done[unit] = Made(code == 0, cpu)
+                    job.add_failure(unit, "its code cannot be imported", more=output[-_LAST:])
+                done[unit] = ComponentBuild(code == 0, cpu)
         except BaseException:
             job.processes.end()
             raise
