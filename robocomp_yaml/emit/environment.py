@@ -16,7 +16,7 @@ from importlib import metadata
 
 import msgspec
 
-from robocomp_yaml.diag.codes import uses as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.uses import constraints
 from robocomp_yaml.link.program import LinkedComponent

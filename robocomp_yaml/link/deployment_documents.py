@@ -20,7 +20,8 @@ from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.expand_deployments import Expansion
 from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import Tables
-from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Text
+from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.disk import Disk
 
 

@@ -15,7 +15,8 @@ from robocomp_yaml.digraph import reached
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.expand_deployments import Placed
 from robocomp_yaml.link.knot import grow, tie
-from robocomp_yaml.model.deployment import CONFIG, INDEX, PROCESS, Entry, Number, Pair, Text
+from robocomp_yaml.model.deployment import CONFIG, INDEX, PROCESS, Entry, Number, Pair
+from robocomp_yaml.model.located import Text
 
 
 class Names(msgspec.Struct):

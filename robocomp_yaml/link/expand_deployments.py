@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from typing import TypeVar
 
 import msgspec
+from msgspec.structs import replace
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import ddsl as codes
@@ -21,9 +23,13 @@ from robocomp_yaml.link import deployment_paths as paths
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
 from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedValues, Tables
-from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Host, Text
-from robocomp_yaml.model.instances import instance as instance_of
+from robocomp_yaml.model.deployment import COMPONENT, INDEX, PROCESS, Deployment, Entry, Host
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.disk import Disk
+from robocomp_yaml.source.tree import Mapping as MappingNode
+from robocomp_yaml.source.tree import Node, Scalar, Sequence, mapping_at, sequence_at, text_at
+
+_Part = TypeVar("_Part")
 
 
 class Placed(msgspec.Struct):
@@ -116,7 +122,7 @@ class Expansion(msgspec.Struct):
             return
         every: list[Target] = []
         for number in (None,) if entry.instances is None else range(entry.instances):
-            one = entry if number is None else instance_of(entry, number)
+            one = entry if number is None else _instance(entry, number)
             linked = LinkedInstance(here.scope + one.name, one, here.document, here.scope, number)
             if self._name(here, one.name, linked, entry.span):
                 every.append(linked)
@@ -313,3 +319,39 @@ def span_of(target: Target) -> Span:
     if isinstance(target, LinkedInstance):
         return target.entry.span
     return target.storm.span if isinstance(target, LinkedStorm) else target.group.span
+
+
+def _instance(entry: Entry, number: int) -> Entry:
+    """The entry's texts as its instance has them; ports are as written."""
+    return _filled(entry, str(number))
+
+
+def _filled(part: _Part, number: str) -> _Part:
+    filled: object = part
+    if isinstance(part, str):
+        filled = part.replace(INDEX, number)
+    elif isinstance(part, tuple):
+        filled = tuple(_filled(item, number) for item in part)
+    elif isinstance(part, Node):
+        filled = _tree(part, number)
+    elif isinstance(part, msgspec.Struct) and not isinstance(part, Span):
+        filled = replace(part, **{name: _filled(getattr(part, name), number) for name in part.__struct_fields__})
+    return filled  # type: ignore[return-value]
+
+
+def _tree(node: Node, number: str) -> Node:
+    """In values `{i}` without quotes, which YAML reads as a mapping, is the number itself."""
+    if isinstance(node, MappingNode):
+        if node.data == {"i": None} and node.is_flow:
+            counted = text_at(node.span, number)
+            counted.data = int(number)
+            return counted
+        entries = {}
+        for name, value in node.items():
+            key = name.lexeme.replace(INDEX, number)
+            entries[key] = text_at(name.span, key), _tree(value, number)
+        return mapping_at(node.span, entries)
+    if isinstance(node, Sequence):
+        return sequence_at(node.span, [_tree(item, number) for item in node.items])
+    assert isinstance(node, Scalar)
+    return text_at(node.span, node.lexeme.replace(INDEX, number)) if INDEX in node.lexeme else node

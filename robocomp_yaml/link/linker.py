@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from functools import partial
 from itertools import pairwise
 from types import ModuleType
 from typing import TYPE_CHECKING, cast
@@ -75,21 +76,18 @@ class Linker(msgspec.Struct):
         if attachments is not None:
             attachments.join()
         for document, component in sorted(components, key=lambda pair: pair[0].path):
-            self._link_ports(document, component)
+            from robocomp_yaml.link.ports import link_ports
+
+            self.diagnostics += link_ports(component, partial(self._importable, document))
             self._read_machine(component)
         if deployments is not None:
             deployments.join()
-        tables = self.tables
         return Program(
-            tables.modules,
-            tables.components,
-            tables.parameters,
-            tables.values,
-            tables.deployments,
-            asked,
-            len(self.documents.read),
-            self.documents.disk,
-            self._plugins_of,
+            **msgspec.structs.asdict(self.tables),
+            asked=asked,
+            documents=len(self.documents.read),
+            disk=self.documents.disk,
+            plugins_of=self._plugins_of,
         )
 
     def _plugins_of(self, path: str) -> Plugins:
@@ -104,11 +102,6 @@ class Linker(msgspec.Struct):
         model, diagnostics = options.expanded(component)
         self.diagnostics += diagnostics
         return LinkedComponent(model)
-
-    def _link_ports(self, document: Document, component: LinkedComponent) -> None:
-        from robocomp_yaml.link.ports import link_ports
-
-        self.diagnostics += link_ports(component, self._suggest_import(document))
 
     def _attachments(self) -> Attachments:
         from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
@@ -149,9 +142,7 @@ class Linker(msgspec.Struct):
 
         reader = MachineReader(self.documents.disk)
         machine = reader.of(linked.component)
-        tie(
-            linked, machine=machine, machine_files=tuple(reader.files), broken=linked.broken or machine is None
-        )  # fmt: skip
+        tie(linked, machine=machine, machine_files=tuple(reader.files), broken=linked.broken or machine is None)
         self.diagnostics += reader.diagnostics
 
     def _imports(
@@ -165,7 +156,7 @@ class Linker(msgspec.Struct):
             path, other_case = self.search.find(imported.text, document.path, workspace)
             if path is None:
                 self._unresolved(document, imported, {other.text for other in imports}, workspace, codes)
-                unresolved.update(_names(imported.text))
+                unresolved.update(_names(imported))
                 continue
             target = self.documents.get(path)
             name = os.path.basename(path).removesuffix(SUFFIX)
@@ -175,9 +166,7 @@ class Linker(msgspec.Struct):
                         imported.span,
                         name=imported.text,
                         found=name,
-                        hint=Hint(
-                            f"write '{name}'", os.path.basename(imported.text).removesuffix(SUFFIX), name, safe=True
-                        ),
+                        hint=Hint(f"write '{name}'", imported.stem, name, safe=True),
                     )
                 )
             if target.real in found or target.real == document.real:
@@ -187,7 +176,7 @@ class Linker(msgspec.Struct):
                 continue
             found[target.real] = target
             if not isinstance(target.model, Module):
-                unresolved.update(_names(imported.text), {target.module} - {""})
+                unresolved.update(_names(imported), {target.module} - {""})
         self._found[document.real] = [real for real in found if isinstance(found[real].model, Module)]
         return list(found.values())
 
@@ -242,26 +231,19 @@ class Linker(msgspec.Struct):
             )
         return circles
 
-    def _suggest_import(self, document: Document) -> Callable[[str], str | None]:
-        """Says which document to import for an interface that no import defines."""
-
-        def importable(interface: str) -> str | None:
-            for linked in sorted(self.tables.modules.values(), key=lambda m: m.module.path):
-                if any(i.name == interface for i in linked.module.all_interfaces):
-                    return linked.module.stem
-            known = self.search.known(document.path, self.workspace_of(document.path))
-            return next((name for name in known if name == interface), None)
-
-        return importable
+    def _importable(self, document: Document, interface: str) -> str | None:
+        """The document to import for an interface that no import defines."""
+        for linked in sorted(self.tables.modules.values(), key=lambda m: m.module.path):
+            if any(i.name == interface for i in linked.module.all_interfaces):
+                return linked.module.stem
+        known = self.search.known(document.path, self.workspace_of(document.path))
+        return interface if interface in known else None
 
 
-def _names(imported: str) -> set[str]:
-    stem = imported.rpartition("/")[2].removesuffix(SUFFIX)
-    return {stem, f"RoboComp{stem}"}
+def _names(imported: Import) -> set[str]:
+    return {imported.stem, f"RoboComp{imported.stem}"}
 
 
 def _import_of(module: Module, other: Module) -> Import:
-    for imported in module.imports:
-        if imported.text.rpartition("/")[2].removesuffix(SUFFIX).lower() == other.stem.lower():
-            return imported
-    return module.imports[0]
+    named = (imported for imported in module.imports if imported.stem.lower() == other.stem.lower())
+    return next(named, module.imports[0])

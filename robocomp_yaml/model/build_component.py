@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text
+from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text, texts
 from robocomp_yaml.model.component import (
     CMAKE,
     LINK,
@@ -17,7 +17,6 @@ from robocomp_yaml.model.component import (
     Gui,
     Language,
     Library,
-    Option,
     Source,
     Use,
 )
@@ -38,7 +37,7 @@ def build(root: Mapping, path: str) -> Component:
         name=text(root, "component"),
         path=path,
         language=_language(root),
-        imports=tuple(imports(root)),
+        imports=imports(root),
         implements=tuple(_uses(root, "implements")),
         requires=tuple(_uses(root, "requires")),
         publishes=tuple(_uses(root, "publishes")),
@@ -48,9 +47,7 @@ def build(root: Mapping, path: str) -> Component:
         statemachine=text(root, "statemachine"),
         machine=_machine(machine, text(root, "component"), path) if isinstance(machine, Mapping) else None,
         gui=_gui(root.get("gui")),
-        options=tuple(
-            Option(item.lexeme, span=item.span) for item in items(root, "options") if isinstance(item, Scalar)
-        ),
+        options=tuple(texts(root, "options")),
         compatibility=text(root, "compatibility"),
         sources=tuple(_sources(root.get("uses"))),
         libraries=tuple(_libraries(root.get("uses"))),
@@ -125,9 +122,8 @@ def _named_use(name: Scalar, node: Node) -> Use:
 
 def _sources(uses: Node | None) -> Iterator[Source]:
     for key in ("sources", "classes"):
-        for item in items(uses, key):
-            if isinstance(item, Scalar):
-                yield Source(item.lexeme, key == "classes", span=item.span)
+        for path in texts(uses, key):
+            yield Source(path.text, key == "classes", span=path.span)
 
 
 def _libraries(uses: Node | None) -> Iterator[Library]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.build_component import seconds
-from robocomp_yaml.model.build_interface import doc, entries, items, span_of, sure, text
+from robocomp_yaml.model.build_interface import as_text, doc, entries, span_of, sure, text, texts
 from robocomp_yaml.model.deployment import (
     COMPONENT,
     ON_FAILURE,
@@ -23,9 +23,9 @@ from robocomp_yaml.model.deployment import (
     Ready,
     Restart,
     Storm,
-    Text,
     Variable,
 )
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
@@ -39,27 +39,17 @@ def build(root: Mapping, path: str) -> Deployment:
         entries=tuple(_entry(key, node) for key, node in entries(root, "components")),
         groups=(
             *(_group(key, node) for key, node in entries(root, "groups")),
-            *(Group(key.lexeme, include=_as_text(node), span=key.span) for key, node in entries(root, "include")),
+            *(Group(key.lexeme, include=as_text(node), span=key.span) for key, node in entries(root, "include")),
         ),
-        includes=tuple(_texts(root, "include")),
+        includes=tuple(texts(root, "include")),
         extra=_extra(root.get("x-rcmanager")),
         doc=doc(root),
         span=span_of(root, "deployment"),
     )
 
 
-def _as_text(node: Node | None) -> Text | None:
-    return Text(node.lexeme, span=node.span) if isinstance(node, Scalar) and node.data is not None else None
-
-
 def _text(parent: Node, key: str) -> Text | None:
-    return _as_text(parent.get(key))
-
-
-def _texts(parent: Node, key: str) -> Iterator[Text]:
-    for item in items(parent, key):
-        if isinstance(item, Scalar):
-            yield Text(item.lexeme, span=item.span)
+    return as_text(parent.get(key))
 
 
 def _integer(parent: Node | None, key: str) -> int | None:
@@ -69,7 +59,7 @@ def _integer(parent: Node | None, key: str) -> int | None:
 
 
 def _host(key: Scalar, node: Node) -> Host:
-    address = sure(_as_text(node) or _text(node, "address"))
+    address = sure(as_text(node) or _text(node, "address"))
     return Host(key.lexeme, address, text(node, "user"), doc(node), span=key.span)
 
 
@@ -97,7 +87,7 @@ def _entry(key: Scalar, node: Node) -> Entry:
         kind=kind,
         target=sure(_text(node, kind)),
         executable=_text(node, "executable"),
-        args=tuple(_texts(node, "args")),
+        args=tuple(texts(node, "args")),
         cwd=_text(node, "cwd"),
         env=tuple(_variable(name, value) for name, value in entries(node, "env")),
         host=_text(node, "host"),
@@ -114,7 +104,7 @@ def _entry(key: Scalar, node: Node) -> Entry:
         restart=_restart(node.get("restart")),
         ready=_ready(node.get("ready")),
         endpoints=tuple(_pairs(node, "endpoints")),
-        after=tuple(_texts(node, "after")),
+        after=tuple(texts(node, "after")),
         enabled=node.data.get("enabled") is not False,  # type: ignore[attr-defined]
         instances=_integer(node, "instances"),
         extra=_extra(node.get("x-rcmanager")),
@@ -191,7 +181,7 @@ def _as_spelled(node: Node) -> object:
 def _group(key: Scalar, node: Node) -> Group:
     return Group(
         name=key.lexeme,
-        members=tuple(_texts(node, "components")),
+        members=tuple(texts(node, "components")),
         include=_text(node, "include"),
         facade=_text(node, "as"),
         exposed=tuple(_exposed(name, value) for name, value in entries(node, "expose")),
@@ -202,7 +192,7 @@ def _group(key: Scalar, node: Node) -> Group:
 
 
 def _exposed(name: Scalar, node: Node) -> Exposed:
-    member = sure(_as_text(node) or _text(node, "member"))
+    member = sure(as_text(node) or _text(node, "member"))
     if not isinstance(node, Mapping):
         return Exposed(name.lexeme, member, span=name.span)
     rate = node.get("rate")
@@ -210,6 +200,6 @@ def _exposed(name: Scalar, node: Node) -> Exposed:
         name.lexeme,
         member,
         rate=float(rate.data) if rate else None,  # type: ignore[arg-type]
-        allow=tuple(_texts(node, "allow")) if "allow" in node.entries else None,
+        allow=tuple(texts(node, "allow")) if "allow" in node.entries else None,
         span=name.span,
     )

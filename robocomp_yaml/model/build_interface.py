@@ -25,6 +25,7 @@ from robocomp_yaml.model.interface import (
 from robocomp_yaml.model.interface import (
     Sequence as SequenceType,
 )
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 _Value = TypeVar("_Value")
@@ -35,7 +36,7 @@ def build(root: Mapping, path: str) -> Module:
     return Module(
         name=text(root, "module"),
         path=path,
-        imports=tuple(imports(root)),
+        imports=imports(root),
         constants=tuple(_constant(key, value) for key, value in entries(root, "constants")),
         types=tuple(_type(key, value) for key, value in entries(root, "types")),
         exceptions=tuple(
@@ -80,10 +81,18 @@ def span_of(parent: Node, key: str) -> Span:
     return (child or parent).span
 
 
-def imports(root: Mapping) -> Iterator[Import]:
-    for node in items(root, "imports"):
-        if isinstance(node, Scalar):
-            yield Import(node.lexeme, span=node.span)
+def as_text(node: Node | None) -> Text | None:
+    """The text of a scalar, with its span; None for any other node."""
+    return Text(node.lexeme, span=node.span) if isinstance(node, Scalar) and node.data is not None else None
+
+
+def texts(parent: Node | None, key: str) -> Iterator[Text]:
+    """The scalars of the list under a key."""
+    return filter(None, map(as_text, items(parent, key)))
+
+
+def imports(root: Mapping) -> tuple[Import, ...]:
+    return tuple(Import(name.text, span=name.span) for name in texts(root, "imports"))
 
 
 def sure(value: _Value | None) -> _Value:

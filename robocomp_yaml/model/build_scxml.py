@@ -7,6 +7,7 @@ from collections.abc import Callable
 import msgspec
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.scxml_shape import OURS, ours
 from robocomp_yaml.model.statemachine import (
     FINAL,
@@ -29,7 +30,6 @@ from robocomp_yaml.model.statemachine import (
     Send,
     State,
     StateMachine,
-    Text,
     Transition,
     Value,
     numbered,
@@ -136,7 +136,7 @@ class _Builder:
                 return Assign(_text(e, "location") or Text(""), self.content(e), span=e.span)
             case "script":
                 code = self.files.text(e.attributes["src"], e.place("src")) if "src" in e.attributes else e.text
-                return Script(Text(code or "", e.span), span=e.span)
+                return Script(Text(code or "", span=e.span), span=e.span)
             case "if":
                 return If(self.branches(e), span=e.span)
             case _:
@@ -172,12 +172,13 @@ class _Builder:
         return Value(literal=literal if literal.strip() else None, span=element.span)
 
     def payload(self, element: Element) -> Payload:
-        params = [Param(name.text, Value(expr=name, span=name.span), name.span) for name in _words(element, "namelist")]
+        names = _words(element, "namelist")
+        params = [Param(name.text, Value(expr=name, span=name.span), span=name.span) for name in names]
         content = None
         for child in ours(element):
             if child.name == "param":
                 expr = _text(child, "expr") or _text(child, "location")
-                params.append(Param(child.get("name") or "", Value(expr=expr, span=child.span), child.span))
+                params.append(Param(child.get("name") or "", Value(expr=expr, span=child.span), span=child.span))
             elif child.name == "content":
                 content = self.content(child)
         return Payload(tuple(params), content)
@@ -202,7 +203,7 @@ class _Builder:
 
 def _text(element: Element, name: str) -> Text | None:
     value = element.get(name)
-    return None if value is None else Text(value.strip(), element.place(name))
+    return None if value is None else Text(value.strip(), span=element.place(name))
 
 
 def _words(element: Element, name: str) -> tuple[Text, ...]:

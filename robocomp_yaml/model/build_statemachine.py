@@ -13,7 +13,8 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.build_interface import doc, entries, items, span_of, text
+from robocomp_yaml.model.build_interface import as_text, doc, entries, span_of, text, texts
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.statemachine import (
     FINAL,
     HISTORY,
@@ -27,7 +28,6 @@ from robocomp_yaml.model.statemachine import (
     Send,
     State,
     StateMachine,
-    Text,
     Transition,
     Value,
     numbered,
@@ -61,7 +61,7 @@ def build(node: Mapping, name: str, path: str) -> StateMachine:
         name,
         path,
         root,
-        events=tuple(Text(item.lexeme, item.span) for item in items(node, "events") if isinstance(item, Scalar)),
+        events=tuple(texts(node, "events")),
         inline=True,
         strays=tuple(source for key, source in names.places.items() if key not in known),
         span=node.span,
@@ -71,7 +71,7 @@ def build(node: Mapping, name: str, path: str) -> StateMachine:
 def _collect(node: Node, names: _Names) -> None:
     """All transitions by their source: those of one state may stand at any level."""
     for key, value in entries(node, "transitions"):
-        names.places.setdefault(key.lexeme, Text(key.lexeme, key.span))
+        names.places.setdefault(key.lexeme, Text(key.lexeme, span=key.span))
         found = names.transitions.setdefault(key.lexeme, [])
         found += (_transition(key.lexeme, item) for item in _listed(value))
     for key, state in entries(node, "states"):
@@ -130,10 +130,10 @@ def _remembered(name: str, own: list[Transition]) -> Transition | None:
 
 def _transition(source: str, node: Node) -> Transition:
     if isinstance(node, Scalar):
-        target = Text(node.lexeme, node.span)
+        target = Text(node.lexeme, span=node.span)
         return Transition((_signal(source, target),), targets=(target,), span=node.span)
     to = node.get("to")
-    targets = tuple(Text(item.lexeme, item.span) for item in _listed(to) if isinstance(item, Scalar)) if to else ()
+    targets = tuple(filter(None, map(as_text, _listed(to)))) if to else ()
     condition = _named(node, "if")
     if node.get("event"):
         events = words(text(node, "event"), span_of(node, "event"))
@@ -150,12 +150,11 @@ def _transition(source: str, node: Node) -> Transition:
 
 
 def _signal(source: str, target: Text) -> Text:
-    return Text(f"t_{source}_to_{target.text}", target.span)
+    return Text(f"t_{source}_to_{target.text}", span=target.span)
 
 
 def _named(node: Node | None, key: str) -> Text | None:
-    child = node.get(key) if node else None
-    return Text(child.lexeme, child.span) if isinstance(child, Scalar) else None
+    return as_text(node.get(key)) if node else None
 
 
 def _is_true(node: Node | None, key: str) -> bool:
@@ -179,7 +178,7 @@ def _actions(node: Node | None) -> Block:
 def _action(node: Node) -> Action:
     """A method of the worker, or {raise: …}, {send: …, after: …}, {cancel: …}."""
     if isinstance(node, Scalar):
-        return Script(Text(node.lexeme, node.span), span=node.span)
+        return Script(Text(node.lexeme, span=node.span), span=node.span)
     if raised := _named(node, "raise"):
         return Raise(raised, span=node.span)
     if node.get("cancel"):

@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING
 from robocomp_yaml import languages
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.interface import Import
-from robocomp_yaml.model.located import Located
+from robocomp_yaml.model.located import Spanned, Text
 
 if TYPE_CHECKING:
     from robocomp_yaml.languages.record import TargetLanguage
     from robocomp_yaml.model.statemachine import StateMachine
 
+LISTS = ("implements", "requires", "publishes", "subscribes")
 WAIT, FAIL, IGNORE = "wait", "fail", "ignore"
 
 
-class Use(Located, frozen=True):
+class Use(Spanned, frozen=True):
     """An entry of `implements`, `requires`, `publishes` or `subscribes`.
 
     `interface` is as written: `Camera`, or `RoboCompCamera.Camera` / `Camera.Camera`. `name` is the interface's name,
@@ -30,15 +31,13 @@ class Use(Located, frozen=True):
     absent: str = WAIT
     timeout: float | None = None
     doc: str = ""
-    span: Span = Span("")
 
 
-class Language(Located, frozen=True):
+class Language(Spanned, frozen=True):
     """`name` is that of a record of languages; `standard` is C++'s (17, 20, …) or None."""
 
     name: str
     standard: int | None = None
-    span: Span = Span("")
     standard_span: Span = Span("")
 
     @property
@@ -47,23 +46,15 @@ class Language(Located, frozen=True):
         return languages.language(self.name)
 
 
-class Gui(Located, frozen=True):
+class Gui(Spanned, frozen=True):
     toolkit: str
     base: str
-    span: Span = Span("")
-
-
-class Option(Located, frozen=True):
-    """An option of the legacy component generator."""
-
-    name: str
-    span: Span = Span("")
 
 
 CMAKE, PKG_CONFIG, LINK, PIP = "cmake", "pkg-config", "link", "pip"
 
 
-class Library(Located, frozen=True):
+class Library(Spanned, frozen=True):
     """A library that the component's own code needs. `kind` is CMAKE, PKG_CONFIG, LINK or PIP; `version` is as
     written, '' for any; `entry` counts the entries of the document."""
 
@@ -71,16 +62,14 @@ class Library(Located, frozen=True):
     name: str
     version: str = ""
     entry: int = 0
-    span: Span = Span("")
     version_span: Span = Span("")
 
 
-class Source(Located, frozen=True):
+class Source(Spanned, frozen=True):
     """A file of the user's repository, or (`is_class`) a folder of shared classes; by a relative path."""
 
     path: str
     is_class: bool = False
-    span: Span = Span("")
 
     @property
     def kind(self) -> str:
@@ -88,7 +77,7 @@ class Source(Located, frozen=True):
         return "classes" if self.is_class else "sources"
 
 
-class Component(Located, frozen=True):
+class Component(Spanned, frozen=True):
     """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written,
     or ''; `machine` is the state machine that stands in the document. `keys_span` are the keys of the document that
     say anything, and where they stand."""
@@ -106,12 +95,11 @@ class Component(Located, frozen=True):
     statemachine: str = ""
     machine: StateMachine | None = None
     gui: Gui | None = None
-    options: tuple[Option, ...] = ()
+    options: tuple[Text, ...] = ()
     compatibility: str = ""
     sources: tuple[Source, ...] = ()
     libraries: tuple[Library, ...] = ()
     doc: str = ""
     machine_span: Span = Span("")
-    span: Span = Span("")
     parameters_span: Span = Span("")
     keys_span: tuple[tuple[str, Span], ...] = ()

@@ -6,7 +6,7 @@ Names and paths are as written; `{i}` still stands in the strings of an entry th
 from __future__ import annotations
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.located import Located
+from robocomp_yaml.model.located import Spanned, Text
 from robocomp_yaml.source.tree import Mapping
 
 COMPONENT, PROGRAM, PROCESS = "component", "program", "process"
@@ -17,63 +17,51 @@ CONFIG = "{config}"
 """In an argument: the path of the process's configuration."""
 
 
-class Text(Located, frozen=True):
-    """A text of the document and its place: a path, a name, an argument."""
-
-    text: str
-    span: Span = Span("")
-
-
-class Host(Located, frozen=True):
+class Host(Spanned, frozen=True):
     """An entry of `hosts:`. `user` is for ssh, '' for the caller's own."""
 
     name: str
     address: Text
     user: str = ""
     doc: str = ""
-    span: Span = Span("")
 
 
-class Storm(Located, frozen=True):
+class Storm(Spanned, frozen=True):
     """An entry of `services:`: an IceStorm. `port` is None where none is given."""
 
     name: str
     host: Text | None = None
     port: int | None = None
     doc: str = ""
-    span: Span = Span("")
     port_span: Span = Span("")
 
 
-class Variable(Located, frozen=True):
+class Variable(Spanned, frozen=True):
     """A variable of the environment: `value`, or the caller's variable `source`, or the text of `file`."""
 
     name: str
     value: str = ""
     source: str = ""
     file: str = ""
-    span: Span = Span("")
 
 
-class Number(Located, frozen=True):
+class Number(Spanned, frozen=True):
     """A port: that of the interface `name`, which is '' for `port:`."""
 
     name: str
     number: int
-    span: Span = Span("")
     name_span: Span = Span("")
 
 
-class Pair(Located, frozen=True):
+class Pair(Spanned, frozen=True):
     """A key and its text: of `connect`, `topics`, `endpoints` or `expose`. `span` is the text's place."""
 
     name: str
     text: str
-    span: Span = Span("")
     name_span: Span = Span("")
 
 
-class Ready(Located, frozen=True):
+class Ready(Spanned, frozen=True):
     """When others may start: `port` listens, `command` exits with 0, a line of output matches `log`; with none of
     these, what is served answers a ping. `within` are seconds, None where nothing is said."""
 
@@ -81,20 +69,18 @@ class Ready(Located, frozen=True):
     port: int | None = None
     command: tuple[str, ...] = ()
     log: str = ""
-    span: Span = Span("")
 
 
-class Restart(Located, frozen=True):
+class Restart(Spanned, frozen=True):
     """`policy` is NEVER, ON_FAILURE or ALWAYS; the others are None where nothing is said. Times are seconds."""
 
     policy: str = ON_FAILURE
     delay: float | None = None
     tries: int | None = None
     within: float | None = None
-    span: Span = Span("")
 
 
-class Entry(Located, frozen=True):
+class Entry(Spanned, frozen=True):
     """An entry of `components:`. `kind` is the key that says what it is: COMPONENT, PROGRAM, or PROCESS (a second name
     of another entry's process); `target` is that key's value. `program` of a component is its `executable:`.
 
@@ -125,11 +111,10 @@ class Entry(Located, frozen=True):
     instances: int | None = None
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
-    span: Span = Span("")
     instances_span: Span = Span("")
 
 
-class Exposed(Located, frozen=True):
+class Exposed(Spanned, frozen=True):
     """An entry of a group's `expose:`: `name` is served by a member (`member.Interface` where its interface's name
     differs). A `rate` (calls a second, at most) or `allow` (the methods that may be called; None: all) asks for a
     proxy in between."""
@@ -138,14 +123,13 @@ class Exposed(Located, frozen=True):
     member: Text
     rate: float | None = None
     allow: tuple[Text, ...] | None = None
-    span: Span = Span("")
 
     @property
     def has_rule(self) -> bool:
         return self.rate is not None or self.allow is not None
 
 
-class Group(Located, frozen=True):
+class Group(Spanned, frozen=True):
     """An entry of `groups:`, or of `include:` in its form with names. `members` are names of this document, and
     `include` another deployment's document; `facade` is the CDSL of `as:`. `host` is for members that name none."""
 
@@ -156,7 +140,6 @@ class Group(Located, frozen=True):
     exposed: tuple[Exposed, ...] = ()
     host: Text | None = None
     doc: str = ""
-    span: Span = Span("")
 
     @property
     def is_closed(self) -> bool:
@@ -164,7 +147,7 @@ class Group(Located, frozen=True):
         return self.facade is not None or bool(self.exposed)
 
 
-class Deployment(Located, frozen=True):
+class Deployment(Spanned, frozen=True):
     """One DDSL document. `includes` are those without a name: what they hold counts as if it stood here. `extra` is the
     plain data of `x-rcmanager:`."""
 
@@ -177,7 +160,6 @@ class Deployment(Located, frozen=True):
     includes: tuple[Text, ...] = ()
     extra: tuple[tuple[str, object], ...] = ()
     doc: str = ""
-    span: Span = Span("")
 
     @property
     def all_includes(self) -> tuple[Text, ...]:

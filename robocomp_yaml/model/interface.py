@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.located import Located
+from robocomp_yaml.model.located import Spanned, Text
 
 BASIC_TYPES = ("bool", "byte", "short", "int", "long", "float", "double", "string")
 
 
-class TypeRef(Located, frozen=True):
+class TypeRef(Text, frozen=True):
     """A type as a document names it: `float`, `Pose`, `CommonTypes.Pose` or `RoboCompCommonTypes.Pose`."""
-
-    text: str
-    span: Span = Span("")
 
     @property
     def is_basic(self) -> bool:
@@ -30,15 +27,14 @@ class TypeRef(Located, frozen=True):
         return self.text.rpartition(".")[2]
 
 
-class Literal(Located, frozen=True):
+class Literal(Spanned, frozen=True):
     """A value as spelled (`lexeme`: `.9`, `2000.`, `True`, without quotes) and as understood."""
 
     value: bool | int | float | str
     lexeme: str
-    span: Span = Span("")
 
 
-class Member(Located, frozen=True):
+class Member(Spanned, frozen=True):
     """A member of a struct or exception, or a parameter of a method (which has no default)."""
 
     name: str
@@ -46,71 +42,63 @@ class Member(Located, frozen=True):
     doc: str = ""
     unit: str = ""
     default: Literal | None = None
-    span: Span = Span("")
 
 
-class Struct(Located, frozen=True):
+class Struct(Spanned, frozen=True):
     """`list_span` is the place of the word `struct`."""
 
     name: str
     members: tuple[Member, ...]
     doc: str = ""
-    span: Span = Span("")
     list_span: Span = Span("")
 
 
-class Enumerator(Located, frozen=True):
+class Enumerator(Spanned, frozen=True):
     """`value` is None where the author gave none (then: one more than the one before, from 0)."""
 
     name: str
     value: int | None = None
     doc: str = ""
-    span: Span = Span("")
 
 
-class Enum(Located, frozen=True):
+class Enum(Spanned, frozen=True):
     name: str
     enumerators: tuple[Enumerator, ...]
     doc: str = ""
-    span: Span = Span("")
     list_span: Span = Span("")
 
 
-class Sequence(Located, frozen=True):
+class Sequence(Spanned, frozen=True):
     name: str
     element: TypeRef
     doc: str = ""
-    span: Span = Span("")
 
 
-class Map(Located, frozen=True):
+class Map(Spanned, frozen=True):
     name: str
     key: TypeRef
     value: TypeRef
     doc: str = ""
-    span: Span = Span("")
 
 
 TypeDefinition = Struct | Enum | Sequence | Map
 
 
-class ExceptionType(Located, frozen=True):
+class ExceptionType(Spanned, frozen=True):
     name: str
     members: tuple[Member, ...]
     doc: str = ""
-    span: Span = Span("")
 
 
-class Constant(Located, frozen=True):
+class Constant(Spanned, frozen=True):
     name: str
     type: TypeRef
     value: Literal
     doc: str = ""
     unit: str = ""
-    span: Span = Span("")
 
 
-class Method(Located, frozen=True):
+class Method(Spanned, frozen=True):
     """`returns` is None for a method that returns nothing."""
 
     name: str
@@ -122,7 +110,6 @@ class Method(Located, frozen=True):
     doc: str = ""
     returns_doc: str = ""
     returns_unit: str = ""
-    span: Span = Span("")
 
     @property
     def can_be_published(self) -> bool:
@@ -130,24 +117,25 @@ class Method(Located, frozen=True):
         return self.returns is None and not self.outputs and not self.throws
 
 
-class Interface(Located, frozen=True):
+class Interface(Spanned, frozen=True):
     """An entry of `interfaces:`, or of `topics:` (`is_topic`)."""
 
     name: str
     methods: tuple[Method, ...]
     is_topic: bool = False
     doc: str = ""
-    span: Span = Span("")
 
 
-class Import(Located, frozen=True):
+class Import(Text, frozen=True):
     """An entry of `imports:`: a name without suffix, or a path, as written."""
 
-    text: str
-    span: Span = Span("")
+    @property
+    def stem(self) -> str:
+        """The name of the imported document, without folder and suffix."""
+        return self.text.rpartition("/")[2].removesuffix(".idsl.yaml")
 
 
-class Module(Located, frozen=True):
+class Module(Spanned, frozen=True):
     """One IDSL document. `path` is the document as opened; `stem` its name without `.idsl.yaml`.
 
     Each tuple keeps the author's order.
@@ -162,7 +150,6 @@ class Module(Located, frozen=True):
     interfaces: tuple[Interface, ...] = ()
     topics: tuple[Interface, ...] = ()
     doc: str = ""
-    span: Span = Span("")
 
     @property
     def stem(self) -> str:

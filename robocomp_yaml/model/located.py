@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import msgspec
 
+from robocomp_yaml.diag.span import Span
+
 _PLACES = frozenset({"span", "node", "at"})
 
 
@@ -24,3 +26,18 @@ class Located(msgspec.Struct, frozen=True, eq=False):
 
     def _content(self) -> list[str]:
         return [name for name in self.__struct_fields__ if name not in _PLACES and not name.endswith("_span")]
+
+
+class Spanned(Located, frozen=True, kw_only=True):
+    """A part of a document, with its span."""
+
+    span: Span = Span("")
+
+
+class Text(Spanned, frozen=True):
+    """A text of a document: a name, a path, an argument or an expression."""
+
+    text: str
+
+    def __str__(self) -> str:
+        return self.text

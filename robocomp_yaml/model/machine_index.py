@@ -9,6 +9,7 @@ import msgspec
 from robocomp_yaml.diag.fix import NO_HINT, Hint
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.model import conditions
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.statemachine import (
     FINAL,
     HISTORY,
@@ -16,6 +17,8 @@ from robocomp_yaml.model.statemachine import (
     PYTHON,
     Action,
     Invoke,
+    Raise,
+    Send,
     State,
     StateMachine,
     Transition,
@@ -23,7 +26,7 @@ from robocomp_yaml.model.statemachine import (
     blocks,
 )
 
-_MANY = 500
+MANY = 500  # names to compare a misspelled one with: more take too long
 
 
 class MachineIndex(msgspec.Struct):
@@ -53,7 +56,7 @@ class MachineIndex(msgspec.Struct):
     def similar(self, name: str, inside: State | None = None) -> Hint:
         """A hint at a state (in this one) whose name is like this one; looking for it in thousands takes too long."""
         ids = [found for found, state in self.by_id.items() if inside is None or inside in self.ancestors(state)]
-        return did_you_mean(name, ids, open_=True) if len(ids) < _MANY else NO_HINT
+        return did_you_mean(name, ids, open_=True) if len(ids) < MANY else NO_HINT
 
     def ancestors(self, state: State) -> list[State]:
         """From the nearest to the root."""
@@ -88,6 +91,15 @@ class MachineIndex(msgspec.Struct):
         for state in self.states:
             for block in blocks(state):
                 yield from actions(block)
+
+    def sends(self) -> Iterator[tuple[Text, bool]]:
+        """The events that the machine raises or sends by name, and whether it sends them to itself."""
+        for action in self.actions():
+            if isinstance(action, Raise):
+                yield action.event, True
+            elif isinstance(action, Send) and action.event.literal:
+                is_own = action.target.expr is None and action.target.literal in (None, "", "#_internal")
+                yield Text(action.event.literal, span=action.event.span), is_own
 
     def invokes(self) -> Iterator[Invoke]:
         for state in self.states:

@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterator
 import msgspec
 
 from robocomp_yaml.model import conditions
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.statemachine import HISTORY, PYTHON, If, Script, State, StateMachine, Text
+from robocomp_yaml.model.statemachine import HISTORY, PYTHON, If, Script, State, StateMachine
 
 STATE, GUARD, ACTION, EVENT = "the state", "the guard", "the action", "the event"
 
@@ -69,7 +70,7 @@ def events(machine: StateMachine) -> list[Named]:
     for event in (*machine.events, *listed):
         name = event.text.removesuffix(".*").rstrip(".")
         if name not in ("", "*", "error") and not name.startswith(("done.", "error.")):
-            found.setdefault(name, Named(EVENT, Text(name, event.span), re.sub(r"[.-]", "_", name)))
+            found.setdefault(name, Named(EVENT, Text(name, span=event.span), re.sub(r"[.-]", "_", name)))
     return list(found.values())
 
 
@@ -92,11 +93,11 @@ def _methods(machine: StateMachine) -> Iterator[Named]:
                 texts += [condition for condition, _ in action.branches]
             elif isinstance(action, Script):
                 for name in _read(conditions.script, action.code):
-                    yield Named(ACTION, Text(name, action.code.span), name)
+                    yield Named(ACTION, Text(name, span=action.code.span), name)
         for text in texts:
             if text is not None:
                 for name in _read(_guards, text):
-                    yield Named(GUARD, Text(name, text.span), name)
+                    yield Named(GUARD, Text(name, span=text.span), name)
     for invoked in index.invoked():
         yield from _methods(invoked)
 

@@ -15,20 +15,10 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.located import Located
+from robocomp_yaml.model.located import Spanned, Text
 
 STATE, PARALLEL, FINAL, HISTORY = "state", "parallel", "final", "history"
 NULL, PYTHON = "null", "python"
-
-
-class Text(Located, frozen=True):
-    """A piece of the document with its place: a name, or an expression."""
-
-    text: str
-    span: Span = Span("")
-
-    def __str__(self) -> str:
-        return self.text
 
 
 def words(text: str, span: Span) -> tuple[Text, ...]:
@@ -41,24 +31,22 @@ def words(text: str, span: Span) -> tuple[Text, ...]:
     def place(found: re.Match[str]) -> Span:
         return replace(span, column=start + found.start(), end_column=start + found.end()) if is_plain else span
 
-    return tuple(Text(found[0], place(found)) for found in re.finditer(r"\S+", text))
+    return tuple(Text(found[0], span=place(found)) for found in re.finditer(r"\S+", text))
 
 
-class Value(Located, frozen=True):
+class Value(Spanned, frozen=True):
     """What may be given as an expression or as it stands; `machine` where it is a whole machine."""
 
     expr: Text | None = None
     literal: str | None = None
     machine: StateMachine | None = None
-    span: Span = Span("")
 
 
-class Param(Located, frozen=True):
+class Param(Spanned, frozen=True):
     """A named value of an event or of an invocation; from `location` where it has no value."""
 
     name: str
     value: Value
-    span: Span = Span("")
 
 
 class Payload(msgspec.Struct, frozen=True):
@@ -68,12 +56,11 @@ class Payload(msgspec.Struct, frozen=True):
     content: Value | None = None
 
 
-class Raise(Located, frozen=True):
+class Raise(Spanned, frozen=True):
     event: Text
-    span: Span = Span("")
 
 
-class Send(Located, frozen=True):
+class Send(Spanned, frozen=True):
     """`event`, `target`, `type` and `delay` are literals or, in the fields beside them, expressions. `delay` is as
     spelled: `100ms`, `1.5s`."""
 
@@ -84,53 +71,46 @@ class Send(Located, frozen=True):
     id: str = ""
     id_location: Text | None = None
     payload: Payload = Payload()
-    span: Span = Span("")
 
 
-class Cancel(Located, frozen=True):
+class Cancel(Spanned, frozen=True):
     id: Value
-    span: Span = Span("")
 
 
-class Log(Located, frozen=True):
+class Log(Spanned, frozen=True):
     label: str
     value: Value | None = None
-    span: Span = Span("")
 
 
-class Assign(Located, frozen=True):
+class Assign(Spanned, frozen=True):
     location: Text
     value: Value
-    span: Span = Span("")
 
 
-class Script(Located, frozen=True):
+class Script(Spanned, frozen=True):
     """A piece of the data model's language; with `null`, names of actions."""
 
     code: Text
-    span: Span = Span("")
 
 
-class If(Located, frozen=True):
+class If(Spanned, frozen=True):
     """Conditions with what is done under them; the last one may have none."""
 
     branches: tuple[tuple[Text | None, Block], ...]
-    span: Span = Span("")
 
 
-class Foreach(Located, frozen=True):
+class Foreach(Spanned, frozen=True):
     array: Text
     item: Text
     index: Text | None
     actions: Block
-    span: Span = Span("")
 
 
 Action = Raise | Send | Cancel | Log | Assign | Script | If | Foreach
 Block = tuple[Action, ...]
 
 
-class Transition(Located, frozen=True):
+class Transition(Spanned, frozen=True):
     """Without `events` it is taken as soon as its condition holds; without `targets` the state stays."""
 
     events: tuple[Text, ...] = ()
@@ -138,16 +118,14 @@ class Transition(Located, frozen=True):
     targets: tuple[Text, ...] = ()
     internal: bool = False
     actions: Block = ()
-    span: Span = Span("")
 
 
-class Data(Located, frozen=True):
+class Data(Spanned, frozen=True):
     id: Text
     value: Value
-    span: Span = Span("")
 
 
-class Invoke(Located, frozen=True):
+class Invoke(Spanned, frozen=True):
     """A machine that runs while its state is active."""
 
     type: Value
@@ -157,10 +135,9 @@ class Invoke(Located, frozen=True):
     payload: Payload = Payload()
     autoforward: bool = False
     finalize: Block | None = None
-    span: Span = Span("")
 
 
-class State(Located, frozen=True):
+class State(Spanned, frozen=True):
     """A state, of a `kind`; `id` is '' where it has none. `initial` is what is entered with it, `final` what the CDSL
     names as the one that ends it. A history's `initial` is what it stands for before anything is remembered. `number`
     tells it from all others of its machine: its place in the document's order, with the root as 0."""
@@ -179,10 +156,9 @@ class State(Located, frozen=True):
     done: Payload = Payload()
     doc: str = ""
     number: int = 0
-    span: Span = Span("")
 
 
-class StateMachine(Located, frozen=True):
+class StateMachine(Spanned, frozen=True):
     """`root` holds the states. `events` are those that the component's code is said to fire; empty: any. `inline` where
     the machine stands in the CDSL, the document at `path`; `strays` are then names under `transitions:` that no state
     has."""
@@ -196,7 +172,6 @@ class StateMachine(Located, frozen=True):
     events: tuple[Text, ...] = ()
     inline: bool = False
     strays: tuple[Text, ...] = ()
-    span: Span = Span("")
     datamodel_span: Span = Span("")
 
     @property

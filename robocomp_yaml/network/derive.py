@@ -12,7 +12,8 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedStorm
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.deployment import PROGRAM, Text
+from robocomp_yaml.model.deployment import PROGRAM
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.network import ice_texts, ports, processes
 from robocomp_yaml.network.base import Base, base_of
 from robocomp_yaml.network.configuration import Configuration

@@ -14,6 +14,7 @@ from robocomp_yaml import resources
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.deployments import LinkedGroup, LinkedInstance, Served
 from robocomp_yaml.model import deployment as model
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.network.draft import Draft, Given, Offer
 from robocomp_yaml.network.drafts import Drafts
 from robocomp_yaml.network.network import Connection
@@ -44,8 +45,8 @@ class Gates(msgspec.Struct):
             entry = model.Entry(
                 name,
                 model.PROGRAM,
-                model.Text("python3"),
-                config_as=model.Text(model.ARGUMENT),
+                Text("python3"),
+                config_as=Text(model.ARGUMENT),
                 enabled=any(owner.instance.entry.enabled for _, owner in ruled),
                 span=group.group.span,
             )

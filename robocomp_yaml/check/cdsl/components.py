@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
+from itertools import count
 
 from msgspec.structs import replace
 
@@ -12,10 +14,12 @@ from robocomp_yaml.diag.codes.files import NAME_TOO_LONG
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import LinkedComponent, Port, Program
+from robocomp_yaml.link.workspace import root_above
+from robocomp_yaml.model.component import LINK, LISTS, PIP, Component, Library
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, shortened
 
+_NUMBERS = r" *(>=|<=|==|=|>|<)? *\d+(\.\d+)* *"
 _LONGEST_SUFFIX = "_autogen"  # the folder of what CMake makes for Qt
-LISTS = ("implements", "requires", "publishes", "subscribes")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -37,6 +41,34 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 hint="give each component a folder of its own",
                 related=[Related("the other one", first.span)],
             )
+        yield from _libraries(component)
+    yield from _same_names(program)
+
+
+def _same_names(program: Program) -> Iterator[Diagnostic]:
+    """The same component in several languages is one; whatever belongs to no declared workspace belongs together. Of
+    two alike, the one with the longer path is told of: copies are called `speech2`, `speech (copy)` or `old/speech`."""
+    by_name: dict[str, list[LinkedComponent]] = {}
+    for linked in program.components.values():
+        by_name.setdefault(linked.component.name, []).append(linked)
+    for name, alike in by_name.items():
+        if len(alike) == 1:
+            continue
+        first: dict[tuple[str, str], LinkedComponent] = {}
+        free = (f"{name}{n}" for n in count(2) if f"{name}{n}" not in by_name)
+        for linked in sorted(alike, key=lambda each: (len(each.component.path), each.component.path)):
+            component = linked.component
+            root = root_above(os.path.dirname(component.path))
+            workspace = "" if root is None else os.path.realpath(root)
+            other = first.setdefault((workspace, component.language.name), linked).component
+            if other is not component:
+                yield codes.SAME_NAME.at(
+                    component.span,
+                    name=name,
+                    other=other.path,
+                    related=[Related("the other one", other.span)],
+                    hint=f"a copy needs a name of its own: `component: {next(free)}`",
+                )
 
 
 def _is_same(one: Port, other: Port) -> bool:
@@ -89,3 +121,19 @@ def _topics(linked: LinkedComponent) -> Iterator[Diagnostic]:
         for port in ports:
             if port.interface.is_topic:
                 yield codes.TOPIC_IMPLEMENTED.at(port.use.span, name=port.interface.name, done=done)
+
+
+def _libraries(component: Component) -> Iterator[Diagnostic]:
+    by_entry: dict[int, list[Library]] = {}
+    for library in component.libraries:
+        by_entry.setdefault(library.entry, []).append(library)
+    for libraries in by_entry.values():
+        if len(libraries) > 1:
+            places = " and ".join(f"`{library.kind}`" for library in libraries)
+            yield codes.LIBRARY_OF_TWO_KINDS.at(libraries[1].span, places=places, hint="write two entries")
+    for library in component.libraries:
+        plain = all(re.fullmatch(_NUMBERS, part) for part in library.version.split(",")) and library.kind != LINK
+        if library.version and library.kind != PIP and not plain:
+            yield codes.LIBRARY_VERSION.at(
+                library.version_span, version=library.version.strip(), kind=f"`{library.kind}`"
+            )

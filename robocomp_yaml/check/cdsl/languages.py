@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_yaml import languages
-from robocomp_yaml.diag.codes import languages as codes
-from robocomp_yaml.diag.codes import uses
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.languages.record import CAPABILITIES, STANDARD, TargetLanguage
@@ -20,7 +19,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         language = component.language.target
         for key, span in _said(component):
             if key in language.ignored:
-                yield uses.OTHER_LANGUAGE.at(span, language=language.title, key=key)
+                yield codes.OTHER_LANGUAGE.at(span, language=language.title, key=key)
             elif key not in language.has:
                 more = program.plugins_of(component.path).languages
                 yield codes.NOT_AVAILABLE.at(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
@@ -18,6 +18,10 @@ from robocomp_yaml.digraph import reached
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.references import macro
 from robocomp_yaml.patterns import pattern
+
+if TYPE_CHECKING:
+    from robocomp_yaml.model.component import Component
+    from robocomp_yaml.model.interface import Module
 
 Importer = LinkedModule | LinkedComponent
 
@@ -62,9 +66,10 @@ def _meetings(alike: list[LinkedModule], importers: dict[Importer, list[Importer
 def _together(importer: Importer, one: LinkedModule, other: LinkedModule) -> Iterator[Diagnostic]:
     related = [Related(f"{linked.module.stem} stands here", linked.module.span) for linked in (one, other)]
     first, second = one.module, other.module
+    document = importer.component if isinstance(importer, LinkedComponent) else importer.module
 
     def at(code: Code, hint: str, **facts: Any) -> Diagnostic:
-        span = _import_of(importer, other) or _import_of(importer, one) or _span(importer)
+        span = _import_of(document, other) or _import_of(document, one) or document.span
         return code.at(span, hint=hint, related=related, one=first.path, two=second.path, **facts)
 
     if macro(first.stem) == macro(second.stem):
@@ -79,13 +84,6 @@ def _together(importer: Importer, one: LinkedModule, other: LinkedModule) -> Ite
             yield at(codes.REDEFINED, "import only one of them", name=twice[0], module=first.name)
 
 
-def _import_of(importer: Importer, linked: LinkedModule) -> Span | None:
-    document = importer.component if isinstance(importer, LinkedComponent) else importer.module
-    for imported in document.imports:
-        if imported.text.rpartition("/")[2].removesuffix(".idsl.yaml").lower() == linked.module.stem.lower():
-            return imported.span
-    return None
-
-
-def _span(importer: Importer) -> Span:
-    return importer.component.span if isinstance(importer, LinkedComponent) else importer.module.span
+def _import_of(document: Component | Module, linked: LinkedModule) -> Span | None:
+    stem = linked.module.stem.lower()
+    return next((imported.span for imported in document.imports if imported.stem.lower() == stem), None)

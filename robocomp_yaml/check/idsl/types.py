@@ -7,11 +7,11 @@ from collections.abc import Container, Iterator
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.fix import NO_HINT, Hint
+from robocomp_yaml.diag.fix import NO_HINT, Hint, removal
 from robocomp_yaml.diag.suggest import did_you_mean, meaning
 from robocomp_yaml.link.program import Definition, LinkedModule, Program
 from robocomp_yaml.link.references import kind_of, types_of
-from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Interface, Module, TypeDefinition, TypeRef
+from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Interface, Method, Module, TypeDefinition, TypeRef
 
 # How other languages call the basic types.
 _FOREIGN = {
@@ -35,6 +35,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             for ref in types_of(definition):
                 yield from _type(linked, ref, index)
             for method in definition.methods if isinstance(definition, Interface) else ():
+                yield from _thrown_once(linked, method)
                 for ref in method.throws:
                     yield from _exception(linked, ref, index, {other.text for other in method.throws})
 
@@ -80,6 +81,23 @@ def _exception(linked: LinkedModule, ref: TypeRef, index: _Index, given: set[str
     elif found is None and ref.module not in linked.unresolved:
         hint = _hint(linked, ref, index, given)
         yield codes.UNKNOWN_EXCEPTION.at(ref.span, name=ref.text, hint=hint)
+
+
+def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
+    """`Other.Failed` and `RoboCompOther.Failed` are the same exception."""
+    first: dict[object, TypeRef] = {}
+    for ref in method.throws:
+        found = linked.find(ref)
+        other = first.setdefault((found[0], found[1].name) if found else ref.text, ref)
+        if other is not ref:
+            yield codes.THROWN_TWICE.at(
+                ref.span,
+                method=method.name,
+                name=ref.text,
+                hint="remove one of them",
+                related=[Related("it stands here first", other.span)],
+                fixes=[removal(ref.span)],
+            )
 
 
 def _of_other_kind(code: Code, ref: TypeRef, found: Definition, hint: str) -> Diagnostic:

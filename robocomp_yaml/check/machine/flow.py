@@ -8,11 +8,11 @@ from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, prefixes
-from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Raise, Send, State, StateMachine, Text, Transition
+from robocomp_yaml.model.located import Text
+from robocomp_yaml.model.machine_index import MANY, MachineIndex, is_unconditional, prefixes
+from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Send, State, StateMachine, Transition
 from robocomp_yaml.semantics.events import beginning
 
-_MANY = 500  # names to look for a similar one in
 _PLATFORM = ("done.", "error", "*", ".*")
 
 
@@ -111,14 +111,8 @@ def _at_once(index: MachineIndex, state: State) -> State | None:
 def _sent(machine: StateMachine) -> tuple[list[Text], bool]:
     """The events that a machine and those it invokes raise and send, and whether these are all."""
     index = MachineIndex(machine)
-    found, complete = [], True
-    for action in index.actions():
-        if isinstance(action, Raise):
-            found.append(action.event)
-        elif isinstance(action, Send):
-            complete &= action.event.expr is None
-            if action.event.literal:
-                found.append(Text(action.event.literal, action.event.span))
+    found = [event for event, _ in index.sends()]
+    complete = not any(isinstance(action, Send) and action.event.expr for action in index.actions())
     complete &= all(invoke.source.expr is None for invoke in index.invokes())
     for invoked in index.invoked():
         inner, inner_complete = _sent(invoked)
@@ -132,20 +126,10 @@ def _unheard(index: MachineIndex) -> Iterator[Diagnostic]:
     heard = [event.text for _, transition in index.transitions() for event in transition.events]
     known = {beginning(descriptor) for descriptor in heard}
     named = [descriptor for descriptor in known if descriptor and not descriptor.startswith(_PLATFORM)]
-    for action in index.actions():
-        if isinstance(action, Raise):
-            event = action.event
-        elif isinstance(action, Send) and action.event.literal and _to_itself(action):
-            event = Text(action.event.literal, action.event.span)
-        else:
-            continue
-        if known.isdisjoint(prefixes(event.text)):
-            hint = did_you_mean(event.text, sorted(named)[:_MANY], open_=True)
+    for event, is_own in index.sends():
+        if is_own and known.isdisjoint(prefixes(event.text)):
+            hint = did_you_mean(event.text, sorted(named)[:MANY], open_=True)
             yield codes.UNHEARD.at(event.span, event=event.text, hint=hint)
-
-
-def _to_itself(send: Send) -> bool:
-    return send.target.expr is None and send.target.literal in (None, "", "#_internal")
 
 
 def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
@@ -164,7 +148,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
             elif fired and complete and beginning(event.text) not in heads:
                 hint = did_you_mean(
                     event.text,
-                    known[:_MANY],
+                    known[:MANY],
                     open_=True,
                     otherwise=f"list it under {listed}, for the component's code to fire it",
                 )

@@ -11,8 +11,9 @@ from robocomp_yaml.languages import with_capability
 from robocomp_yaml.languages.record import STATEMACHINE, TargetLanguage
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.model import machine_names as names
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.statemachine import Raise, Send, StateMachine, Text
+from robocomp_yaml.model.statemachine import StateMachine
 
 _EVENT = re.compile(r"(?!__)[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
 _WORKERS = frozenset(
@@ -36,13 +37,7 @@ def _events(machine: StateMachine) -> Iterator[Diagnostic]:
             plain = event.text.removesuffix(".*").removesuffix(".")
             if event.text not in ("*", ".*") and not _EVENT.fullmatch(plain):
                 yield codes.EVENT_NAME.at(event.span, event=event.text)
-    said = list(machine.events)
-    for action in index.actions():
-        if isinstance(action, Raise):
-            said.append(action.event)
-        elif isinstance(action, Send) and action.event.literal:
-            said.append(Text(action.event.literal, action.event.span))
-    for event in said:
+    for event in (*machine.events, *(event for event, _ in index.sends())):
         if not _EVENT.fullmatch(event.text):
             yield codes.EVENT_NAME.at(event.span, event=event.text)
 
@@ -59,7 +54,7 @@ def _in_code(linked: LinkedComponent, machine: StateMachine, known: list[TargetL
         if named.name in reserved and not is_own:
             yield codes.METHOD_NAME.at(named.text.span, name=named.name)
     handlers = [
-        names.Named(names.STATE, Text(state.id, state.span), name)
+        names.Named(names.STATE, Text(state.id, span=state.span), name)
         for state in {state.id: state for state in names.with_handler(machine)}.values()
         for name in (names.entered(state.id), names.left(state.id), names.every_period(state.id))
     ]
@@ -75,10 +70,10 @@ def _of_ports(linked: LinkedComponent) -> Iterator[names.Named]:
     for port in (*linked.implements, *linked.subscribes):
         for method in port.interface.methods:
             name = f"{port.interface.name}_{method.name}"
-            yield names.Named("the method", Text(name, port.use.span), name)
+            yield names.Named("the method", Text(name, span=port.use.span), name)
     for port in (*linked.requires, *linked.publishes):
         name = f"{port.name.lower()}_proxy"
-        yield names.Named("the proxy", Text(port.name, port.use.span), name)
+        yield names.Named("the proxy", Text(port.name, span=port.use.span), name)
 
 
 def _clash(named: names.Named, taken: dict[str, names.Named]) -> Iterator[Diagnostic]:

@@ -6,13 +6,14 @@ from collections.abc import Iterator
 
 import msgspec
 
-from robocomp_yaml.diag.codes import machine_order as codes
+from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model import conditions
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, prefixes
-from robocomp_yaml.model.statemachine import HISTORY, PYTHON, State, StateMachine, Text, Transition
+from robocomp_yaml.model.statemachine import HISTORY, PYTHON, State, StateMachine, Transition
 from robocomp_yaml.semantics.events import beginning
 
 _AT_ONCE = "an event"  # what a transition without events does not wait for
@@ -79,7 +80,7 @@ def _dead(state: State, machine: StateMachine) -> Iterator[Diagnostic]:
         condition = _meaning(transition.condition)
         heads = {beginning(event.text): event for event in transition.events}
         if not transition.events:
-            heads = {_AT_ONCE: Text("", transition.span)}
+            heads = {_AT_ONCE: Text("", span=transition.span)}
         for head, event in heads.items():
             wider = [_AT_ONCE, *(() if head == _AT_ONCE else prefixes(head))]
             first = next((certain[one] for one in wider if one in certain), None)
@@ -87,7 +88,7 @@ def _dead(state: State, machine: StateMachine) -> Iterator[Diagnostic]:
             if first is not None:
                 yield _told(machine, state, _Taker(transition, event), first)
             elif restless is not None and head != _AT_ONCE:
-                taker = _Taker(restless, Text("", restless.span))
+                taker = _Taker(restless, Text("", span=restless.span))
                 yield _told(machine, state, _Taker(transition, event), taker, "behind")
         for head, event in heads.items():
             if is_certain:

@@ -11,10 +11,10 @@ from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import meaning, suggest
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.statemachine import FINAL, HISTORY, PARALLEL, State, StateMachine, Text, Transition
+from robocomp_yaml.model.located import Text
+from robocomp_yaml.model.machine_index import MANY, MachineIndex
+from robocomp_yaml.model.statemachine import FINAL, HISTORY, PARALLEL, State, StateMachine, Transition
 
-_MANY = 500  # names to look for a similar one in
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
@@ -65,7 +65,7 @@ def _strays(index: MachineIndex) -> Iterator[Diagnostic]:
     meant = None
     if start is not None and strays and not any(state.transitions for state in index.machine.states):
         name = start.targets[0]
-        meant = suggest(name.text, [stray.text for stray in strays[:_MANY]])
+        meant = suggest(name.text, [stray.text for stray in strays[:MANY]])
         if meant:
             yield codes.UNKNOWN_STATE.at(name.span, id=name.text, hint=meaning(name.text, meant))
     for stray in strays:

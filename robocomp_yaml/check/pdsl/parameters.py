@@ -11,7 +11,6 @@ from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.model.names import is_identifier
 from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.expressions import evaluate
 from robocomp_yaml.parameters.types import Member, Parameters, RecordType
@@ -42,7 +41,8 @@ def _names(record: RecordType, known: Languages) -> Iterator[Diagnostic]:
     for member in record.members:
         if member.is_group and isinstance(member.type, RecordType):
             yield from _names(member.type, known)
-        if not is_identifier(member.code_name):
+        name = member.code_name
+        if not (name.isascii() and name.isidentifier() and not name.startswith("__")):
             yield codes.NO_IDENTIFIER.at(member.span, name=member.name, hint=f"for instance as: {_free(member.name)}")
             continue
         for language in known:

@@ -23,7 +23,7 @@ from robocomp_yaml.deploy.local.log_reader import merged as merged_here
 from robocomp_yaml.deploy.local.obstacles import Cleared, is_here, obstacles
 from robocomp_yaml.deploy.readiness import listens
 from robocomp_yaml.deploy.spec import Spec
-from robocomp_yaml.diag.codes import deploying, grids
+from robocomp_yaml.diag.codes import deploying
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Network
@@ -60,7 +60,7 @@ class IceGridEngine:
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network, self._places = network, Places(network.folder)
         if missing := _missing():
-            raise DeployFailed(grids.NO_REGISTRY.at(Span(network.path), reason=missing))
+            raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=missing))
         self._grid = await self._call("", "reached", self._reach, create)
         if self._grid is None:
             return False

@@ -23,7 +23,7 @@ from robocomp_yaml.deploy.icegrid.places import (
 )
 from robocomp_yaml.deploy.local.obstacles import is_here
 from robocomp_yaml.deploy.local.record import clear_up
-from robocomp_yaml.diag.codes import grids
+from robocomp_yaml.diag.codes import deploying as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.network.network import Host, Network
@@ -110,7 +110,7 @@ def ensure_nodes(grid: Grid, places: Places, network: Network, hosts: Iterable[H
         if reason:
             where = host.span if host.span.file else Span(network.path)
             hint = "" if is_here(host.address) else hint
-            faults[host.name] = grids.NO_NODE.at(
+            faults[host.name] = codes.NO_NODE.at(
                 where, name=host.name, address=host.address, reason=reason, hint=hint
             )  # fmt: skip
     return faults
@@ -162,7 +162,7 @@ def _until(condition: Callable[[], bool], within: float) -> bool:
 
 
 def _failed(network: Network, reason: str) -> DeployFailed:
-    return DeployFailed(grids.NO_REGISTRY.at(Span(network.path), reason=reason))
+    return DeployFailed(codes.NO_REGISTRY.at(Span(network.path), reason=reason))
 
 
 _CONNECT_WITHIN, _RUN_WITHIN = 8.0, 30.0

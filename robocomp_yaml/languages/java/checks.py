@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 
-from robocomp_yaml.diag.codes import languages as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.emit.lowering.types import found, results
 from robocomp_yaml.languages.java import LANGUAGE

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from robocomp_yaml import pipeline
-from robocomp_yaml.diag.codes import forms as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import ERROR, Diagnostic
 from robocomp_yaml.emit.windows import text
 
@@ -53,8 +53,8 @@ OUTSIDE = b'<!DOCTYPE ui [<!ENTITY a SYSTEM "file:///etc/passwd">]><ui><class>&a
         (b'<ui><widget class="QWidget"/></ui>', codes.NO_DIALOG),
         (b'<ui><class>Form</class><widget class="QWidget"/></ui>', codes.NO_DIALOG),
         (b'<ui><class>guiDlg</class><widget class="QDialog"/></ui>', codes.OTHER_BASE),
-        (LAUGHS, codes.REFUSED),
-        (OUTSIDE, codes.REFUSED),
+        (LAUGHS, codes.FORM_WITH_ENTITIES),
+        (OUTSIDE, codes.FORM_WITH_ENTITIES),
         (b"<ui><class>&none;</class></ui>", codes.NOT_A_FORM),
         (b"<ui>" + b"<a>" * 200_000, codes.NOT_A_FORM),
     ],
