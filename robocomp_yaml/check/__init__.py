@@ -5,9 +5,8 @@ for the documents of the workspaces that name them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from types import ModuleType
-from typing import Any
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
+from typing import Any, TypeVar
 
 from robocomp_yaml import languages
 from robocomp_yaml.diag.diagnostic import Diagnostic
@@ -17,16 +16,22 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.plugins import CHECKS, LANGUAGES, Plugin, Plugins
 from robocomp_yaml.registry import Modules
 
-Check = Callable[[Program], Iterator[Diagnostic]]
-
-
-def modules_of(kind: str) -> list[ModuleType]:
-    """Every module that checks a kind of document, in the order of their names."""
-    return [module for module in Modules(f"{__name__}.{kind}", "check").every() if hasattr(module, "check")]
+_Item = TypeVar("_Item")
+Check = Callable[[Any], Iterator[Diagnostic]]
 
 
 def checks_of(kind: str) -> list[Check]:
-    return [module.check for module in modules_of(kind)]
+    """The checks of a kind of document, in the order of their modules' names."""
+    return [module.check for module in Modules(f"{__name__}.{kind}", "check").every() if hasattr(module, "check")]
+
+
+def repeated(items: Iterable[_Item], key: Callable[[_Item], Hashable]) -> Iterator[tuple[_Item, _Item]]:
+    """Each item whose key an item before it has, after the first item of that key."""
+    first: dict[Hashable, _Item] = {}
+    for item in items:
+        other = first.setdefault(key(item), item)
+        if other is not item:
+            yield other, item
 
 
 def checks(program: Program, plugins: Iterable[Plugins] = ()) -> list[Check]:
@@ -69,7 +74,7 @@ def _of_language(language: TargetLanguage) -> Check:
     return check
 
 
-def said_by(plugin: Plugin, name: str, check: Callable[[Any], Iterator[Diagnostic]], about: Any) -> list[Diagnostic]:
+def said_by(plugin: Plugin, name: str, check: Check, about: Any) -> list[Diagnostic]:
     """What a plug-in's check says, and that it failed, where it does."""
     said: list[Diagnostic] = []
     try:

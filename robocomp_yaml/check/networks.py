@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from robocomp_yaml.check import modules_of, plugged, said_by
+from robocomp_yaml.check import checks_of, plugged, said_by
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.network.networks import Derived
@@ -16,7 +16,7 @@ def of_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
     """What deriving them said, and what the checks say."""
     if not derived.networks:
         return iter(())
-    checks = [module.check for module in modules_of("ddsl")]
+    checks = checks_of("ddsl")
     found = [fault for real in derived.judged for check in checks for fault in check(derived.networks[real])]
     for real in derived.judged:
         for plugin in program.plugins_of(program.deployments[real].deployment.path).active:

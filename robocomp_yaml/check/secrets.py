@@ -148,9 +148,10 @@ class _Finder:
                 seen.add(node)
                 yield Secret(node, is_sure=False)
         for node in _texts(tree):
-            if node not in seen and secrets.url(node.lexeme) != node.lexeme:
-                yield Secret(node, _password_of_url(node.lexeme))
-            elif node not in seen and (part := _part_of(node.lexeme)):
+            text = node.lexeme
+            if node not in seen and (masked := secrets.url(text)) != text:
+                yield Secret(node, _between(text, masked))
+            elif node not in seen and (masked := secrets.masked(text)) != text and (part := _between(text, masked)):
                 yield Secret(node, part, is_sure=False)
 
     def _of_kind(self, document: Document, tree: Mapping) -> Iterator[Secret]:
@@ -277,16 +278,6 @@ def _texts(node: Node) -> Iterator[Scalar]:
     told = (value for key, value in node.items() if key.lexeme != "doc") if isinstance(node, Mapping) else None
     for child in told or node.children():
         yield from _texts(child)
-
-
-def _password_of_url(text: str) -> str:
-    return _between(text, secrets.url(text))
-
-
-def _part_of(text: str) -> str:
-    """What of a text is secret by its own words, or ''."""
-    masked = secrets.masked(text)
-    return _between(text, masked) if masked != text else ""
 
 
 def _between(text: str, masked: str) -> str:

@@ -139,6 +139,7 @@ def _ports(instance: LinkedInstance) -> Iterator[Diagnostic]:
         ("interface", served, entry.endpoints),
     ]
     for what, names, keys in keyed:
+        otherwise = f"there are {', '.join(names)}" if names else ""
         for key in keys:
             if key.name not in names:
                 yield codes.UNKNOWN_PORT.at(
@@ -146,7 +147,7 @@ def _ports(instance: LinkedInstance) -> Iterator[Diagnostic]:
                     component=linked.component.name,
                     what=what,
                     name=key.name,
-                    hint=_meant(key.name, names, {other.name for other in keys}),
+                    hint=did_you_mean(key.name, names, {other.name for other in keys}, otherwise=otherwise),
                     related=[Related("the component", linked.component.span)],
                 )
 
@@ -165,7 +166,3 @@ def _programs(entry: Entry) -> Iterator[Diagnostic]:
             yield codes.CONFIG_AS_PROGRAM.at(
                 text.span, text=text.text, hint=f'name what reads it, such as `program: python3, args: ["{CONFIG}"]`'
             )
-
-
-def _meant(name: str, names: list[str], given: set[str]) -> Hint:
-    return did_you_mean(name, names, given, otherwise=f"there are {', '.join(names)}" if names else "")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from itertools import pairwise
 from types import ModuleType
@@ -15,18 +15,25 @@ from robocomp_yaml import digraph
 from robocomp_yaml.diag.codes import cdsl, idsl
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import Hint, removal
-from robocomp_yaml.diag.suggest import did_you_mean
+from robocomp_yaml.diag.suggest import did_you_mean, meaning, suggest
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.knot import tie
-from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program, Tables
+from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port, Program, Tables
 from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
-from robocomp_yaml.model.interface import Import, Module
+from robocomp_yaml.model.interface import Import, Interface, Module
 from robocomp_yaml.plugins import Plugins
 
 if TYPE_CHECKING:
     from robocomp_yaml.link.attachments import Attachments
     from robocomp_yaml.link.deployment_documents import DeploymentDocuments
-    from robocomp_yaml.model.component import Component
+    from robocomp_yaml.model.component import Component, Use
+
+_VERBS = {
+    "implements": "implements",
+    "requires": "requires",
+    "publishes": "publishes",
+    "subscribes": "subscribes to",
+}
 
 
 class Linker(msgspec.Struct):
@@ -61,7 +68,10 @@ class Linker(msgspec.Struct):
                 tie(linked, unresolved=frozenset(unresolved))
                 continue
             if document.kind == "ddsl" and document.model is not None:
-                deployments = deployments or self._deployments()
+                if deployments is None:
+                    from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
+
+                    deployments = DeploymentDocuments(self.documents, self.tables, self.diagnostics)
                 todo += deployments.follow(document)
                 continue
             if document.kind == "cdsl" and document.model is not None:
@@ -70,15 +80,16 @@ class Linker(msgspec.Struct):
                 unresolved = set()
                 todo += self._imports(document, component.component.imports, unresolved, cdsl)
                 tie(component, broken=bool(unresolved))
-            attachments = attachments or self._attachments()
+            if attachments is None:
+                from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
+
+                attachments = Attachments(self.documents, self.tables, self._root_of, self.diagnostics)
             todo += attachments.follow(document)
         self._join()
         if attachments is not None:
             attachments.join()
         for document, component in sorted(components, key=lambda pair: pair[0].path):
-            from robocomp_yaml.link.ports import link_ports
-
-            self.diagnostics += link_ports(component, partial(self._importable, document))
+            self.diagnostics += _link_ports(component, partial(self._importable, document))
             self._read_machine(component)
         if deployments is not None:
             deployments.join()
@@ -95,29 +106,18 @@ class Linker(msgspec.Struct):
 
     def _expanded(self, component: Component) -> LinkedComponent:
         """A component with what its options add."""
-        if not component.options:
-            return LinkedComponent(component)
-        from robocomp_yaml.link import options  # of legacy components
+        if component.options:
+            from robocomp_yaml.link import options  # of legacy components
 
-        model, diagnostics = options.expanded(component)
-        self.diagnostics += diagnostics
-        return LinkedComponent(model)
-
-    def _attachments(self) -> Attachments:
-        from robocomp_yaml.link.attachments import Attachments  # interfaces alone have none
-
-        return Attachments(self.documents, self.tables, self._root_of, self.diagnostics)
+            component, diagnostics = options.expanded(component)
+            self.diagnostics += diagnostics
+        return LinkedComponent(component)
 
     def _root_of(self, path: str) -> str:
         """The folder that a document's workspace consists of; without a declared one, that of its component."""
         workspace = self.workspace_of(path)
         is_deep = not workspace.declared and os.path.basename(os.path.abspath(workspace.root or ".")) == "etc"
         return os.path.normpath(os.path.join(workspace.root, os.pardir)) if is_deep else workspace.root
-
-    def _deployments(self) -> DeploymentDocuments:
-        from robocomp_yaml.link.deployment_documents import DeploymentDocuments  # most runs have none
-
-        return DeploymentDocuments(self.documents, self.tables, self.diagnostics)
 
     def workspace_of(self, path: str) -> Workspace:
         """The workspace that a document belongs to; without a declared one, its own folder."""
@@ -247,3 +247,60 @@ def _names(imported: Import) -> set[str]:
 def _import_of(module: Module, other: Module) -> Import:
     named = (imported for imported in module.imports if imported.stem.lower() == other.stem.lower())
     return next(named, module.imports[0])
+
+
+def _link_ports(linked: LinkedComponent, importable: Callable[[str], str | None]) -> Iterator[Diagnostic]:
+    """Fills the component's ports; a name that cannot be resolved makes it `broken`. `importable` says which document
+    to import for an interface, where one is known."""
+    component = linked.component
+    for list_, verb in _VERBS.items():
+        ports = []
+        for use in getattr(component, list_):
+            found = list(_lookup(linked, use))
+            if len(found) == 1:
+                ports.append(Port(use, found[0][1], found[0][0]))
+                continue
+            if found:
+                names = " or ".join(f"{scope.module.name}.{interface.name}" for scope, interface in found)
+                yield cdsl.AMBIGUOUS_INTERFACE.at(use.span, name=use.interface, hint=f"write {names}")
+            elif not linked.broken or not _may_be_missing(linked):
+                yield cdsl.UNKNOWN_INTERFACE.at(
+                    use.span,
+                    component=component.name,
+                    verb=verb,
+                    name=use.interface,
+                    hint=_hint(linked, use, importable, {other.interface for other in getattr(component, list_)}),
+                )
+            tie(linked, broken=True)
+        tie(linked, **{list_: tuple(ports)})
+
+
+def _lookup(linked: LinkedComponent, use: Use) -> Iterator[tuple[LinkedModule, Interface]]:
+    qualifier, _, name = use.interface.rpartition(".")
+    for scope in linked.imports:
+        if qualifier in ("", scope.module.name, scope.module.stem):
+            for interface in scope.module.all_interfaces:
+                if interface.name == name:
+                    yield scope, interface
+                    break
+
+
+def _may_be_missing(linked: LinkedComponent) -> bool:
+    """Whether an import that could not be used may define what is not found."""
+    return len(linked.imports) < len({imported.text for imported in linked.component.imports})
+
+
+def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | None], given: set[str]) -> Hint:
+    """`given` are the interfaces that stand beside it; another use of one has a name of its own."""
+    name = use.interface.rpartition(".")[2]
+    document = importable(name)
+    imported = {scope.module.stem for scope in linked.imports}
+    if document and document not in imported:
+        return Hint(f"add '{document}' to `imports`", imports=document)
+    where = {i.name: scope.module.path for scope in linked.imports for i in scope.module.all_interfaces}
+    meant = suggest(name, (one for one in where if one not in given))
+    if meant:
+        return meaning(name, meant, more=f" ({where[meant]})", safe=meant.lower() == name.lower())
+    if meant := suggest(name, given & where.keys()):
+        return Hint(f"'{meant}' is there already")
+    return Hint(f"the imported modules define: {', '.join(where)}" if where else "import the module that defines it")

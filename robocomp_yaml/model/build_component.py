@@ -6,20 +6,8 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from robocomp_yaml.model import component as model
 from robocomp_yaml.model.build_interface import doc, imports, items, span_of, text, texts
-from robocomp_yaml.model.component import (
-    CMAKE,
-    LINK,
-    PIP,
-    PKG_CONFIG,
-    WAIT,
-    Component,
-    Gui,
-    Language,
-    Library,
-    Source,
-    Use,
-)
 from robocomp_yaml.source.tree import Mapping, Node, Scalar
 
 if TYPE_CHECKING:
@@ -29,11 +17,11 @@ _SECONDS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 _DURATION = r"(\d+(?:\.\d*)?|\.\d+)\s*(us|ms|s|min|h)"
 
 
-def build(root: Mapping, path: str) -> Component:
+def build(root: Mapping, path: str) -> model.Component:
     """The component of a document that fits `cdsl.schema.json`."""
     machine = root.get("statemachine")
     period = seconds(root.get("period"))
-    return Component(
+    return model.Component(
         name=text(root, "component"),
         path=path,
         language=_language(root),
@@ -80,60 +68,60 @@ def duration(text: str) -> float | None:
     return float(parts[1]) * _SECONDS[parts[2]] if parts else None
 
 
-def _language(root: Mapping) -> Language:
+def _language(root: Mapping) -> model.Language:
     node = root.get("language")
     if isinstance(node, Mapping):
         standard = node.data.get("standard")  # type: ignore[attr-defined]
-        return Language(
+        return model.Language(
             text(node, "name"),
             None if standard is None else int(standard),
             span=node.span,
             standard_span=span_of(node, "standard"),
         )
     assert isinstance(node, Scalar)
-    return Language(node.lexeme, span=node.span)
+    return model.Language(node.lexeme, span=node.span)
 
 
-def _gui(node: Node | None) -> Gui | None:
-    return Gui(text(node, "toolkit", "qt"), text(node, "base", "QWidget"), span=node.span) if node else None
+def _gui(node: Node | None) -> model.Gui | None:
+    return model.Gui(text(node, "toolkit", "qt"), text(node, "base", "QWidget"), span=node.span) if node else None
 
 
-def _uses(root: Mapping, key: str) -> Iterator[Use]:
+def _uses(root: Mapping, key: str) -> Iterator[model.Use]:
     for item in items(root, key):
         if isinstance(item, Scalar):
-            yield Use(item.lexeme.rpartition(".")[2], item.lexeme, span=item.span)
+            yield model.Use(item.lexeme.rpartition(".")[2], item.lexeme, span=item.span)
         elif isinstance(item, Mapping):
             for name, node in item.items():
                 yield _named_use(name, node)
 
 
-def _named_use(name: Scalar, node: Node) -> Use:
+def _named_use(name: Scalar, node: Node) -> model.Use:
     if isinstance(node, Scalar):
-        return Use(name.lexeme, node.lexeme, span=node.span)
-    return Use(
+        return model.Use(name.lexeme, node.lexeme, span=node.span)
+    return model.Use(
         name.lexeme,
         text(node, "interface", name.lexeme),
-        absent=text(node, "absent", WAIT),
+        absent=text(node, "absent", model.WAIT),
         timeout=seconds(node.get("timeout")),
         doc=doc(node),
         span=span_of(node, "interface"),
     )
 
 
-def _sources(uses: Node | None) -> Iterator[Source]:
+def _sources(uses: Node | None) -> Iterator[model.Source]:
     for key in ("sources", "classes"):
         for path in texts(uses, key):
-            yield Source(path.text, key == "classes", span=path.span)
+            yield model.Source(path.text, key == "classes", span=path.span)
 
 
-def _libraries(uses: Node | None) -> Iterator[Library]:
+def _libraries(uses: Node | None) -> Iterator[model.Library]:
     """One for each place that an entry names; a check says that it may name but one."""
     for number, item in enumerate(items(uses, "libraries")):
         if isinstance(item, Mapping):
             version = text(item, "version")
             for key, node in item.items():
-                if key.lexeme in (CMAKE, PKG_CONFIG, LINK, PIP):
+                if key.lexeme in (model.CMAKE, model.PKG_CONFIG, model.LINK, model.PIP):
                     given = item.get("version") or node
-                    yield Library(
+                    yield model.Library(
                         key.lexeme, text(item, key.lexeme), version, number, span=node.span, version_span=given.span
                     )

@@ -6,41 +6,23 @@ from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.interface import (
-    Constant,
-    Enum,
-    Enumerator,
-    ExceptionType,
-    Import,
-    Interface,
-    Literal,
-    Map,
-    Member,
-    Method,
-    Module,
-    Struct,
-    TypeDefinition,
-    TypeRef,
-)
-from robocomp_yaml.model.interface import (
-    Sequence as SequenceType,
-)
+from robocomp_yaml.model import interface as model
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 _Value = TypeVar("_Value")
 
 
-def build(root: Mapping, path: str) -> Module:
+def build(root: Mapping, path: str) -> model.Module:
     """The module of a document that fits `idsl.schema.json`."""
-    return Module(
+    return model.Module(
         name=text(root, "module"),
         path=path,
         imports=imports(root),
         constants=tuple(_constant(key, value) for key, value in entries(root, "constants")),
         types=tuple(_type(key, value) for key, value in entries(root, "types")),
         exceptions=tuple(
-            ExceptionType(key.lexeme, _members(value, "struct"), doc(value), span=key.span)
+            model.ExceptionType(key.lexeme, _members(value, "struct"), doc(value), span=key.span)
             for key, value in entries(root, "exceptions")
         ),
         interfaces=tuple(_interface(key, value, False) for key, value in entries(root, "interfaces")),
@@ -91,8 +73,8 @@ def texts(parent: Node | None, key: str) -> Iterator[Text]:
     return filter(None, map(as_text, items(parent, key)))
 
 
-def imports(root: Mapping) -> tuple[Import, ...]:
-    return tuple(Import(name.text, span=name.span) for name in texts(root, "imports"))
+def imports(root: Mapping) -> tuple[model.Import, ...]:
+    return tuple(model.Import(name.text, span=name.span) for name in texts(root, "imports"))
 
 
 def sure(value: _Value | None) -> _Value:
@@ -101,87 +83,89 @@ def sure(value: _Value | None) -> _Value:
     return value
 
 
-def type_ref(node: Node | None) -> TypeRef | None:
+def type_ref(node: Node | None) -> model.TypeRef | None:
     """A type in its short form, or in its long form's `type`."""
     if isinstance(node, Mapping):
         node = node.get("type")
-    return TypeRef(node.lexeme, span=node.span) if isinstance(node, Scalar) and node.data is not None else None
+    return model.TypeRef(node.lexeme, span=node.span) if isinstance(node, Scalar) and node.data is not None else None
 
 
-def literal(node: Node | None) -> Literal | None:
+def literal(node: Node | None) -> model.Literal | None:
     if not isinstance(node, Scalar) or node.data is None:
         return None
-    return Literal(node.data, node.lexeme, span=node.span)  # type: ignore[arg-type]
+    return model.Literal(node.data, node.lexeme, span=node.span)  # type: ignore[arg-type]
 
 
-def _constant(key: Scalar, node: Node) -> Constant:
+def _constant(key: Scalar, node: Node) -> model.Constant:
     value = sure(literal(node.get("value")))
-    return Constant(key.lexeme, sure(type_ref(node)), value, doc(node), text(node, "unit"), span=key.span)
+    return model.Constant(key.lexeme, sure(type_ref(node)), value, doc(node), text(node, "unit"), span=key.span)
 
 
-def _member(key: Scalar, node: Node) -> Member:
+def _member(key: Scalar, node: Node) -> model.Member:
     if isinstance(node, Scalar):  # as most: its type alone
-        return Member(key.lexeme, sure(type_ref(node)), span=key.span)
+        return model.Member(key.lexeme, sure(type_ref(node)), span=key.span)
     default = literal(node.get("default"))
-    return Member(key.lexeme, sure(type_ref(node)), doc(node), text(node, "unit"), default, span=key.span)
+    return model.Member(key.lexeme, sure(type_ref(node)), doc(node), text(node, "unit"), default, span=key.span)
 
 
-def _members(node: Node | None, key: str) -> tuple[Member, ...]:
+def _members(node: Node | None, key: str) -> tuple[model.Member, ...]:
     return tuple(_member(name, value) for name, value in entries(node, key))
 
 
-def _struct(key: Scalar, node: Mapping) -> Struct:
-    return Struct(key.lexeme, _members(node, "struct"), doc(node), span=key.span, list_span=_key_span(node, "struct"))
+def _struct(key: Scalar, node: Mapping) -> model.Struct:
+    return model.Struct(
+        key.lexeme, _members(node, "struct"), doc(node), span=key.span, list_span=_key_span(node, "struct")
+    )
 
 
-def _enum(key: Scalar, node: Mapping) -> Enum:
+def _enum(key: Scalar, node: Mapping) -> model.Enum:
     listed = node.get("enum")
-    enumerators: list[Enumerator] = []
+    enumerators: list[model.Enumerator] = []
     if isinstance(listed, Sequence):
-        enumerators = [Enumerator(n.lexeme, span=n.span) for n in listed.items if isinstance(n, Scalar)]
+        enumerators = [model.Enumerator(n.lexeme, span=n.span) for n in listed.items if isinstance(n, Scalar)]
     elif isinstance(listed, Mapping):
         for name, value in entries(node, "enum"):
             number = value.get("value") if isinstance(value, Mapping) else value
             given = number.data if number is not None else None
             whole = int(given) if isinstance(given, int | float) else None
-            enumerators.append(Enumerator(name.lexeme, whole, doc(value), span=name.span))
-    return Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span, list_span=_key_span(node, "enum"))
+            enumerators.append(model.Enumerator(name.lexeme, whole, doc(value), span=name.span))
+    return model.Enum(key.lexeme, tuple(enumerators), doc(node), span=key.span, list_span=_key_span(node, "enum"))
 
 
 def _key_span(parent: Mapping, key: str) -> Span:
     return parent.entries[key][0].span
 
 
-def _sequence(key: Scalar, node: Mapping) -> SequenceType:
-    return SequenceType(key.lexeme, sure(type_ref(node.get("sequence"))), doc(node), span=key.span)
+def _sequence(key: Scalar, node: Mapping) -> model.Sequence:
+    return model.Sequence(key.lexeme, sure(type_ref(node.get("sequence"))), doc(node), span=key.span)
 
 
-def _map(key: Scalar, node: Mapping) -> Map:
+def _map(key: Scalar, node: Mapping) -> model.Map:
     inner = sure(node.get("map"))
     key_type, value_type = sure(type_ref(inner.get("key"))), sure(type_ref(inner.get("value")))
-    return Map(key.lexeme, key_type, value_type, doc(node), span=key.span)
+    return model.Map(key.lexeme, key_type, value_type, doc(node), span=key.span)
 
 
-TYPE_KINDS: dict[str, Callable[[Scalar, Mapping], TypeDefinition]] = {
+TYPE_KINDS: dict[str, Callable[[Scalar, Mapping], model.TypeDefinition]] = {
     "struct": _struct, "enum": _enum, "sequence": _sequence, "map": _map,
 }  # fmt: skip
 
 
-def _type(key: Scalar, node: Node) -> TypeDefinition:
+def _type(key: Scalar, node: Node) -> model.TypeDefinition:
     assert isinstance(node, Mapping)
     kind = next(kind for kind in TYPE_KINDS if kind in node.entries)
     return TYPE_KINDS[kind](key, node)
 
 
-def _interface(key: Scalar, node: Node, is_topic: bool) -> Interface:
+def _interface(key: Scalar, node: Node, is_topic: bool) -> model.Interface:
     methods = tuple(_method(name, value) for name, value in entries(node, "methods"))
-    return Interface(key.lexeme, methods, is_topic, doc(node), span=key.span)
+    return model.Interface(key.lexeme, methods, is_topic, doc(node), span=key.span)
 
 
-def _method(key: Scalar, node: Node) -> Method:
+def _method(key: Scalar, node: Node) -> model.Method:
     throws = (type_ref(item) for item in items(node, "throws"))
     returns = node.get("returns")
-    return Method(
+    return model.Method(
         key.lexeme,
         inputs=_members(node, "in"),
         outputs=_members(node, "out"),

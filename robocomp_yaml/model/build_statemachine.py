@@ -13,27 +13,9 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.diag.span import Span
+from robocomp_yaml.model import statemachine as model
 from robocomp_yaml.model.build_interface import as_text, doc, entries, span_of, text, texts
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.model.statemachine import (
-    FINAL,
-    HISTORY,
-    PARALLEL,
-    STATE,
-    Action,
-    Block,
-    Cancel,
-    Raise,
-    Script,
-    Send,
-    State,
-    StateMachine,
-    Transition,
-    Value,
-    numbered,
-    walk,
-    words,
-)
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
@@ -41,7 +23,7 @@ class _Names(msgspec.Struct):
     """What the whole document says of states: `transitions` by their source, `listed` under any `states:`, and `met` as
     the start or the target of a transition."""
 
-    transitions: dict[str, list[Transition]] = {}
+    transitions: dict[str, list[model.Transition]] = {}
     places: dict[str, Text] = {}
     listed: set[str] = set()
 
@@ -51,13 +33,13 @@ class _Names(msgspec.Struct):
         return targets | self.transitions.keys()
 
 
-def build(node: Mapping, name: str, path: str) -> StateMachine:
+def build(node: Mapping, name: str, path: str) -> model.StateMachine:
     """The machine under `statemachine:` of the component `name`."""
     names = _Names()
     _collect(node, names)
-    root = numbered(_state("", node, STATE, node.span, names))
-    known = {state.id for state in walk(root.states)}
-    return StateMachine(
+    root = model.numbered(_state("", node, model.STATE, node.span, names))
+    known = {state.id for state in model.walk(root.states)}
+    return model.StateMachine(
         name,
         path,
         root,
@@ -79,21 +61,21 @@ def _collect(node: Node, names: _Names) -> None:
         _collect(state, names)
 
 
-def _state(name: str, node: Node | None, kind: str, span: Span, names: _Names) -> State:
+def _state(name: str, node: Node | None, kind: str, span: Span, names: _Names) -> model.State:
     initial, final = _named(node, "initial"), _named(node, "final")
     own = names.transitions.get(name, []) if name else []
     history = text(node, "history")
     if history:
-        kind = HISTORY
-    elif kind == STATE and _is_true(node, "parallel"):
-        kind = PARALLEL
-    entered = Transition(targets=(initial,), span=initial.span) if initial else None
-    return State(
+        kind = model.HISTORY
+    elif kind == model.STATE and _is_true(node, "parallel"):
+        kind = model.PARALLEL
+    entered = model.Transition(targets=(initial,), span=initial.span) if initial else None
+    return model.State(
         id=name,
         kind=kind,
         states=tuple(_children(node, initial, final, names)),
-        transitions=tuple(own[1:] if kind == HISTORY else own),
-        initial=_remembered(name, own) if kind == HISTORY else entered,
+        transitions=tuple(own[1:] if kind == model.HISTORY else own),
+        initial=_remembered(name, own) if kind == model.HISTORY else entered,
         final=final,
         deep=history == "deep",
         entry=_blocks(node, "entry"),
@@ -103,7 +85,7 @@ def _state(name: str, node: Node | None, kind: str, span: Span, names: _Names) -
     )
 
 
-def _children(node: Node | None, initial: Text | None, final: Text | None, names: _Names) -> Iterator[State]:
+def _children(node: Node | None, initial: Text | None, final: Text | None, names: _Names) -> Iterator[model.State]:
     """The states listed, and around them those that are only named: by a transition, or where nothing is listed. What
     is named and nowhere else is no state, but a name misspelled."""
     listed = {key.lexeme: (key, value) for key, value in entries(node, "states")}
@@ -113,14 +95,14 @@ def _children(node: Node | None, initial: Text | None, final: Text | None, names
             del ends[name]
     last = final.text if final else ""
     if initial and initial.text in ends:
-        yield _state(initial.text, None, FINAL if initial.text == last else STATE, initial.span, names)
+        yield _state(initial.text, None, model.FINAL if initial.text == last else model.STATE, initial.span, names)
     for name, (key, value) in listed.items():
-        yield _state(name, value, FINAL if name == last else STATE, key.span, names)
+        yield _state(name, value, model.FINAL if name == last else model.STATE, key.span, names)
     if final and final.text in ends and not (initial and initial.text == last):
-        yield _state(last, None, FINAL, final.span, names)
+        yield _state(last, None, model.FINAL, final.span, names)
 
 
-def _remembered(name: str, own: list[Transition]) -> Transition | None:
+def _remembered(name: str, own: list[model.Transition]) -> model.Transition | None:
     """Where a history leads before anything is remembered: at once, without an event."""
     if not own:
         return None
@@ -128,18 +110,18 @@ def _remembered(name: str, own: list[Transition]) -> Transition | None:
     return replace(first, events=()) if [*first.events] == [_signal(name, to) for to in first.targets[:1]] else first
 
 
-def _transition(source: str, node: Node) -> Transition:
+def _transition(source: str, node: Node) -> model.Transition:
     if isinstance(node, Scalar):
         target = Text(node.lexeme, span=node.span)
-        return Transition((_signal(source, target),), targets=(target,), span=node.span)
+        return model.Transition((_signal(source, target),), targets=(target,), span=node.span)
     to = node.get("to")
     targets = tuple(filter(None, map(as_text, _listed(to)))) if to else ()
     condition = _named(node, "if")
     if node.get("event"):
-        events = words(text(node, "event"), span_of(node, "event"))
+        events = model.words(text(node, "event"), span_of(node, "event"))
     else:
         events = (_signal(source, targets[0]),) if condition is None and targets else ()
-    return Transition(
+    return model.Transition(
         events,
         condition,
         targets,
@@ -166,25 +148,25 @@ def _listed(node: Node) -> list[Node]:
     return node.items if isinstance(node, Sequence) else [node]
 
 
-def _blocks(node: Node | None, key: str) -> tuple[Block, ...]:
+def _blocks(node: Node | None, key: str) -> tuple[model.Block, ...]:
     found = _actions(node.get(key)) if node else ()
     return (found,) if found else ()
 
 
-def _actions(node: Node | None) -> Block:
+def _actions(node: Node | None) -> model.Block:
     return tuple(_action(item) for item in _listed(node)) if node is not None else ()
 
 
-def _action(node: Node) -> Action:
+def _action(node: Node) -> model.Action:
     """A method of the worker, or {raise: …}, {send: …, after: …}, {cancel: …}."""
     if isinstance(node, Scalar):
-        return Script(Text(node.lexeme, span=node.span), span=node.span)
+        return model.Script(Text(node.lexeme, span=node.span), span=node.span)
     if raised := _named(node, "raise"):
-        return Raise(raised, span=node.span)
+        return model.Raise(raised, span=node.span)
     if node.get("cancel"):
-        return Cancel(Value(literal=text(node, "cancel")), span=node.span)
+        return model.Cancel(model.Value(literal=text(node, "cancel")), span=node.span)
     after = text(node, "after", "0 ms").replace(" ", "")
-    return Send(
-        Value(literal=text(node, "send"), span=span_of(node, "send")), Value(), Value(),
-        Value(literal=after if after[-1].isalpha() else f"{after}ms"), id=text(node, "id"), span=node.span,
+    return model.Send(
+        model.Value(literal=text(node, "send"), span=span_of(node, "send")), model.Value(), model.Value(),
+        model.Value(literal=after if after[-1].isalpha() else f"{after}ms"), id=text(node, "id"), span=node.span,
     )  # fmt: skip

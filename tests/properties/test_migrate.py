@@ -12,7 +12,7 @@ from hypothesis.strategies import SearchStrategy
 from robocomp_yaml.legacy import document, ledger
 from robocomp_yaml.legacy.convert import Converted, convert
 from robocomp_yaml.legacy.draft import ConfigDraft
-from robocomp_yaml.model import build_component, build_interface
+from robocomp_yaml.model import build_component, build_interface, located
 from robocomp_yaml.model.component import Component, Gui, Language, Use
 from robocomp_yaml.model.interface import (
     BASIC_TYPES,
@@ -29,7 +29,6 @@ from robocomp_yaml.model.interface import (
     Struct,
     TypeRef,
 )
-from robocomp_yaml.model.located import Text
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.tree import Mapping, Scalar, parse
 from robocomp_yaml.source.yaml_text import text_of
@@ -230,7 +229,7 @@ def components(draw: st.DrawFn) -> Component:
         tuple(Import(name) for name in draw(st.lists(NAMES, max_size=3, unique=True))),
         ports(), ports(), ports(), ports(),
         gui=draw(st.none() | st.sampled_from(["QWidget", "QDialog"]).map(lambda base: Gui("qt", base))),
-        options=tuple(map(Text, draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True)))),
+        options=tuple(map(located.Text, draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True)))),
     )  # fmt: skip
 
 

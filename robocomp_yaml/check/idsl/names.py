@@ -12,6 +12,7 @@ from typing import Any
 
 import msgspec
 
+from robocomp_yaml.check import repeated
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -94,11 +95,7 @@ def fault_of(word: str) -> Fault | None:
 
 
 def _distinct(owner: str, names: Iterable[Name], kinds: str) -> Iterator[Diagnostic]:
-    first: dict[str, Name] = {}
-    for name in names:
-        other = first.setdefault(name.text.lower(), name)
-        if other is name:
-            continue
+    for other, name in repeated(names, lambda name: name.text.lower()):
         related = [Related(f"'{other.text}' stands here first", other.span)]
         if other.text == name.text:
             yield codes.DUPLICATE_NAME.at(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterator
 
+from robocomp_yaml.check import repeated
 from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -85,19 +86,15 @@ def _exception(linked: LinkedModule, ref: TypeRef, index: _Index, given: set[str
 
 def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
     """`Other.Failed` and `RoboCompOther.Failed` are the same exception."""
-    first: dict[object, TypeRef] = {}
-    for ref in method.throws:
-        found = linked.find(ref)
-        other = first.setdefault((found[0], found[1].name) if found else ref.text, ref)
-        if other is not ref:
-            yield codes.THROWN_TWICE.at(
-                ref.span,
-                method=method.name,
-                name=ref.text,
-                hint="remove one of them",
-                related=[Related("it stands here first", other.span)],
-                fixes=[removal(ref.span)],
-            )
+    for other, ref in repeated(method.throws, lambda ref: linked.find(ref) or ref.text):
+        yield codes.THROWN_TWICE.at(
+            ref.span,
+            method=method.name,
+            name=ref.text,
+            hint="remove one of them",
+            related=[Related("it stands here first", other.span)],
+            fixes=[removal(ref.span)],
+        )
 
 
 def _of_other_kind(code: Code, ref: TypeRef, found: Definition, hint: str) -> Diagnostic:

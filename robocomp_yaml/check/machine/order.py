@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import msgspec
 
+from robocomp_yaml.check import repeated
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, Related
 from robocomp_yaml.diag.fix import removal
@@ -45,18 +46,14 @@ def _of(machine: StateMachine) -> Iterator[Diagnostic]:
 
 
 def _listed_twice(machine: StateMachine) -> Iterator[Diagnostic]:
-    first: dict[str, Text] = {}
-    for event in machine.events:
-        other = first.setdefault(event.text, event)
-        if other is not event:
-            related = [Related("it stands here first", other.span)] if other.span != event.span else []
-            yield codes.EVENT_TWICE.at(
-                event.span,
-                event=event.text,
-                hint="remove it, or name the other event that is meant",
-                related=related,
-                fixes=[removal(event.span, safe=False)],
-            )
+    for other, event in repeated(machine.events, lambda event: event.text):
+        yield codes.EVENT_TWICE.at(
+            event.span,
+            event=event.text,
+            hint="remove it, or name the other event that is meant",
+            related=[Related("it stands here first", other.span)] if other.span != event.span else [],
+            fixes=[removal(event.span, safe=False)],
+        )
 
 
 def _history(state: State) -> Iterator[Diagnostic]:

@@ -13,20 +13,9 @@ from robocomp_yaml.parameters.types import BasicType, EnumType, leaves
 from robocomp_yaml.semantics.connections import endpoints, proxy
 from robocomp_yaml.semantics.spellings import pattern
 
-_ICE = (
-    "Ice",
-    "IceStorm",
-    "IceBox",
-    "IceGrid",
-    "IceSSL",
-    "IceDiscovery",
-    "IceLocatorDiscovery",
-    "IcePatch2",
-    "IceBridge",
-    "IceMX",
-    "Freeze",
-    "Glacier2",
-    "DataStorm",
+_ICE = frozenset(
+    "Ice IceStorm IceBox IceGrid IceSSL IceDiscovery IceLocatorDiscovery IcePatch2 IceBridge IceMX Freeze Glacier2 "
+    "DataStorm".split()
 )
 _OURS = {
     "Endpoints": "the endpoints",
