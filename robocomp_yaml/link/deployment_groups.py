@@ -101,7 +101,7 @@ def _by_rule(root: LinkedDeployment, group: LinkedGroup, rule: Exposed, port: Po
     if len(fitting) == 1:
         served = fitting[0]
         faults = list(_methods(rule, served))
-        limit = rule if rule.has_rule and not faults else None
+        limit = None if faults or (rule.rate is None and rule.allow is None) else rule
         grow(group, "serves", Served(rule.name, served.instance, served.adapter, served.port, limit))
         yield from faults
     elif not group.broken:

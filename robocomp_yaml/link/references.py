@@ -8,26 +8,16 @@ import msgspec
 
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.link.program import Definition
-from robocomp_yaml.model.interface import (
-    Constant,
-    Enum,
-    ExceptionType,
-    Interface,
-    Map,
-    Method,
-    Sequence,
-    Struct,
-    TypeRef,
-)
+from robocomp_yaml.model import interface as model
 
 KINDS: dict[type, str] = {
-    Constant: "constant",
-    Struct: "struct",
-    Enum: "enum",
-    Sequence: "sequence",
-    Map: "map",
-    ExceptionType: "exception",
-    Interface: "interface",
+    model.Constant: "constant",
+    model.Struct: "struct",
+    model.Enum: "enum",
+    model.Sequence: "sequence",
+    model.Map: "map",
+    model.ExceptionType: "exception",
+    model.Interface: "interface",
 }
 
 
@@ -42,35 +32,35 @@ class Name(msgspec.Struct, frozen=True):
 
 
 def kind_of(definition: Definition) -> str:
-    if isinstance(definition, Interface) and definition.is_topic:
+    if isinstance(definition, model.Interface) and definition.is_topic:
         return "topic"
     return KINDS[type(definition)]
 
 
-def types_of(definition: Definition) -> Iterator[TypeRef]:
+def types_of(definition: Definition) -> Iterator[model.TypeRef]:
     """Every type that a definition refers to, in its order; `throws` apart."""
     match definition:
-        case Constant(type=type_):
+        case model.Constant(type=type_):
             yield type_
-        case Struct(members=members) | ExceptionType(members=members):
+        case model.Struct(members=members) | model.ExceptionType(members=members):
             yield from (member.type for member in members)
-        case Sequence(element=element):
+        case model.Sequence(element=element):
             yield element
-        case Map(key=key, value=value):
+        case model.Map(key=key, value=value):
             yield from (key, value)
-        case Interface(methods=methods):
+        case model.Interface(methods=methods):
             for method in methods:
                 yield from types_of_method(method)
 
 
-def types_of_method(method: Method) -> Iterator[TypeRef]:
+def types_of_method(method: model.Method) -> Iterator[model.TypeRef]:
     if method.returns is not None:
         yield method.returns
     yield from (parameter.type for parameter in (*method.inputs, *method.outputs))
 
 
-def exceptions_of(definition: Definition) -> Iterator[TypeRef]:
-    if isinstance(definition, Interface):
+def exceptions_of(definition: Definition) -> Iterator[model.TypeRef]:
+    if isinstance(definition, model.Interface):
         for method in definition.methods:
             yield from method.throws
 
@@ -78,11 +68,11 @@ def exceptions_of(definition: Definition) -> Iterator[TypeRef]:
 def groups(definition: Definition) -> Iterator[list[Name]]:
     """The identifiers inside of a definition, by the scope that they share."""
     match definition:
-        case Struct(members=members) | ExceptionType(members=members):
+        case model.Struct(members=members) | model.ExceptionType(members=members):
             yield [Name("member", member.name, member.span) for member in members]
-        case Enum(enumerators=enumerators):
+        case model.Enum(enumerators=enumerators):
             yield [Name("enumerator", enumerator.name, enumerator.span) for enumerator in enumerators]
-        case Interface(methods=methods):
+        case model.Interface(methods=methods):
             yield [Name("method", method.name, method.span) for method in methods]
             for method in methods:
                 parameters = (*method.inputs, *method.outputs)

@@ -124,10 +124,6 @@ class Exposed(Spanned, frozen=True):
     rate: float | None = None
     allow: tuple[Text, ...] | None = None
 
-    @property
-    def has_rule(self) -> bool:
-        return self.rate is not None or self.allow is not None
-
 
 class Group(Spanned, frozen=True):
     """An entry of `groups:`, or of `include:` in its form with names. `members` are names of this document, and

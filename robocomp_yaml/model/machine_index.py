@@ -9,22 +9,8 @@ import msgspec
 from robocomp_yaml.diag.fix import NO_HINT, Hint
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.model import conditions
+from robocomp_yaml.model import statemachine as model
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.model.statemachine import (
-    FINAL,
-    HISTORY,
-    PARALLEL,
-    PYTHON,
-    Action,
-    Invoke,
-    Raise,
-    Send,
-    State,
-    StateMachine,
-    Transition,
-    actions,
-    blocks,
-)
 
 MANY = 500  # names to compare a misspelled one with: more take too long
 
@@ -33,9 +19,9 @@ class MachineIndex(msgspec.Struct):
     """States are told apart by their numbers: an id may be missing, or, in a faulty machine, stand twice. `parents` are
     by the number of each state in them."""
 
-    machine: StateMachine
-    by_id: dict[str, State] = {}
-    parents: dict[int, State] = {}
+    machine: model.StateMachine
+    by_id: dict[str, model.State] = {}
+    parents: dict[int, model.State] = {}
 
     def __post_init__(self) -> None:
         for state in self.states:
@@ -44,21 +30,21 @@ class MachineIndex(msgspec.Struct):
                 self.by_id.setdefault(state.id, state)
 
     @property
-    def states(self) -> Iterator[State]:
+    def states(self) -> Iterator[model.State]:
         """The root and all states, in the document's order."""
         yield self.machine.root
         yield from self.machine.states
 
-    def parent(self, state: State) -> State | None:
+    def parent(self, state: model.State) -> model.State | None:
         """What holds it; None for the root."""
         return self.parents.get(state.number)
 
-    def similar(self, name: str, inside: State | None = None) -> Hint:
+    def similar(self, name: str, inside: model.State | None = None) -> Hint:
         """A hint at a state (in this one) whose name is like this one; looking for it in thousands takes too long."""
         ids = [found for found, state in self.by_id.items() if inside is None or inside in self.ancestors(state)]
         return did_you_mean(name, ids, open_=True) if len(ids) < MANY else NO_HINT
 
-    def ancestors(self, state: State) -> list[State]:
+    def ancestors(self, state: model.State) -> list[model.State]:
         """From the nearest to the root."""
         found = []
         parent = self.parent(state)
@@ -67,65 +53,65 @@ class MachineIndex(msgspec.Struct):
             parent = self.parent(parent)
         return found
 
-    def targets(self, transition: Transition) -> list[State]:
+    def targets(self, transition: model.Transition) -> list[model.State]:
         return [self.by_id[target.text] for target in transition.targets if target.text in self.by_id]
 
-    def defaults(self, state: State) -> list[State]:
+    def defaults(self, state: model.State) -> list[model.State]:
         """What is entered with a state when nothing says otherwise."""
-        children = [child for child in state.states if child.kind != HISTORY]
-        if state.kind == PARALLEL:
+        children = [child for child in state.states if child.kind != model.HISTORY]
+        if state.kind == model.PARALLEL:
             return children
         if state.initial is not None:
             return self.targets(state.initial)
         return children[:1]
 
-    def transitions(self) -> Iterator[tuple[State, Transition]]:
+    def transitions(self) -> Iterator[tuple[model.State, model.Transition]]:
         """Every transition with the state it belongs to, those of `initial` left out."""
         for state in self.states:
             for transition in state.transitions:
                 yield state, transition
 
-    def actions(self) -> Iterator[Action]:
+    def actions(self) -> Iterator[model.Action]:
         """Every action of the machine, not of those that it invokes."""
-        yield from actions(self.machine.scripts)
+        yield from model.actions(self.machine.scripts)
         for state in self.states:
-            for block in blocks(state):
-                yield from actions(block)
+            for block in model.blocks(state):
+                yield from model.actions(block)
 
     def sends(self) -> Iterator[tuple[Text, bool]]:
         """The events that the machine raises or sends by name, and whether it sends them to itself."""
         for action in self.actions():
-            if isinstance(action, Raise):
+            if isinstance(action, model.Raise):
                 yield action.event, True
-            elif isinstance(action, Send) and action.event.literal:
+            elif isinstance(action, model.Send) and action.event.literal:
                 is_own = action.target.expr is None and action.target.literal in (None, "", "#_internal")
                 yield Text(action.event.literal, span=action.event.span), is_own
 
-    def invokes(self) -> Iterator[Invoke]:
+    def invokes(self) -> Iterator[model.Invoke]:
         for state in self.states:
             yield from state.invokes
 
-    def invoked(self) -> Iterator[StateMachine]:
+    def invoked(self) -> Iterator[model.StateMachine]:
         """The machines that it invokes, as far as the document holds them."""
         for invoke in self.invokes():
             for value in (invoke.source, invoke.payload.content):
                 if value is not None and value.machine is not None:
                     yield value.machine
 
-    def can_be_done(self, state: State) -> bool:
+    def can_be_done(self, state: model.State) -> bool:
         """Whether `done.state.X` can come."""
-        if state.kind == PARALLEL:
-            children = [child for child in state.states if child.kind != HISTORY]
+        if state.kind == model.PARALLEL:
+            children = [child for child in state.states if child.kind != model.HISTORY]
             return bool(children) and all(self.can_be_done(child) for child in children)
-        return any(child.kind == FINAL for child in state.states)
+        return any(child.kind == model.FINAL for child in state.states)
 
 
-def is_unconditional(transition: Transition, datamodel: str) -> bool:
+def is_unconditional(transition: model.Transition, datamodel: str) -> bool:
     """Whether it is taken whatever holds: it has no condition, or one that is always true."""
     if transition.condition is None:
         return True
     text = transition.condition.text.strip()
-    if datamodel == PYTHON:
+    if datamodel == model.PYTHON:
         return text == "True"
     try:
         return conditions.always(conditions.condition(text))

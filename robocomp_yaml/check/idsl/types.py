@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Container, Iterator
 
 from robocomp_yaml.check import repeated
-from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import idsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.fix import NO_HINT, Hint, removal
 from robocomp_yaml.diag.suggest import did_you_mean, meaning
-from robocomp_yaml.link.program import Definition, LinkedModule, Program
+from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.link.references import kind_of, types_of
 from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Interface, Method, Module, TypeDefinition, TypeRef
 
@@ -34,11 +33,11 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.modules.values():
         for definition in linked.module.definitions:
             for ref in types_of(definition):
-                yield from _type(linked, ref, index)
+                yield from _resolved(linked, ref, index) if not ref.is_basic else ()
             for method in definition.methods if isinstance(definition, Interface) else ():
                 yield from _thrown_once(linked, method)
                 for ref in method.throws:
-                    yield from _exception(linked, ref, index, {other.text for other in method.throws})
+                    yield from _resolved(linked, ref, index, {other.text for other in method.throws})
 
 
 class _Index:
@@ -63,25 +62,22 @@ class _Index:
         return self._by_name.get((name, exception), [])
 
 
-def _type(linked: LinkedModule, ref: TypeRef, index: _Index) -> Iterator[Diagnostic]:
-    if ref.is_basic:
-        return
-    found = linked.find(ref)
-    if found is None:
-        if ref.module in linked.unresolved:
-            return
-        yield codes.UNKNOWN_TYPE.at(ref.span, name=ref.text, hint=_hint(linked, ref, index))
-    elif not isinstance(found[1], TypeDefinition):
-        yield _of_other_kind(codes.NOT_A_TYPE, ref, found[1], "a type is a basic one, or one defined under `types:`")
-
-
-def _exception(linked: LinkedModule, ref: TypeRef, index: _Index, given: set[str]) -> Iterator[Diagnostic]:
+def _resolved(
+    linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | None = None
+) -> Iterator[Diagnostic]:  # fmt: skip
+    """`thrown` are the exceptions of the same list, None for a type."""
     found = None if ref.is_basic else linked.find(ref)
-    if found is not None and not isinstance(found[1], ExceptionType):
-        yield _of_other_kind(codes.NOT_AN_EXCEPTION, ref, found[1], "an exception is defined under `exceptions:`")
-    elif found is None and ref.module not in linked.unresolved:
-        hint = _hint(linked, ref, index, given)
-        yield codes.UNKNOWN_EXCEPTION.at(ref.span, name=ref.text, hint=hint)
+    if found is None:
+        if ref.module not in linked.unresolved:
+            code = codes.UNKNOWN_TYPE if thrown is None else codes.UNKNOWN_EXCEPTION
+            yield code.at(ref.span, name=ref.text, hint=_hint(linked, ref, index, thrown))
+    elif not isinstance(found[1], TypeDefinition if thrown is None else ExceptionType):
+        kind = kind_of(found[1])
+        code, hint = codes.NOT_A_TYPE, "a type is a basic one, or one defined under `types:`"
+        if thrown is not None:
+            code, hint = codes.NOT_AN_EXCEPTION, "an exception is defined under `exceptions:`"
+        related = [Related(f"the {kind} stands here", found[1].span)]
+        yield code.at(ref.span, name=ref.text, kind=kind, hint=hint, related=related)
 
 
 def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
@@ -97,13 +93,7 @@ def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
         )
 
 
-def _of_other_kind(code: Code, ref: TypeRef, found: Definition, hint: str) -> Diagnostic:
-    kind = kind_of(found)
-    related = [Related(f"the {kind} stands here", found.span)]
-    return code.at(ref.span, name=ref.text, kind=kind, hint=hint, related=related)
-
-
-def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | None = None) -> Hint:
+def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | None) -> Hint:
     """How to mend a name that is not there; `thrown` are the exceptions of the same list, None for a type."""
     exception = thrown is not None
     if not exception and ref.text == "void":

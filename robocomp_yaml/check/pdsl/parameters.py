@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from robocomp_yaml import languages
@@ -15,8 +15,6 @@ from robocomp_yaml.parameters.defaults import defaults
 from robocomp_yaml.parameters.expressions import evaluate
 from robocomp_yaml.parameters.types import Member, Parameters, RecordType
 from robocomp_yaml.parameters.verdict.specification import default_faults, spelling_faults
-
-Languages = tuple[TargetLanguage, ...]
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -35,7 +33,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield from spelling_faults(parameters)
 
 
-def _names(record: RecordType, known: Languages) -> Iterator[Diagnostic]:
+def _names(record: RecordType, known: Iterable[TargetLanguage]) -> Iterator[Diagnostic]:
     """Of a record, and of the groups in it."""
     names: dict[tuple[str, str], Member] = {}
     for member in record.members:
