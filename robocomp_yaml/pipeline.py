@@ -23,14 +23,14 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.check import checks, secrets
-from robocomp_yaml.check.allowed import Allowed, Judged
-from robocomp_yaml.check.networks import of_networks
+from robocomp_yaml.check.allowed import Allowances, AllowanceVerdict
+from robocomp_yaml.check.networks import check_networks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link.documents import Documents
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import Program
-from robocomp_yaml.link.workspace import Search
+from robocomp_yaml.link.workspace import ImportSearch
 from robocomp_yaml.network.networks import Derived, networks_of
 from robocomp_yaml.source.allowances import Allowance
 from robocomp_yaml.source.discover import WORKSPACE_FILE, Found, discover
@@ -51,7 +51,7 @@ class Analysis(msgspec.Struct, frozen=True):
     disk: Disk
     derived: Derived
     texts: Texts
-    allowed: Allowed
+    allowed: Allowances
     diagnostics: tuple[Diagnostic, ...] = ()
     used: frozenset[Allowance] = frozenset()
 
@@ -62,18 +62,18 @@ class Analysis(msgspec.Struct, frozen=True):
 
     def with_more(self, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """All diagnostics with some that were found elsewhere, as users get them."""
-        return in_order([*self.diagnostics, *self.shown(self.judged(diagnostics).told)])
+        return in_order([*self.diagnostics, *self.shown(self.judged(diagnostics).reported)])
 
     def whole(self, diagnostics: Iterable[Diagnostic], *, environment: bool = False) -> list[Diagnostic]:
         """The same, where these are all that there is: then it is known, too, which comments allow what nobody said, of
         the documents asked for."""
         more, read = self.judged(diagnostics), self.linker.documents.read
-        asked = [read[real].path for real in self.program.asked if real in read]
+        asked = [read[real].path for real in self.program.requested if real in read]
         files = {*asked, *(path for path in self.allowed.by_file if os.path.basename(path) == WORKSPACE_FILE)}
-        vain = self.judged(self.allowed.in_vain(sorted(files), self.used | more.used, environment=environment))
-        return in_order([*self.diagnostics, *self.shown((*more.told, *vain.told))])
+        vain = self.judged(self.allowed.unused(sorted(files), self.used | more.used, environment=environment))
+        return in_order([*self.diagnostics, *self.shown((*more.reported, *vain.reported))])
 
-    def judged(self, diagnostics: Iterable[Diagnostic]) -> Judged:
+    def judged(self, diagnostics: Iterable[Diagnostic]) -> AllowanceVerdict:
         """Diagnostics without those that comments allow."""
         return self.allowed.judge(diagnostics, lambda file: self.linker.workspace_of(file).lint)
 
@@ -110,19 +110,19 @@ def analyse(
     document that is read. `overlay` has contents, by path, that count instead of the disk's."""
     disk = Disk(overlay)
     found = discover(list(paths), disk)
-    linker = Linker(Documents(disk, on_read), Search(search_folders(extra), disk))
+    linker = Linker(Documents(disk, on_read), ImportSearch(search_folders(extra), disk))
     program = linker.link(found.documents)
     derived = networks_of(program)
     said = [*found.diagnostics, *linker.documents.diagnostics, *linker.diagnostics]
     for check in checks(program, [one.plugins for one in linker.workspaces.values()]):
         said += check(program)
-    said += of_networks(derived, program)
+    said += check_networks(derived, program)
     said += secrets.check(program, linker.documents.read.values())
     texts = Texts(disk.contents, linker.documents.trees())
-    allowed = Allowed.of(texts, program.plugins_of)
+    allowed = Allowances.of(texts, program.plugins_of)
     analysis = Analysis(program, linker, found, disk, derived, texts, allowed)
-    judged = analysis.judged([*said, *analysis.allowed.said])
-    return replace(analysis, diagnostics=tuple(in_order(analysis.shown(judged.told))), used=judged.used)
+    judged = analysis.judged([*said, *analysis.allowed.faults])
+    return replace(analysis, diagnostics=tuple(in_order(analysis.shown(judged.reported))), used=judged.used)
 
 
 def _with_lint(diagnostics: Iterable[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:

@@ -53,7 +53,7 @@ def _unit(analysis: Analysis, linked: LinkedComponent) -> Unit:
 
 def _components(analysis: Analysis, documents: Iterable[str] = ()) -> list[LinkedComponent]:
     components = analysis.program.components
-    wanted = [os.path.realpath(path) for path in documents] or analysis.program.asked_components()
+    wanted = [os.path.realpath(path) for path in documents] or analysis.program.requested_components()
     found = [components[real] for real in wanted if real in components]
     return sorted(found, key=lambda linked: linked.component.path)
 

@@ -196,9 +196,9 @@ def _outcome_of(
     by_path = {file.path: file for file in files}  # of roots in each other, both may have one
     program, read = analysis.program, analysis.linker.documents.read
     faulty = {os.path.realpath(one.span.file) for one in told if one.severity == ERROR}
-    left_out = {read[real].path: real in faulty for real in built.left_out & program.asked}
+    left_out = {read[real].path: real in faulty for real in built.left_out & program.requested}
     return Outcome(
-        tuple(told), tuple(by_path.values()), program.documents, len(program.asked), dict(sorted(left_out.items()))
+        tuple(told), tuple(by_path.values()), program.documents, len(program.requested), dict(sorted(left_out.items()))
     )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.link.linker import Linker
 from robocomp_yaml.link.program import LinkedComponent, Program
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.pipeline import Analysis
 from robocomp_yaml.source.discover import of_kind
 
@@ -30,7 +30,7 @@ def ports(analysis: Analysis) -> Callable[[LinkedComponent], Ports]:
     return of
 
 
-def _neighbours(workspace: Workspace, analysis: Analysis) -> Program:
+def _neighbours(workspace: WorkspaceSettings, analysis: Analysis) -> Program:
     """All components of a workspace, whether this run is about them or not."""
     if not workspace.declared:
         return Program()

@@ -99,8 +99,8 @@ class Values:
             ours = {layer.document.path for layer in linked.layers()}
             others = {one.document.path for one in self._analysis.program.values.values()} - ours
             told = [diagnostic for diagnostic in told if diagnostic.span.file not in others]
-            if linked.parameters is not None and check.is_only_layer(linked):
-                told += check.of_document(linked, self._analysis.program, complete=True)
+            if linked.parameters is not None and check.is_only_a_layer(linked):
+                told += check.check_document(linked, self._analysis.program, complete=True)
         return in_order(self._analysis.veiled(told))
 
     @property

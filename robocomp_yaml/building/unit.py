@@ -13,7 +13,7 @@ from robocomp_yaml.emit.layout import GENERATED, SLICE, SOURCES, runtime_folder
 from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import Workspace, named_from_here
+from robocomp_yaml.link.workspace import WorkspaceSettings, component_argument
 
 
 class Unit(msgspec.Struct, frozen=True):
@@ -43,13 +43,13 @@ class Unit(msgspec.Struct, frozen=True):
     @property
     def command(self) -> str:
         """How its user has it built."""
-        return typed("rcyaml", "build", named_from_here(self.name, self.document))
+        return typed("rcyaml", "build", component_argument(self.name, self.document))
 
     def path(self, below: str) -> str:
         return os.path.normpath(os.path.join(self.folder, below))
 
 
-def unit_of(linked: LinkedComponent, workspace: Workspace) -> Unit:
+def unit_of(linked: LinkedComponent, workspace: WorkspaceSettings) -> Unit:
     component = linked.component
     folder = os.path.dirname(component.path) or "."
     target = component.language.target
@@ -67,7 +67,7 @@ def unit_of(linked: LinkedComponent, workspace: Workspace) -> Unit:
     )
 
 
-def _slices(linked: LinkedComponent, workspace: Workspace, folder: str) -> Iterator[str]:
+def _slices(linked: LinkedComponent, workspace: WorkspaceSettings, folder: str) -> Iterator[str]:
     """Its own, or those that it shares with others."""
     for module in linked.modules():
         name = file_name(module)
@@ -78,7 +78,7 @@ def _slices(linked: LinkedComponent, workspace: Workspace, folder: str) -> Itera
             yield os.path.normpath(os.path.join(workspace.slice_folder, name))
 
 
-def _sources(linked: LinkedComponent, workspace: Workspace, folder: str) -> Iterator[str]:
+def _sources(linked: LinkedComponent, workspace: WorkspaceSettings, folder: str) -> Iterator[str]:
     """The files and folders of the repository that are compiled with it, where they are there."""
     component = linked.component
     for source in component.sources:

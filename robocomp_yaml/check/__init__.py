@@ -48,12 +48,12 @@ def checks(program: Program, plugins: Iterable[Plugins] = ()) -> list[Check]:
         asked = (one for one in languages.table().values() if one.name in spoken or one.warns_others)
         found += [one.part("checks").check for one in asked if one.has_checks]
     for plugin in {one.name: one for each in plugins for one in each.active}.values():
-        for name, check in plugged(plugin, kinds, spoken):
-            found.append(_where_it_counts(plugin, name, check))
+        for name, check in plugin_checks(plugin, kinds, spoken):
+            found.append(_in_its_workspaces(plugin, name, check))
     return found
 
 
-def plugged(
+def plugin_checks(
     plugin: Plugin, kinds: Mapping[str, object], spoken: Collection[str] = ()
 ) -> Iterator[tuple[str, Check]]:  # fmt: skip
     """The checks of a plug-in that documents of these kinds and components in these languages call for, with what they
@@ -74,7 +74,7 @@ def _of_language(language: TargetLanguage) -> Check:
     return check
 
 
-def said_by(plugin: Plugin, name: str, check: Check, about: Any) -> list[Diagnostic]:
+def reported_by(plugin: Plugin, name: str, check: Check, about: Any) -> list[Diagnostic]:
     """What a plug-in's check says, and that it failed, where it does."""
     said: list[Diagnostic] = []
     try:
@@ -88,11 +88,11 @@ def said_by(plugin: Plugin, name: str, check: Check, about: Any) -> list[Diagnos
     return said
 
 
-def _where_it_counts(plugin: Plugin, name: str, check: Check) -> Check:
+def _in_its_workspaces(plugin: Plugin, name: str, check: Check) -> Check:
     """A plug-in sees the whole program, and speaks only of the documents of workspaces that name it."""
 
     def run(program: Program) -> Iterator[Diagnostic]:
-        for one in said_by(plugin, name, check, program):
+        for one in reported_by(plugin, name, check, program):
             if one.span.file == plugin.span.file or program.plugins_of(one.span.file).has(plugin.name):
                 yield one
 

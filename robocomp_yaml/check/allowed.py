@@ -17,52 +17,52 @@ from robocomp_yaml.source.spelled import Text, Texts
 _ABOUT_THEM = ("RC0060", "RC0061", "RC0062", "RC0063", "RC0064")
 
 
-class Judged(msgspec.Struct, frozen=True):
-    """`told` is what no comment allows, and what is wrong with comments for that; `used` are the allowances that this
+class AllowanceVerdict(msgspec.Struct, frozen=True):
+    """`reported` is what no comment allows, and what is wrong with comments for that; `used` are the allowances that this
     gave something to do."""
 
-    told: tuple[Diagnostic, ...]
+    reported: tuple[Diagnostic, ...]
     used: frozenset[Allowance]
 
 
-class Allowed(msgspec.Struct, frozen=True):
-    """The allowances of a run's documents by their paths; `said` is what is wrong with the comments themselves."""
+class Allowances(msgspec.Struct, frozen=True):
+    """The allowances of a run's documents by their paths; `faults` is what is wrong with the comments themselves."""
 
     by_file: Mapping[str, tuple[Allowance, ...]] = {}
-    said: tuple[Diagnostic, ...] = ()
+    faults: tuple[Diagnostic, ...] = ()
     texts: Mapping[str, Text] = {}
 
     @classmethod
-    def of(cls, texts: Texts, plugins_of: Callable[[str], Plugins]) -> Allowed:
+    def of(cls, texts: Texts, plugins_of: Callable[[str], Plugins]) -> Allowances:
         """Those of the YAML documents among these files; `plugins_of` says which plug-ins count for one."""
-        by_file, said, having = {}, [], {}
+        by_file, faults, having = {}, [], {}
         for path, raw in texts.contents.items():
             if path.endswith(".yaml") and OURS.search(raw) and (text := texts.get(path)) is not None:
                 plugins = plugins_of(path)
                 found, wrong = allowances(text, plugins.codes, whole=plugins.whole)
                 by_file[path], having[path] = tuple(found), text
-                said += wrong
-        return cls(by_file, tuple(said), having)
+                faults += wrong
+        return cls(by_file, tuple(faults), having)
 
-    def judge(self, diagnostics: Iterable[Diagnostic], lint: Callable[[str], Mapping[str, str]]) -> Judged:
+    def judge(self, diagnostics: Iterable[Diagnostic], lint: Callable[[str], Mapping[str, str]]) -> AllowanceVerdict:
         """Which of these are told. `lint` gives the severities that a file's workspace asks for: an error that it makes
         less than an error can be allowed, and so can a warning that it makes an error."""
-        told: list[Diagnostic] = []
+        reported: list[Diagnostic] = []
         used: set[Allowance] = set()
         errors: set[Allowance] = set()
         for one in diagnostics:
             file = self.by_file.get(one.span.file, ())
             here = [each for each in file if each.code == one.code and each.covers(one.span)]
             if not here:
-                told.append(one)
+                reported.append(one)
             elif one.code in _ABOUT_THEM or ERROR == one.severity == lint(one.span.file).get(one.code, ERROR):
                 errors.update(here)
-                told.append(one)
+                reported.append(one)
             else:
                 used.add(here[0])
-        return Judged((*told, *_of_errors(errors)), frozenset(used | errors))
+        return AllowanceVerdict((*reported, *_of_errors(errors)), frozenset(used | errors))
 
-    def in_vain(
+    def unused(
         self, files: Iterable[str], used: Collection[Allowance], *, environment: bool
     ) -> Iterator[Diagnostic]:  # fmt: skip
         """The allowances in these files that are not among those that a whole check used."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from robocomp_yaml.check import checks_of, plugged, said_by
+from robocomp_yaml.check import checks_of, plugin_checks, reported_by
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.network.networks import Derived
@@ -12,7 +12,7 @@ from robocomp_yaml.network.networks import Derived
 _FAMILY = "RC4"
 
 
-def of_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
+def check_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
     """What deriving them said, and what the checks say."""
     if not derived.networks:
         return iter(())
@@ -20,12 +20,12 @@ def of_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
     found = [fault for real in derived.judged for check in checks for fault in check(derived.networks[real])]
     for real in derived.judged:
         for plugin in program.plugins_of(program.deployments[real].deployment.path).active:
-            for name, check in plugged(plugin, {"ddsl": True}):
-                found += said_by(plugin, name, check, derived.networks[real])
+            for name, check in plugin_checks(plugin, {"ddsl": True}):
+                found += reported_by(plugin, name, check, derived.networks[real])
     return one_per_cause([*derived.diagnostics, *found])
 
 
-def of_environment(derived: Derived, *, environment: bool) -> Iterator[Diagnostic]:
+def check_environment(derived: Derived, *, environment: bool) -> Iterator[Diagnostic]:
     """What depends on this machine: warnings about executables that are not there, and, where `environment` is asked
     for, about programs and addresses."""
     from robocomp_yaml.check.ddsl import files, hosts

@@ -42,7 +42,7 @@ class Secret(msgspec.Struct, frozen=True):
 
 def check(program: Program, documents: Iterable[Document]) -> Iterator[Diagnostic]:
     """Warnings about secrets that stand where others can read them."""
-    finder = _Finder(program)
+    finder = _SecretFinder(program)
     for document in documents:
         if document.kind in _KINDS and document.model is not None and finder.may_hold(document):
             if _others_can_read(document.path):
@@ -81,7 +81,7 @@ def _line_of_secret(text: str, names: Collection[str]) -> int:
 
 def hidden(program: Program, documents: Iterable[Document], files: set[str]) -> Hidden:
     """What is not to be shown of these files."""
-    found, finder = Hidden(), _Finder(program)
+    found, finder = Hidden(), _SecretFinder(program)
     for document in documents:
         if document.path not in files:
             continue
@@ -122,7 +122,7 @@ def _warning(document: Document, secret: Secret) -> Diagnostic:
     return code.at(secret.node.span, file=os.path.basename(document.path), hint=hint)
 
 
-class _Finder:
+class _SecretFinder:
     def __init__(self, program: Program) -> None:
         self.program = program
         linked = [*program.parameters.values(), *(one.parameters for one in program.components.values())]
@@ -204,7 +204,7 @@ class _Finder:
                 yield from map(Secret, nodes(linked_to.parameters.root, given))
             elif given is not None:
                 yield from map(Secret, named_nodes(given, self.names))
-                yield from _unsure(given) if isinstance(entry, Mapping) and "component" in entry.entries else ()
+                yield from _doubtful(given) if isinstance(entry, Mapping) and "component" in entry.entries else ()
 
 
 def _anywhere(node: Node, names: Collection[str]) -> Iterator[Secret]:
@@ -226,7 +226,7 @@ def _of_allowed(tree: Node) -> Iterator[Secret]:
     """The values that a secret may have: one of them it is."""
     for value in _called_secret(tree):
         for word in _ALLOWED & value.entries.keys():
-            yield from _unsure(value.entries[word][1])
+            yield from _doubtful(value.entries[word][1])
 
 
 def _called_secret(tree: Node) -> Iterator[Mapping]:
@@ -253,7 +253,7 @@ def _words(node: Node | None, names: Collection[str]) -> Iterator[Secret]:
             yield Secret(item, item.lexeme[len(head) : len(item.lexeme) - len(tail) or None])
 
 
-def _unsure(node: Node) -> Iterator[Secret]:
+def _doubtful(node: Node) -> Iterator[Secret]:
     return (Secret(found, is_sure=False) for found in plain_below(node))
 
 

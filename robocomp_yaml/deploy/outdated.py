@@ -12,7 +12,7 @@ from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import SLICE, STATED, fingerprint, stated
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
-from robocomp_yaml.link.workspace import named_from_here
+from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.source.regular import text
 
 
@@ -56,7 +56,7 @@ def _then_build(linked: LinkedComponent) -> str:
     component = linked.component
     if not component.language.target.build:
         return ""
-    return f", then `{typed('rcyaml', 'build', named_from_here(component.name, component.path))}`"
+    return f", then `{typed('rcyaml', 'build', component_argument(component.name, component.path))}`"
 
 
 class _Texts:

@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, ModuleDraft, ModuleNames, Reference, base_name
-from robocomp_yaml.link.workspace import Search, Workspace
+from robocomp_yaml.link.workspace import ImportSearch, WorkspaceSettings
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
 INTERFACES = "idsl"
@@ -20,12 +20,12 @@ INTERFACES = "idsl"
 class Neighbours(msgspec.Struct, frozen=True):
     """The interface files of a run by their stem, and where else a document may be found."""
 
-    search: Search
+    search: ImportSearch
     by_stem: dict[str, list[Converted]] = {}
     _listed: dict[str, dict[str, str]] = {}
 
     @classmethod
-    def of(cls, files: Iterable[Converted], search: Search) -> Neighbours:
+    def of(cls, files: Iterable[Converted], search: ImportSearch) -> Neighbours:
         neighbours = cls(search)
         for file in files:
             if file.rules is not None and file.rules.kind == INTERFACES:
@@ -64,7 +64,9 @@ def _imports(file: Converted) -> tuple[ImportDraft, ...]:
     return file.draft.imports if isinstance(file.draft, ModuleDraft | ComponentDraft) else ()
 
 
-def name_imports(file: Converted, document: str, workspace: Workspace, neighbours: Neighbours) -> Iterable[Diagnostic]:
+def name_imports(
+    file: Converted, document: str, workspace: WorkspaceSettings, neighbours: Neighbours
+) -> Iterable[Diagnostic]:
     """Puts each import's name into the document; warns of those found in another spelling, or not at all."""
     for wanted in _imports(file):
         name = _name(wanted, file, document, workspace, neighbours)
@@ -76,7 +78,7 @@ def name_imports(file: Converted, document: str, workspace: Workspace, neighbour
 
 
 def _name(
-    wanted: ImportDraft, file: Converted, document: str, workspace: Workspace, neighbours: Neighbours
+    wanted: ImportDraft, file: Converted, document: str, workspace: WorkspaceSettings, neighbours: Neighbours
 ) -> str | None:
     stem, beside = wanted.stem, neighbours.beside(file)
     found, other_case = neighbours.search.find(stem, document, workspace)
@@ -110,7 +112,7 @@ def name_machine(file: Converted, chosen: Mapping[str, str]) -> Iterable[Diagnos
 
 
 def not_searched(
-    file: Converted, workspace: Workspace, chosen: Mapping[str, str], neighbours: Neighbours
+    file: Converted, workspace: WorkspaceSettings, chosen: Mapping[str, str], neighbours: Neighbours
 ) -> Iterable[tuple[str, Diagnostic]]:
     """Imports whose documents will stand where this one's workspace does not look, each with its folder."""
     looked_in = {os.path.dirname(chosen[file.path]), *workspace.interfaces, *neighbours.search.extra}

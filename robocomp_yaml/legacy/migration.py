@@ -25,7 +25,7 @@ from robocomp_yaml.legacy.settings.components import Inferred, settle
 from robocomp_yaml.legacy.settings.plan import Guesses
 from robocomp_yaml.legacy.sources import LegacyFile, find, names
 from robocomp_yaml.legacy.upgrade import upgrade
-from robocomp_yaml.link.workspace import Search, above
+from robocomp_yaml.link.workspace import ImportSearch, above
 from robocomp_yaml.model.build_interface import build
 from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source import schema
@@ -134,7 +134,7 @@ def _link(
     run: Migration, good: Sequence[tuple[LegacyFile, Entry]], chosen: dict[str, str], known: workspaces.Workspaces,
     extra: Sequence[str],
 ) -> None:  # fmt: skip
-    neighbours = Neighbours.of((entry.file for entry in run.entries if not entry.skipped), Search(tuple(extra)))
+    neighbours = Neighbours.of((entry.file for entry in run.entries if not entry.skipped), ImportSearch(tuple(extra)))
     for file, entry in good:
         document = chosen[file.path]
         entry.diagnostics += name_imports(entry.file, document, known.of(document), neighbours)

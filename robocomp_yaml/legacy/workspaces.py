@@ -13,7 +13,7 @@ from robocomp_yaml.legacy.document import List, Map, Notes, text
 from robocomp_yaml.legacy.outputs import OutputRoot
 from robocomp_yaml.link import workspace as link_workspace
 from robocomp_yaml.link import workspace_files
-from robocomp_yaml.link.workspace import Workspace, root_above
+from robocomp_yaml.link.workspace import WorkspaceSettings, root_above
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 
 
@@ -21,20 +21,20 @@ class Workspaces(msgspec.Struct, frozen=True):
     """`new` are folders that will be workspaces after this run."""
 
     new: list[str] = []
-    _known: dict[str, Workspace] = {}
+    _known: dict[str, WorkspaceSettings] = {}
 
-    def of(self, document: str) -> Workspace:
+    def of(self, document: str) -> WorkspaceSettings:
         """The workspace of a document that is, or will be, there."""
         folder = os.path.dirname(document) or "."
         if folder not in self._known:
             inside = [new for new in self.new if _is_below(folder, new)]
             above = root_above(folder)
             if inside and (above is None or not _is_below(above, max(inside, key=len))):
-                self._known[folder] = Workspace(max(inside, key=len), declared=True)
+                self._known[folder] = WorkspaceSettings(max(inside, key=len), declared=True)
             elif above is not None:
                 self._known[folder] = link_workspace.read(above)[0]
             else:
-                self._known[folder] = Workspace(folder)
+                self._known[folder] = WorkspaceSettings(folder)
         return self._known[folder]
 
 

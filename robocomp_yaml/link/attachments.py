@@ -265,7 +265,7 @@ class Attachments(msgspec.Struct):
                 if other not in values:
                     tie(linked, broken=True)  # the layer has errors of its own
                 elif self._reaches(other, real):
-                    layer = next(x for x in linked.document.extends if leads_to(x, linked.document, other))
+                    layer = next(x for x in linked.document.extends if refers_to(x, linked.document, other))
                     self.diagnostics.append(value_codes.LAYER_CYCLE.at(layer.span, name=layer.value))
                     tie(linked, broken=True)
                 else:
@@ -320,6 +320,6 @@ def _misplaced(linked: LinkedValues, home: list[str], here: Sequence[LinkedCompo
     )
 
 
-def leads_to(layer: Literal, document: ValuesDocument, real: str) -> bool:
+def refers_to(layer: Literal, document: ValuesDocument, real: str) -> bool:
     """Whether an entry of a document's `extends:` means the document with this real path."""
     return os.path.realpath(os.path.join(os.path.dirname(document.path), str(layer.value))) == real

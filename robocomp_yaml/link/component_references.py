@@ -20,7 +20,7 @@ _WORDS = {
 }  # fmt: skip
 
 
-class Advice(msgspec.Struct, frozen=True):
+class ReferenceHint(msgspec.Struct, frozen=True):
     """What to write instead of a text that leads to no document; `is_known` where it is known what it leads to."""
 
     hint: Hint = NO_HINT
@@ -49,33 +49,35 @@ class References(msgspec.Struct, frozen=True):
             return []
         return self.beside(os.path.normpath(os.path.join(folder, os.pardir)), "cdsl")
 
-    def advice(self, text: str, folder: str, key: str, kinds: tuple[str, ...], own: str = "") -> Advice:
+    def advice(self, text: str, folder: str, key: str, kinds: tuple[str, ...], own: str = "") -> ReferenceHint:
         """What to write behind a key where `text` stands, and leads to no document of these kinds from the folder;
         never the `own` one, in which it stands."""
         path = os.path.normpath(os.path.join(folder, text))
         if meant := self._completed(path, kinds):
-            return Advice(write([meant], folder, key, text, safe=True), is_known=True)
+            return ReferenceHint(write([meant], folder, key, text, safe=True), is_known=True)
         if self.disk.has_folder(path):
             found = [other for kind in kinds for other in self.beside(path, kind)]
             named = " or ".join(f"NAME.{kind}.yaml" for kind in kinds)
             said = write(found, folder, key, text)
             words = f"that is a folder{f': {said}' if found else f', without a {named}'}"
-            return Advice(replace(said, text=words), is_known=True)
+            return ReferenceHint(replace(said, text=words), is_known=True)
         where = os.path.dirname(path)
         if self.disk.has_file(path):
             kind = kind_of(path, self.disk)
             what = f"a document of {_WORDS[kind]}" if kind else "no document of rcyaml"
             near = [other for wanted in kinds for other in self.beside(where, wanted)]
             said = write(near, folder, key, text)
-            return Advice(replace(said, text=f"that is {what}" + (f"; {said}" if near else "")), is_known=True)
+            return ReferenceHint(replace(said, text=f"that is {what}" + (f"; {said}" if near else "")), is_known=True)
         if not self.disk.has_folder(where or "."):
-            return Advice(Hint(f"there is no folder '{where}'"))
+            return ReferenceHint(Hint(f"there is no folder '{where}'"))
         names = {os.path.basename(other): other for kind in kinds for other in self.beside(where, kind)}
         names.pop(os.path.basename(own) if os.path.dirname(own) == where else "", None)
         near_by = suggest(os.path.basename(path), names)
-        return Advice(meaning(text, os.path.relpath(names[near_by], folder or "."))) if near_by else Advice()
+        return (
+            ReferenceHint(meaning(text, os.path.relpath(names[near_by], folder or "."))) if near_by else ReferenceHint()
+        )
 
-    def advice_for_name(self, name: str, folder: str) -> Advice:
+    def advice_for_name(self, name: str, folder: str) -> ReferenceHint:
         """The same for a plain name under `component:` in a document of parameters; none where it may well stand for a
         component that has no document."""
         path = os.path.normpath(os.path.join(folder, name))
@@ -83,9 +85,9 @@ class References(msgspec.Struct, frozen=True):
         alone = self.beside(folder, "cdsl")
         if meant or self.disk.has_folder(path) or len(alone) != 1 or len(self.beside(folder, "pdsl")) > 1:
             is_near = meant or self.disk.has_folder(path)
-            return self.advice(name, folder, "component", ("cdsl",)) if is_near else Advice()
+            return self.advice(name, folder, "component", ("cdsl",)) if is_near else ReferenceHint()
         # The only parameters beside the only component.
-        return Advice(write(alone, folder, "component", name), is_known=True)
+        return ReferenceHint(write(alone, folder, "component", name), is_known=True)
 
     def _completed(self, path: str, kinds: tuple[str, ...]) -> str:
         """The document that a path leads to once its end has what it lacks; '' where there is none."""

@@ -14,7 +14,7 @@ from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.digraph import inner_first
 from robocomp_yaml.link import deployment_groups
 from robocomp_yaml.link import deployment_paths as paths
-from robocomp_yaml.link.deployment_names import Names
+from robocomp_yaml.link.deployment_names import DeploymentNames
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.expand_deployments import Expansion
@@ -60,7 +60,7 @@ class DeploymentDocuments(msgspec.Struct):
                 found[target.text] = component
                 yield self.documents.get(component)
             if config is not None:
-                place = paths.place_of(model, entry, found.get(target.text, ""))
+                place = paths.entry_folder(model, entry, found.get(target.text, ""))
                 path = self._config(model, place, config)
                 if path is None:
                     return
@@ -68,19 +68,19 @@ class DeploymentDocuments(msgspec.Struct):
                     yield self.documents.get(path, "config")
 
     def _component(self, model: Deployment, target: Text) -> str | None:
-        found = paths.components_at(model, target.text, self.documents.disk)
+        found = paths.component_paths(model, target.text, self.documents.disk)
         if len(found) > 1:
             names = " or ".join(os.path.join(target.text, os.path.basename(path)) for path in found)
             self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
         elif not found:
-            path = paths.joined(paths.folder_of(model), target.text)
+            path = paths.joined(paths.document_folder(model), target.text)
             self.diagnostics.append(
                 codes.NO_COMPONENT.at(target.span, path=target.text, hint=self._nearby(path, ".cdsl.yaml", "cdsl.yaml"))
             )
         return found[0] if len(found) == 1 else None
 
     def _config(self, model: Deployment, place: str, config: Text) -> str | None:
-        places = paths.configs_at(model, place, config.text)
+        places = paths.config_paths(model, place, config.text)
         for path in places:
             if self.documents.disk.has_file(path):
                 return path
@@ -95,11 +95,11 @@ class DeploymentDocuments(msgspec.Struct):
         return None
 
     def _follow_include(self, model: Deployment, include: Text) -> Iterator[Document]:
-        found = paths.include_at(model, include.text, self.documents.disk)
+        found = paths.include_path(model, include.text, self.documents.disk)
         if found is not None:
             yield self.documents.get(found)
             return
-        path = paths.joined(paths.folder_of(model), include.text)
+        path = paths.joined(paths.document_folder(model), include.text)
         hint = self._nearby(path, ".ddsl.yaml", without=model.path)
         self.diagnostics.append(codes.NO_INCLUDE.at(include.span, path=include.text, hint=hint))
 
@@ -125,7 +125,7 @@ class DeploymentDocuments(msgspec.Struct):
             linked = self.tables.deployments[real] = LinkedDeployment(model, real)
             expansion = Expansion(linked, self.tables, usable, disk)
             expansion.run()
-            names = Names(linked, expansion.placed, expansion.included)
+            names = DeploymentNames(linked, expansion.placed, expansion.included)
             names.resolve()
             self.diagnostics += expansion.diagnostics + names.diagnostics
             self.diagnostics += deployment_groups.resolve(linked, expansion.placed)
@@ -176,5 +176,5 @@ def too_large(deployments: Mapping[str, Deployment], disk: Disk) -> dict[str, Di
 
 def _included(model: Deployment, disk: Disk) -> Iterator[str]:
     """The real paths of what a document includes, as often as it does."""
-    for path in filter(None, (paths.include_at(model, include.text, disk) for include in model.all_includes)):
+    for path in filter(None, (paths.include_path(model, include.text, disk) for include in model.all_includes)):
         yield os.path.realpath(path)

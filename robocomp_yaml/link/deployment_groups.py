@@ -8,13 +8,13 @@ from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, Served, offers
-from robocomp_yaml.link.expand_deployments import Placed
+from robocomp_yaml.link.expand_deployments import ExpandedDocument
 from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.link.program import Port
 from robocomp_yaml.model.deployment import Exposed
 
 
-def resolve(root: LinkedDeployment, placed: Iterable[Placed]) -> Iterator[Diagnostic]:
+def resolve(root: LinkedDeployment, placed: Iterable[ExpandedDocument]) -> Iterator[Diagnostic]:
     """Fills what each group serves; what is wrong with those of this document is told."""
     for here in placed:
         for group in here.groups:

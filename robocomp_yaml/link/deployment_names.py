@@ -13,17 +13,17 @@ from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.digraph import reached
 from robocomp_yaml.link.deployments import LinkedDeployment, LinkedGroup, LinkedInstance, LinkedStorm, Target
-from robocomp_yaml.link.expand_deployments import Placed
+from robocomp_yaml.link.expand_deployments import ExpandedDocument
 from robocomp_yaml.link.knot import grow, tie
 from robocomp_yaml.model.deployment import CONFIG, INDEX, PROCESS, Entry, Number, Pair
 from robocomp_yaml.model.located import Text
 
 
-class Names(msgspec.Struct):
+class DeploymentNames(msgspec.Struct):
     """Resolves what the documents of a deployment name. `included` are the members that groups have by an include."""
 
     root: LinkedDeployment
-    placed: Iterable[Placed]
+    placed: Iterable[ExpandedDocument]
     included: Mapping[LinkedGroup, Iterable[LinkedInstance]]
     diagnostics: list[Diagnostic] = []
 
@@ -45,7 +45,7 @@ class Names(msgspec.Struct):
                     self.diagnostics += _ports(instance)
                     self.diagnostics += [*_patterns(instance.entry), *_programs(instance.entry)]
 
-    def _direct(self, here: Placed, group: LinkedGroup) -> Iterator[Target]:
+    def _direct(self, here: ExpandedDocument, group: LinkedGroup) -> Iterator[Target]:
         for named in group.group.members:
             for target in self._find(here, named, f"the group '{group.group.name}'", group) or ():
                 if isinstance(target, LinkedStorm):
@@ -56,7 +56,7 @@ class Names(msgspec.Struct):
         if group in self.included:
             yield from (inner for inner in self.root.groups.values() if inner.name.startswith(f"{group.name}."))
 
-    def _fill(self, here: Placed, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
+    def _fill(self, here: ExpandedDocument, group: LinkedGroup, inside: dict[LinkedGroup, list[Target]]) -> None:
         """All instances in a group, those of its inner groups too."""
 
         def into(target: Target) -> Iterable[Target]:
@@ -74,7 +74,7 @@ class Names(msgspec.Struct):
         inner = [target for target in found if isinstance(target, LinkedGroup) and target is not group]
         tie(group, members=tuple(members), inner=tuple(inner))
 
-    def _processes(self, here: Placed, instance: LinkedInstance) -> None:
+    def _processes(self, here: ExpandedDocument, instance: LinkedInstance) -> None:
         if instance.entry.kind != PROCESS:
             return
         named = instance.entry.target
@@ -85,10 +85,10 @@ class Names(msgspec.Struct):
             return
         tie(instance, broken=True)
         if found and here.is_own:
-            self.diagnostics.append(codes.NOT_A_PROCESS.at(named.span, name=named.text, what=_what(found)))
+            self.diagnostics.append(codes.NOT_A_PROCESS.at(named.span, name=named.text, what=_kind_of(found)))
 
     def _find(
-        self, here: Placed, named: Text, where: str, source: LinkedInstance | LinkedGroup
+        self, here: ExpandedDocument, named: Text, where: str, source: LinkedInstance | LinkedGroup
     ) -> tuple[Target, ...] | None:
         """What a name means; None (told, where it is this document's fault) when it means nothing."""
         found, behind = self.root.find(named.text, here.scope)
@@ -100,11 +100,11 @@ class Names(msgspec.Struct):
             self._unknown(here, named, where, self._hint(here, named.text, source.name))
         return None
 
-    def _unknown(self, here: Placed, named: Text, where: str, hint: Hint) -> None:
+    def _unknown(self, here: ExpandedDocument, named: Text, where: str, hint: Hint) -> None:
         if here.is_own:
             self.diagnostics.append(codes.UNKNOWN_NAME.at(named.span, where=where, name=named.text, hint=hint))
 
-    def _hint(self, here: Placed, text: str, own: str) -> Hint:
+    def _hint(self, here: ExpandedDocument, text: str, own: str) -> Hint:
         if INDEX in text:
             return Hint(f"{INDEX} counts in an entry that has `instances:` itself")
         names = [
@@ -117,7 +117,7 @@ class Names(msgspec.Struct):
         return did_you_mean(text, names)
 
 
-def _what(found: tuple[Target, ...]) -> str:
+def _kind_of(found: tuple[Target, ...]) -> str:
     if len(found) > 1:
         return "an entry with instances"
     if isinstance(found[0], LinkedGroup):

@@ -15,13 +15,13 @@ def joined(folder: str, text: str) -> str:
     return os.path.normpath(os.path.join(folder, os.path.expanduser(text)))
 
 
-def folder_of(deployment: Deployment) -> str:
+def document_folder(deployment: Deployment) -> str:
     return os.path.dirname(deployment.path)
 
 
-def components_at(deployment: Deployment, text: str, disk: Disk) -> list[str]:
+def component_paths(deployment: Deployment, text: str, disk: Disk) -> list[str]:
     """The component's document at a path, or those in a folder; none where there is nothing of the kind."""
-    path = joined(folder_of(deployment), text)
+    path = joined(document_folder(deployment), text)
     if disk.has_folder(path):
         names = (name for name in disk.documents(path) if name == "cdsl.yaml" or name.endswith(".cdsl.yaml"))
         return [os.path.join(path, name) for name in names]
@@ -29,16 +29,16 @@ def components_at(deployment: Deployment, text: str, disk: Disk) -> list[str]:
     return [path] if is_component else []
 
 
-def place_of(deployment: Deployment, entry: Entry, component: str) -> str:
+def entry_folder(deployment: Deployment, entry: Entry, component: str) -> str:
     """The folder that an entry's own paths start from: that of its component's document, or where a program runs."""
     if entry.kind == COMPONENT:
         return os.path.dirname(component)
-    return joined(folder_of(deployment), entry.cwd.text if entry.cwd else "")
+    return joined(document_folder(deployment), entry.cwd.text if entry.cwd else "")
 
 
-def configs_at(deployment: Deployment, place: str, text: str) -> tuple[str, str]:
+def config_paths(deployment: Deployment, place: str, text: str) -> tuple[str, str]:
     """Where a configuration is looked for: from the entry's folder, then from the deployment's document."""
-    return joined(place, text), joined(folder_of(deployment), text)
+    return joined(place, text), joined(document_folder(deployment), text)
 
 
 def is_values(path: str) -> bool:
@@ -47,8 +47,8 @@ def is_values(path: str) -> bool:
     return name == "config.yaml" or name.endswith(".config.yaml")
 
 
-def include_at(deployment: Deployment, text: str, disk: Disk) -> str | None:
-    path = joined(folder_of(deployment), text)
+def include_path(deployment: Deployment, text: str, disk: Disk) -> str | None:
+    path = joined(document_folder(deployment), text)
     name = os.path.basename(path)
     is_deployment = name == "ddsl.yaml" or name.endswith(".ddsl.yaml")
     return path if disk.has_file(path) and is_deployment else None

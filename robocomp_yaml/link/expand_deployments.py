@@ -32,7 +32,7 @@ from robocomp_yaml.source.tree import Node, Scalar, Sequence, mapping_at, sequen
 _Part = TypeVar("_Part")
 
 
-class Placed(msgspec.Struct):
+class ExpandedDocument(msgspec.Struct):
     """A document in its scope, and what it put there. `chain` are the real paths of the documents around it, the
     outermost first, and `span` is where it is included. `hosts` are its own or, where it has none, those around it;
     `only` is the host of what names none. `is_whole` when nothing has errors that could hide a name of this scope,
@@ -64,7 +64,7 @@ class Expansion(msgspec.Struct):
     tables: Tables
     deployments: Mapping[str, Deployment]
     disk: Disk
-    placed: list[Placed] = []
+    placed: list[ExpandedDocument] = []
     included: dict[LinkedGroup, list[LinkedInstance]] = {}
     diagnostics: list[Diagnostic] = []
     _in_order: list[LinkedInstance] = []
@@ -74,7 +74,7 @@ class Expansion(msgspec.Struct):
     _names: dict[str, dict[str, tuple[Target, ...]]] = {}
 
     def run(self) -> None:
-        self._place(Placed(self.root.deployment))
+        self._place(ExpandedDocument(self.root.deployment))
         tie(
             self.root,
             hosts=self._hosts,
@@ -85,7 +85,7 @@ class Expansion(msgspec.Struct):
             documents=tuple(here.document for here in self.placed),
         )
 
-    def _place(self, here: Placed) -> None:
+    def _place(self, here: ExpandedDocument) -> None:
         document = here.document
         self.placed.append(here)
         self._names.setdefault(here.scope, {})
@@ -110,7 +110,7 @@ class Expansion(msgspec.Struct):
             real = self._place_include(here, include, here.scope, here.only, seen)
             seen.add(real)
 
-    def _place_entry(self, here: Placed, entry: Entry) -> None:
+    def _place_entry(self, here: ExpandedDocument, entry: Entry) -> None:
         if (INDEX in entry.name) != (entry.instances is not None):
             if entry.instances is None:
                 self._say(here, codes.STRAY_INDEX, entry.span, name=entry.name, hint="add `instances:`")
@@ -135,16 +135,16 @@ class Expansion(msgspec.Struct):
         if entry.instances is not None:
             self._names[here.scope][entry.name] = tuple(every)
 
-    def _link(self, here: Placed, linked: LinkedInstance) -> None:
+    def _link(self, here: ExpandedDocument, linked: LinkedInstance) -> None:
         """The instance's component and configuration; what is not there has been told where it was looked for."""
         entry, component = linked.entry, ""
         if entry.kind == COMPONENT:
-            found = paths.components_at(here.document, entry.target.text, self.disk)
+            found = paths.component_paths(here.document, entry.target.text, self.disk)
             if len(found) == 1:
                 component = found[0]
                 tie(linked, component=self.tables.components.get(os.path.realpath(component)))
             tie(linked, broken=linked.broken or linked.component is None)
-        tie(linked, folder=paths.place_of(here.document, entry, component))
+        tie(linked, folder=paths.entry_folder(here.document, entry, component))
         config = self._config(here.document, linked)
         if config and linked.component is not None and paths.is_values(config):
             self._give_values(here, linked, linked.component, config)
@@ -155,12 +155,14 @@ class Expansion(msgspec.Struct):
         if linked.entry.config is None:
             usual = paths.joined(linked.folder, os.path.join("etc", "config.yaml"))
             return usual if linked.component is not None and os.path.realpath(usual) in self.tables.values else ""
-        places = paths.configs_at(document, linked.folder, linked.entry.config.text)
+        places = paths.config_paths(document, linked.folder, linked.entry.config.text)
         found = next((path for path in places if self.disk.has_file(path)), "")
         tie(linked, broken=linked.broken or not found)
         return found
 
-    def _give_values(self, here: Placed, linked: LinkedInstance, component: LinkedComponent, path: str) -> None:
+    def _give_values(
+        self, here: ExpandedDocument, linked: LinkedInstance, component: LinkedComponent, path: str
+    ) -> None:
         values = self.tables.values.get(os.path.realpath(path))
         tie(linked, values=values)
         if values is None:
@@ -187,7 +189,7 @@ class Expansion(msgspec.Struct):
             )
             tie(linked, values=None, broken=True)
 
-    def _place_group(self, here: Placed, linked: LinkedGroup) -> None:
+    def _place_group(self, here: ExpandedDocument, linked: LinkedGroup) -> None:
         group = linked.group
         if not self._name(here, group.name, linked, group.span):
             return
@@ -198,7 +200,7 @@ class Expansion(msgspec.Struct):
             host, is_unknown = self._host(here, group.host, group.name, group.span)
             tie(linked, broken=is_unknown)
         if group.facade is not None:
-            found = paths.components_at(here.document, group.facade.text, self.disk)
+            found = paths.component_paths(here.document, group.facade.text, self.disk)
             facade = self.tables.components.get(os.path.realpath(found[0])) if len(found) == 1 else None
             tie(linked, facade=facade, broken=linked.broken or facade is None)
         if group.include is not None:
@@ -209,10 +211,17 @@ class Expansion(msgspec.Struct):
             self.included[linked] = self._in_order[before:]
 
     def _place_include(
-        self, here: Placed, include: Text, scope: str, host: Host | None, seen: set[str], *, is_homeless: bool = False
+        self,
+        here: ExpandedDocument,
+        include: Text,
+        scope: str,
+        host: Host | None,
+        seen: set[str],
+        *,
+        is_homeless: bool = False,
     ) -> str:
         """Puts an included deployment into a scope; its real path, or '' where it cannot be used."""
-        path = paths.include_at(here.document, include.text, self.disk)
+        path = paths.include_path(here.document, include.text, self.disk)
         real = os.path.realpath(path) if path else ""
         target = self.deployments.get(real)
         chain = (*here.chain, os.path.realpath(here.document.path))
@@ -232,23 +241,23 @@ class Expansion(msgspec.Struct):
         if real in seen:
             self._say(here, codes.INCLUDED_TWICE, include.span, path=include.text)
             return real
-        inner = Placed(target, scope, chain, include.span, here.hosts, host, is_homeless=is_homeless)
+        inner = ExpandedDocument(target, scope, chain, include.span, here.hosts, host, is_homeless=is_homeless)
         self._place(inner)
         here.is_whole &= inner.is_whole
         return real if inner.is_whole else ""
 
-    def _name(self, here: Placed, name: str, target: Target, span: Span) -> bool:
+    def _name(self, here: ExpandedDocument, name: str, target: Target, span: Span) -> bool:
         """Gives a name its meaning; whether it was free."""
         known = self._names[here.scope].get(name)
         if known is None:
             self._names[here.scope][name] = (target,)
             return True
         if here.is_own or any(other.document is not here.document for other in known):
-            related = [Related("it stands here first", span_of(other)) for other in known[:1]]
+            related = [Related("it stands here first", _span_of(other)) for other in known[:1]]
             self.diagnostics.append(codes.DUPLICATE_NAME.at(span, name=name, related=related))
         return False
 
-    def _merge_host(self, host: Host, here: Placed) -> None:
+    def _merge_host(self, host: Host, here: ExpandedDocument) -> None:
         known = self._hosts.setdefault(host.name, host)
         if (known.address.text, known.user) != (host.address.text, host.user) and here.span is not None:
             self.diagnostics.append(
@@ -263,7 +272,7 @@ class Expansion(msgspec.Struct):
                 )
             )
 
-    def _host(self, here: Placed, named: Text | None, name: str, span: Span) -> tuple[Host | None, bool]:
+    def _host(self, here: ExpandedDocument, named: Text | None, name: str, span: Span) -> tuple[Host | None, bool]:
         """The host of an entry or service, and whether that could not be told."""
         if named is None:
             if here.only is None and here.hosts and (here.is_own or not here.document.hosts):
@@ -281,7 +290,7 @@ class Expansion(msgspec.Struct):
             self._say(here, codes.UNKNOWN_HOST, named.span, name=named.text, hint=hint)
         return own.get(named.text), named.text not in own
 
-    def _no_host(self, here: Placed, name: str, span: Span) -> None:
+    def _no_host(self, here: ExpandedDocument, name: str, span: Span) -> None:
         """Of an included document it is told once, for all that it holds."""
         host = next(iter(here.hosts))
         if here.span is None:
@@ -298,7 +307,7 @@ class Expansion(msgspec.Struct):
                 )
             )
 
-    def _say(self, here: Placed, code: Code, span: Span, *, hint: str | Hint = "", **facts: str) -> None:
+    def _say(self, here: ExpandedDocument, code: Code, span: Span, *, hint: str | Hint = "", **facts: str) -> None:
         if here.is_own:
             self.diagnostics.append(code.at(span, hint=hint, related=(), more="", fixes=(), **facts))
 
@@ -315,7 +324,7 @@ def _is_for(values: LinkedValues, component: LinkedComponent) -> bool:
     return is_shared or not any(layer.document.component for layer in values.layers())
 
 
-def span_of(target: Target) -> Span:
+def _span_of(target: Target) -> Span:
     if isinstance(target, LinkedInstance):
         return target.entry.span
     return target.storm.span if isinstance(target, LinkedStorm) else target.group.span

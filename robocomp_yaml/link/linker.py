@@ -19,7 +19,7 @@ from robocomp_yaml.diag.suggest import did_you_mean, meaning, suggest
 from robocomp_yaml.link.documents import Document, Documents
 from robocomp_yaml.link.knot import tie
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Port, Program, Tables
-from robocomp_yaml.link.workspace import SUFFIX, Search, Workspace, read, root_above
+from robocomp_yaml.link.workspace import SUFFIX, ImportSearch, WorkspaceSettings, read, root_above
 from robocomp_yaml.model.interface import Import, Interface, Module
 from robocomp_yaml.plugins import Plugins
 
@@ -40,18 +40,18 @@ class Linker(msgspec.Struct):
     """Links the documents of one run; `diagnostics` collects what is wrong with references."""
 
     documents: Documents
-    search: Search
+    search: ImportSearch
     tables: Tables = msgspec.field(default_factory=Tables)
-    workspaces: dict[str, Workspace] = {}
+    workspaces: dict[str, WorkspaceSettings] = {}
     diagnostics: list[Diagnostic] = []
-    _by_folder: dict[str, Workspace] = {}
+    _by_folder: dict[str, WorkspaceSettings] = {}
     _found: dict[str, list[str]] = {}  # real path: those of the modules it imports
 
     def link(self, paths: Iterable[str]) -> Program:
         """The program of these documents and of all that they import."""
         self.documents.plugins_of = self._plugins_of
         todo = [self.documents.get(path) for path in paths]
-        asked = frozenset(document.real for document in todo)
+        requested = frozenset(document.real for document in todo)
         components: list[tuple[Document, LinkedComponent]] = []
         attachments: Attachments | None = None
         deployments: DeploymentDocuments | None = None
@@ -95,7 +95,7 @@ class Linker(msgspec.Struct):
             deployments.join()
         return Program(
             **msgspec.structs.asdict(self.tables),
-            asked=asked,
+            requested=requested,
             documents=len(self.documents.read),
             disk=self.documents.disk,
             plugins_of=self._plugins_of,
@@ -119,13 +119,13 @@ class Linker(msgspec.Struct):
         is_deep = not workspace.declared and os.path.basename(os.path.abspath(workspace.root or ".")) == "etc"
         return os.path.normpath(os.path.join(workspace.root, os.pardir)) if is_deep else workspace.root
 
-    def workspace_of(self, path: str) -> Workspace:
+    def workspace_of(self, path: str) -> WorkspaceSettings:
         """The workspace that a document belongs to; without a declared one, its own folder."""
         folder = os.path.dirname(path)
         if folder not in self._by_folder:
             root = root_above(folder, self.documents.disk)
             if root is None:
-                self._by_folder[folder] = Workspace(folder)
+                self._by_folder[folder] = WorkspaceSettings(folder)
             else:
                 real = os.path.realpath(root)
                 if real not in self.workspaces:
@@ -181,7 +181,7 @@ class Linker(msgspec.Struct):
         return list(found.values())
 
     def _unresolved(
-        self, document: Document, imported: Import, given: set[str], workspace: Workspace, codes: ModuleType
+        self, document: Document, imported: Import, given: set[str], workspace: WorkspaceSettings, codes: ModuleType
     ) -> None:
         itself = os.path.basename(document.path).removesuffix(SUFFIX)
         known = [name for name in self.search.known(document.path, workspace) if name != itself]

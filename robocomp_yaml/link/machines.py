@@ -10,9 +10,9 @@ import msgspec
 from robocomp_yaml.diag.codes import machines as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
 from robocomp_yaml.diag.span import Span
-from robocomp_yaml.model.build_scxml import Files, build
+from robocomp_yaml.model.build_scxml import IncludedFiles, build
 from robocomp_yaml.model.component import Component
-from robocomp_yaml.model.scxml_shape import misshapen
+from robocomp_yaml.model.scxml_shape import shape_faults
 from robocomp_yaml.model.statemachine import StateMachine
 from robocomp_yaml.source import xml
 from robocomp_yaml.source.disk import FILE, NOTHING, Disk
@@ -51,13 +51,13 @@ class MachineReader(msgspec.Struct):
             return None
         root, said = xml.parse(path, text)
         if root is not None:
-            said += misshapen(root)
+            said += shape_faults(root)
         self.diagnostics += said
         if root is None or has_errors(said):
             return None
         self._open.append(path)
         before = len(self.diagnostics)
-        machine = build(root, path, Files(self._included_text, self._included_machine))
+        machine = build(root, path, IncludedFiles(self._included_text, self._included_machine))
         self._open.pop()
         return None if has_errors(self.diagnostics[before:]) else machine
 

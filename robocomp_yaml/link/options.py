@@ -18,7 +18,7 @@ from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.tree import parse
 
 
-class Meaning(msgspec.Struct, frozen=True):
+class OptionMeaning(msgspec.Struct, frozen=True):
     """`imports` and, by list, interfaces that an option adds; `left` is what it asked for besides."""
 
     imports: tuple[str, ...]
@@ -42,7 +42,7 @@ def expanded(component: Component) -> tuple[Component, list[Diagnostic]]:
     return component, diagnostics
 
 
-def _with(component: Component, option: Text, meaning: Meaning) -> Component:
+def _with(component: Component, option: Text, meaning: OptionMeaning) -> Component:
     known = {imported.stem.lower() for imported in component.imports}
     imports = tuple(Import(name, span=option.span) for name in meaning.imports if name.lower() not in known)
     lists: dict[str, tuple[Use, ...]] = {}
@@ -54,13 +54,13 @@ def _with(component: Component, option: Text, meaning: Meaning) -> Component:
 
 
 @cache
-def _meanings() -> dict[str, Meaning]:
+def _meanings() -> dict[str, OptionMeaning]:
     """The meaning of each option, by its name in lower case."""
     names = (name for name in resources.names("migrate/options") if name.endswith(".yaml"))
     return {name.removesuffix(".yaml"): _meaning(resources.text(f"migrate/options/{name}"), name) for name in names}
 
 
-def _meaning(content: str, name: str) -> Meaning:
+def _meaning(content: str, name: str) -> OptionMeaning:
     tree, _ = parse(name, content)
     imports, *interfaces = (tuple(str(word) for word in texts(tree, key)) for key in ("imports", *LISTS))
-    return Meaning(imports, dict(zip(LISTS, interfaces, strict=True)), text(tree, "left"))
+    return OptionMeaning(imports, dict(zip(LISTS, interfaces, strict=True)), text(tree, "left"))

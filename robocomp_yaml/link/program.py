@@ -138,7 +138,7 @@ class Tables(msgspec.Struct):
 
 
 class Program(msgspec.Struct, frozen=True):
-    """All documents of a run. Keys are real paths; `asked` are those that the user named (the rest was imported).
+    """All documents of a run. Keys are real paths; `requested` are those that the user named (the rest was imported).
     Checks read other files through `disk`; `plugins_of` says which plug-ins count for a document."""
 
     modules: Mapping[str, LinkedModule] = {}
@@ -146,7 +146,7 @@ class Program(msgspec.Struct, frozen=True):
     parameters: Mapping[str, LinkedParameters] = {}
     values: Mapping[str, LinkedValues] = {}
     deployments: Mapping[str, LinkedDeployment] = {}
-    asked: Set[str] = frozenset()
+    requested: Set[str] = frozenset()
     documents: int = 0
     disk: Disk = msgspec.field(default_factory=Disk)
     plugins_of: Callable[[str], Plugins] = lambda path: NONE
@@ -168,17 +168,17 @@ class Program(msgspec.Struct, frozen=True):
             real: linked.parameters.component for real, linked in self.values.items() if linked.parameters
         }
 
-    def asked_components(self) -> set[str]:
+    def requested_components(self) -> set[str]:
         """The components that the user named, be it by their parameters, their values or a deployment of them."""
         documents = self.documents_of_components()
-        wanted = {documents[real] for real in self.asked & documents.keys()}
+        wanted = {documents[real] for real in self.requested & documents.keys()}
         wanted |= {
             instance.component
-            for real in self.asked & self.deployments.keys()
+            for real in self.requested & self.deployments.keys()
             for instance in self.deployments[real].instances.values()
         }
         named = {real for real, linked in self.components.items() if linked in wanted}
-        return {*(self.asked & self.components.keys()), *named}
+        return {*(self.requested & self.components.keys()), *named}
 
     def parameter_documents(self) -> Iterator[LinkedParameters]:
         """Every document of parameters, once for each component that has it."""

@@ -21,7 +21,7 @@ KINDS: dict[type, str] = {
 }
 
 
-class Name(msgspec.Struct, frozen=True):
+class Identifier(msgspec.Struct, frozen=True):
     """An identifier where it is introduced; `kind` in the user's words, and `owner` where it stands in something that
     has no definition of its own."""
 
@@ -65,19 +65,19 @@ def exceptions_of(definition: Definition) -> Iterator[model.TypeRef]:
             yield from method.throws
 
 
-def groups(definition: Definition) -> Iterator[list[Name]]:
+def groups(definition: Definition) -> Iterator[list[Identifier]]:
     """The identifiers inside of a definition, by the scope that they share."""
     match definition:
         case model.Struct(members=members) | model.ExceptionType(members=members):
-            yield [Name("member", member.name, member.span) for member in members]
+            yield [Identifier("member", member.name, member.span) for member in members]
         case model.Enum(enumerators=enumerators):
-            yield [Name("enumerator", enumerator.name, enumerator.span) for enumerator in enumerators]
+            yield [Identifier("enumerator", enumerator.name, enumerator.span) for enumerator in enumerators]
         case model.Interface(methods=methods):
-            yield [Name("method", method.name, method.span) for method in methods]
+            yield [Identifier("method", method.name, method.span) for method in methods]
             for method in methods:
                 parameters = (*method.inputs, *method.outputs)
                 owner = f"method {definition.name}.{method.name}"
-                yield [Name("parameter", parameter.name, parameter.span, owner) for parameter in parameters]
+                yield [Identifier("parameter", parameter.name, parameter.span, owner) for parameter in parameters]
 
 
 def macro(stem: str) -> str:

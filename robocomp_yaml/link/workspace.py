@@ -21,7 +21,7 @@ from robocomp_yaml.source.tree import Mapping, Scalar, parse
 SUFFIX = ".idsl.yaml"
 
 
-class Workspace(msgspec.Struct, frozen=True):
+class WorkspaceSettings(msgspec.Struct, frozen=True):
     """`root` is the workspace's folder; `declared` says whether it has an `rcyaml.yaml`. `interfaces` are folders to
     look for imports in, `output` those of outputs where it names some (both joined with the root), `lint` a severity
     (or 'off') by code; `plugins` are those that it names."""
@@ -55,17 +55,17 @@ def root_above(folder: str, disk: Disk | None = None) -> str | None:
     return None
 
 
-def named_from_here(name: str, document: str) -> str:
+def component_argument(name: str, document: str) -> str:
     """A component as a command takes it that is typed here: by its name in its own workspace, else by its document."""
     here, there = root_above(""), root_above(os.path.dirname(document))
     is_here = here is not None and there is not None and os.path.realpath(here) == os.path.realpath(there)
     return name if is_here else document
 
 
-def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnostic]]:
+def read(root: str, disk: Disk | None = None) -> tuple[WorkspaceSettings, list[Diagnostic]]:
     """The workspace that `root/rcyaml.yaml` declares; an empty file is one without settings."""
     disk = disk or Disk()
-    workspace = Workspace(root, declared=True)
+    workspace = WorkspaceSettings(root, declared=True)
     path = os.path.normpath(os.path.join(root, WORKSPACE_FILE))
     raw, diagnostics = disk.read(path)
     if raw is None:
@@ -82,7 +82,7 @@ def read(root: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnosti
     named = (node.lexeme for node in items(tree, "interfaces") if isinstance(node, Scalar))
     output = ((key.lexeme, node.lexeme) for key, node in entries(tree, "output") if isinstance(node, Scalar))
     plugins, said = _plugins(tree)
-    workspace = Workspace(
+    workspace = WorkspaceSettings(
         root,
         True,
         tuple(os.path.normpath(os.path.join(root, folder)) for folder in named),
@@ -102,14 +102,14 @@ def _plugins(tree: Mapping) -> tuple[Plugins, list[Diagnostic]]:
     return finding.found(named)
 
 
-def above(path: str, disk: Disk | None = None) -> tuple[Workspace, list[Diagnostic]]:
+def above(path: str, disk: Disk | None = None) -> tuple[WorkspaceSettings, list[Diagnostic]]:
     """The workspace that a folder, or a file, belongs to; without a declared one, that folder."""
     folder = path if os.path.isdir(path) else os.path.dirname(path)
     root = root_above(folder, disk)
-    return (Workspace(folder), []) if root is None else read(root, disk)
+    return (WorkspaceSettings(folder), []) if root is None else read(root, disk)
 
 
-def _idle_settings(tree: Mapping, workspace: Workspace, disk: Disk) -> Iterator[Diagnostic]:
+def _idle_settings(tree: Mapping, workspace: WorkspaceSettings, disk: Disk) -> Iterator[Diagnostic]:
     from robocomp_yaml.diag.codes import table
 
     root = workspace.root
@@ -125,14 +125,14 @@ def _idle_settings(tree: Mapping, workspace: Workspace, disk: Disk) -> Iterator[
             yield codes.WORKSPACE_SETTING.at(value.span, problem=f"'{value.data}' is no severity")
 
 
-class Search(msgspec.Struct):
+class ImportSearch(msgspec.Struct):
     """Looks imports up: beside the document, in the workspace's folders, then in the extra ones (`-I`, RCYAML_PATH)."""
 
     extra: tuple[str, ...] = ()
     disk: Disk = msgspec.field(default_factory=Disk)
     _names: dict[str, tuple[frozenset[str], dict[str, str]]] = {}
 
-    def find(self, name: str, document: str, workspace: Workspace) -> tuple[str | None, bool]:
+    def find(self, name: str, document: str, workspace: WorkspaceSettings) -> tuple[str | None, bool]:
         """The path of an imported document, or None; and whether its name differs in case."""
         beside = os.path.dirname(document)
         tail = name if name.endswith(SUFFIX) else name + SUFFIX
@@ -149,7 +149,7 @@ class Search(msgspec.Struct):
                 return os.path.join(os.path.dirname(path), actual), True
         return None, False
 
-    def known(self, document: str, workspace: Workspace) -> list[str]:
+    def known(self, document: str, workspace: WorkspaceSettings) -> list[str]:
         """The names that an import of this document could have."""
         folders = [os.path.dirname(document), *workspace.interfaces, *self.extra]
         names = {n for f in folders for n in self._listed(os.path.join(f, "x"))[0] if n.endswith(SUFFIX)}

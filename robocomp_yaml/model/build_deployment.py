@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.build_component import seconds
-from robocomp_yaml.model.build_interface import as_text, doc, entries, span_of, sure, text, texts
+from robocomp_yaml.model.build_interface import as_text, doc, entries, required, span_of, text, texts
 from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
@@ -43,7 +43,7 @@ def _integer(parent: Node | None, key: str) -> int | None:
 
 
 def _host(key: Scalar, node: Node) -> model.Host:
-    address = sure(as_text(node) or _text(node, "address"))
+    address = required(as_text(node) or _text(node, "address"))
     return model.Host(key.lexeme, address, text(node, "user"), doc(node), span=key.span)
 
 
@@ -69,7 +69,7 @@ def _entry(key: Scalar, node: Node) -> model.Entry:
     return model.Entry(
         name=key.lexeme,
         kind=kind,
-        target=sure(_text(node, kind)),
+        target=required(_text(node, kind)),
         executable=_text(node, "executable"),
         args=tuple(texts(node, "args")),
         cwd=_text(node, "cwd"),
@@ -177,7 +177,7 @@ def _group(key: Scalar, node: Node) -> model.Group:
 
 
 def _exposed(name: Scalar, node: Node) -> model.Exposed:
-    member = sure(as_text(node) or _text(node, "member"))
+    member = required(as_text(node) or _text(node, "member"))
     if not isinstance(node, Mapping):
         return model.Exposed(name.lexeme, member, span=name.span)
     rate = node.get("rate")

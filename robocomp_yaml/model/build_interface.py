@@ -77,7 +77,7 @@ def imports(root: Mapping) -> tuple[model.Import, ...]:
     return tuple(model.Import(name.text, span=name.span) for name in texts(root, "imports"))
 
 
-def sure(value: _Value | None) -> _Value:
+def required(value: _Value | None) -> _Value:
     """What the schema asks for."""
     assert value is not None
     return value
@@ -97,15 +97,15 @@ def literal(node: Node | None) -> model.Literal | None:
 
 
 def _constant(key: Scalar, node: Node) -> model.Constant:
-    value = sure(literal(node.get("value")))
-    return model.Constant(key.lexeme, sure(type_ref(node)), value, doc(node), text(node, "unit"), span=key.span)
+    value = required(literal(node.get("value")))
+    return model.Constant(key.lexeme, required(type_ref(node)), value, doc(node), text(node, "unit"), span=key.span)
 
 
 def _member(key: Scalar, node: Node) -> model.Member:
     if isinstance(node, Scalar):  # as most: its type alone
-        return model.Member(key.lexeme, sure(type_ref(node)), span=key.span)
+        return model.Member(key.lexeme, required(type_ref(node)), span=key.span)
     default = literal(node.get("default"))
-    return model.Member(key.lexeme, sure(type_ref(node)), doc(node), text(node, "unit"), default, span=key.span)
+    return model.Member(key.lexeme, required(type_ref(node)), doc(node), text(node, "unit"), default, span=key.span)
 
 
 def _members(node: Node | None, key: str) -> tuple[model.Member, ...]:
@@ -137,12 +137,12 @@ def _key_span(parent: Mapping, key: str) -> Span:
 
 
 def _sequence(key: Scalar, node: Mapping) -> model.Sequence:
-    return model.Sequence(key.lexeme, sure(type_ref(node.get("sequence"))), doc(node), span=key.span)
+    return model.Sequence(key.lexeme, required(type_ref(node.get("sequence"))), doc(node), span=key.span)
 
 
 def _map(key: Scalar, node: Mapping) -> model.Map:
-    inner = sure(node.get("map"))
-    key_type, value_type = sure(type_ref(inner.get("key"))), sure(type_ref(inner.get("value")))
+    inner = required(node.get("map"))
+    key_type, value_type = required(type_ref(inner.get("key"))), required(type_ref(inner.get("value")))
     return model.Map(key.lexeme, key_type, value_type, doc(node), span=key.span)
 
 

@@ -9,46 +9,46 @@ import msgspec
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model import statemachine as model
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.model.scxml_shape import OURS, ours
+from robocomp_yaml.model.scxml_shape import ROBOCOMP, scxml_children
 from robocomp_yaml.source.xml import Element
 
-Include = Callable[[str, Span], str | None]
-IncludeMachine = Callable[[str, Span], model.StateMachine | None]
+ReadText = Callable[[str, Span], str | None]
+ReadMachine = Callable[[str, Span], model.StateMachine | None]
 
 
-class Files(msgspec.Struct, frozen=True):
+class IncludedFiles(msgspec.Struct, frozen=True):
     """What `src` names, read by the caller, who also tells of what cannot be read (then it is None)."""
 
-    text: Include
-    machine: IncludeMachine
+    text: ReadText
+    machine: ReadMachine
 
 
-def build(root: Element, path: str, files: Files) -> model.StateMachine:
+def build(root: Element, path: str, files: IncludedFiles) -> model.StateMachine:
     """The machine of an <scxml> element."""
-    return _Builder(path, files).machine(root)
+    return _ScxmlBuilder(path, files).machine(root)
 
 
-class _Builder:
-    def __init__(self, path: str, files: Files) -> None:
+class _ScxmlBuilder:
+    def __init__(self, path: str, files: IncludedFiles) -> None:
         self.path = path
         self.files = files
 
     def machine(self, root: Element) -> model.StateMachine:
-        events = root.get(f"{OURS} events")
+        events = root.get(f"{ROBOCOMP} events")
         return model.StateMachine(
             name=root.get("name") or "",
             path=self.path,
             root=model.numbered(self.state(root)),
             datamodel=root.get("datamodel") or "",
             late=root.get("binding") == "late",
-            scripts=tuple(self.action(child) for child in ours(root) if child.name == "script"),
-            events=model.words(events or "", root.place(f"{OURS} events")),
+            scripts=tuple(self.action(child) for child in scxml_children(root) if child.name == "script"),
+            events=model.words(events or "", root.place(f"{ROBOCOMP} events")),
             span=root.span,
             datamodel_span=root.place("datamodel"),
         )
 
     def state(self, element: Element) -> model.State:
-        children = list(ours(element))
+        children = list(scxml_children(element))
 
         def each(name: str) -> list[Element]:
             return [child for child in children if child.name == name]
@@ -66,7 +66,7 @@ class _Builder:
             deep=element.get("type") == "deep",
             entry=tuple(self.block(child) for child in each("onentry")),
             exit=tuple(self.block(child) for child in each("onexit")),
-            data=tuple(self.data(item) for model in each("datamodel") for item in ours(model)),
+            data=tuple(self.data(item) for model in each("datamodel") for item in scxml_children(model)),
             invokes=tuple(self.invoke(child) for child in each("invoke")),
             done=self.payload(done[0]) if done else model.Payload(),
             span=element.place("id"),
@@ -78,7 +78,7 @@ class _Builder:
             return model.Transition(targets=_words(element, "initial"), span=element.place("initial"))
         for child in children:
             if child.name == "initial":
-                return self.transition(next(ours(child)))
+                return self.transition(next(scxml_children(child)))
             if child.name == "transition" and element.name == model.HISTORY:
                 return self.transition(child)
         return None
@@ -94,7 +94,7 @@ class _Builder:
         )
 
     def block(self, element: Element) -> model.Block:
-        return tuple(self.action(child) for child in ours(element))
+        return tuple(self.action(child) for child in scxml_children(element))
 
     def action(self, e: Element) -> model.Action:
         match e.name:
@@ -124,7 +124,7 @@ class _Builder:
 
     def branches(self, element: Element) -> tuple[tuple[Text | None, model.Block], ...]:
         found: list[tuple[Text | None, list[model.Action]]] = [(_text(element, "cond"), [])]
-        for child in ours(element):
+        for child in scxml_children(element):
             if child.name in ("elseif", "else"):
                 found.append((_text(child, "cond"), []))
             else:
@@ -144,7 +144,7 @@ class _Builder:
         """An expression, a machine, or the text that stands in the element."""
         if element.get("expr") is not None:
             return model.Value(expr=_text(element, "expr"), span=element.span)
-        for child in ours(element):
+        for child in scxml_children(element):
             if child.name == "scxml":
                 return model.Value(literal=child.raw, machine=self.machine(child), span=element.span)
         literal = "".join(item if isinstance(item, str) else item.raw for item in element.content)
@@ -154,7 +154,7 @@ class _Builder:
         names = _words(element, "namelist")
         params = [model.Param(name.text, model.Value(expr=name, span=name.span), span=name.span) for name in names]
         content = None
-        for child in ours(element):
+        for child in scxml_children(element):
             if child.name == "param":
                 expr = _text(child, "expr") or _text(child, "location")
                 params.append(
@@ -169,7 +169,7 @@ class _Builder:
         if source.literal is not None:
             machine = self.files.machine(source.literal, element.place("src"))
             source = model.Value(literal=source.literal, machine=machine, span=source.span)
-        final = [child for child in ours(element) if child.name == "finalize"]
+        final = [child for child in scxml_children(element) if child.name == "finalize"]
         return model.Invoke(
             type=_value(element, "type"),
             source=source,

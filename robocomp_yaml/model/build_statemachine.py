@@ -19,7 +19,7 @@ from robocomp_yaml.model.located import Text
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
-class _Names(msgspec.Struct):
+class _StateNames(msgspec.Struct):
     """What the whole document says of states: `transitions` by their source, `listed` under any `states:`, and `met` as
     the start or the target of a transition."""
 
@@ -35,7 +35,7 @@ class _Names(msgspec.Struct):
 
 def build(node: Mapping, name: str, path: str) -> model.StateMachine:
     """The machine under `statemachine:` of the component `name`."""
-    names = _Names()
+    names = _StateNames()
     _collect(node, names)
     root = model.numbered(_state("", node, model.STATE, node.span, names))
     known = {state.id for state in model.walk(root.states)}
@@ -50,7 +50,7 @@ def build(node: Mapping, name: str, path: str) -> model.StateMachine:
     )
 
 
-def _collect(node: Node, names: _Names) -> None:
+def _collect(node: Node, names: _StateNames) -> None:
     """All transitions by their source: those of one state may stand at any level."""
     for key, value in entries(node, "transitions"):
         names.places.setdefault(key.lexeme, Text(key.lexeme, span=key.span))
@@ -61,7 +61,7 @@ def _collect(node: Node, names: _Names) -> None:
         _collect(state, names)
 
 
-def _state(name: str, node: Node | None, kind: str, span: Span, names: _Names) -> model.State:
+def _state(name: str, node: Node | None, kind: str, span: Span, names: _StateNames) -> model.State:
     initial, final = _named(node, "initial"), _named(node, "final")
     own = names.transitions.get(name, []) if name else []
     history = text(node, "history")
@@ -85,7 +85,7 @@ def _state(name: str, node: Node | None, kind: str, span: Span, names: _Names) -
     )
 
 
-def _children(node: Node | None, initial: Text | None, final: Text | None, names: _Names) -> Iterator[model.State]:
+def _children(node: Node | None, initial: Text | None, final: Text | None, names: _StateNames) -> Iterator[model.State]:
     """The states listed, and around them those that are only named: by a transition, or where nothing is listed. What
     is named and nowhere else is no state, but a name misspelled."""
     listed = {key.lexeme: (key, value) for key, value in entries(node, "states")}

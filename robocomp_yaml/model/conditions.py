@@ -28,7 +28,7 @@ _ACTION = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)\s*(?:\(\s*\))?")
 MAX_PARTS = 200
 
 
-class NotInLanguage(ValueError):
+class NullSyntaxError(ValueError):
     """The text is not of this language; the message says what is not."""
 
 
@@ -42,10 +42,10 @@ class Condition(msgspec.Struct, frozen=True):
 
 def condition(text: str) -> Condition:
     """Raises NotInLanguage."""
-    parser = _Parser(list(_tokens(text)))
+    parser = _ConditionParser(list(_tokens(text)))
     found = parser.either()
     if parser.rest:
-        raise NotInLanguage(f"'{parser.rest[0][1]}' is not expected here")
+        raise NullSyntaxError(f"'{parser.rest[0][1]}' is not expected here")
     return found
 
 
@@ -83,7 +83,7 @@ def literal(text: str) -> str:
     if _NUMBER.fullmatch(text):
         number = float(text)
         return json.dumps(int(number) if number.is_integer() and abs(number) < 1e15 else number)
-    raise NotInLanguage(f"'{text}' is no text in quotes, number, true or false")
+    raise NullSyntaxError(f"'{text}' is no text in quotes, number, true or false")
 
 
 def quoted(text: str) -> str:
@@ -97,7 +97,7 @@ def script(text: str) -> list[str]:
         if part := part.strip():
             match = _ACTION.fullmatch(part)
             if not match:
-                raise NotInLanguage(f"'{part[:40]}' is no name of an action")
+                raise NullSyntaxError(f"'{part[:40]}' is no name of an action")
             found.append(match[1])
     return found
 
@@ -108,12 +108,12 @@ def _tokens(text: str) -> Iterator[tuple[str, str]]:
     while at < len(text):
         match = _TOKEN.match(text, at)
         if not match:
-            raise NotInLanguage(f"'{text[at:].strip()[:40]}' is no name of a guard, nor In('state')")
+            raise NullSyntaxError(f"'{text[at:].strip()[:40]}' is no name of a guard, nor In('state')")
         at = match.end()
         if match["in"]:
             yield IN, match["state"]
         elif match["name"] == "In":
-            raise NotInLanguage("In() wants the name of a state in quotes")
+            raise NullSyntaxError("In() wants the name of a state in quotes")
         elif match["op"]:
             yield _WORDS.get(match["op"], match["op"]), match["op"]
         elif match["name"] in _WORDS and not match["call"]:
@@ -122,10 +122,10 @@ def _tokens(text: str) -> Iterator[tuple[str, str]]:
             yield _CONSTANTS.get(match["name"], GUARD), match["name"]
 
 
-class _Parser:
+class _ConditionParser:
     def __init__(self, tokens: list[tuple[str, str]]) -> None:
         if len(tokens) > MAX_PARTS:
-            raise NotInLanguage(f"it has more than {MAX_PARTS} words")
+            raise NullSyntaxError(f"it has more than {MAX_PARTS} words")
         self.rest = tokens
 
     def either(self) -> Condition:
@@ -149,13 +149,13 @@ class _Parser:
 
     def _one(self) -> Condition:
         if not self.rest:
-            raise NotInLanguage("something is missing at its end")
+            raise NullSyntaxError("something is missing at its end")
         kind, text = self.rest.pop(0)
         if kind == "(":
             inner = self.either()
             if not self.rest or self.rest.pop(0)[0] != ")":
-                raise NotInLanguage("a ')' is missing")
+                raise NullSyntaxError("a ')' is missing")
             return inner
         if kind in (IN, GUARD, ALWAYS, NEVER):
             return Condition(kind, text if kind in (IN, GUARD) else "")
-        raise NotInLanguage(f"'{text}' is not expected here")
+        raise NullSyntaxError(f"'{text}' is not expected here")

@@ -115,7 +115,7 @@ def is_unconditional(transition: model.Transition, datamodel: str) -> bool:
         return text == "True"
     try:
         return conditions.always(conditions.condition(text))
-    except conditions.NotInLanguage:
+    except conditions.NullSyntaxError:
         return False
 
 

@@ -18,14 +18,14 @@ STATE, GUARD, ACTION, EVENT = "the state", "the guard", "the action", "the event
 CALLABLE = frozenset(["compute", "killYourSelf"])
 
 # What the worker of code for RoboComp's own tool has besides what every worker has, or calls of Qt.
-ROBOCOMPS = frozenset(
+ROBOCOMP_NAMES = frozenset(
     "Period close configLoader connect disconnect emergency event hibernation hibernationCheck hibernationChecker kill "
     "parent restore setParams setupUi show startup_check states timer ui".split()
 )
 _DEFAULT_MACHINE = "defaultMachine"
 
 
-class Named(msgspec.Struct, frozen=True):
+class NamedPart(msgspec.Struct, frozen=True):
     """A part of a machine, under the name that it has in the document and in code."""
 
     kind: str
@@ -33,58 +33,58 @@ class Named(msgspec.Struct, frozen=True):
     name: str
 
 
-def entered(state: str) -> str:
+def entry_handler(state: str) -> str:
     """RoboComp's name for the method that is called when a state is entered."""
     return f"sm_{state}"
 
 
-def left(state: str) -> str:
+def exit_handler(state: str) -> str:
     return f"sm_{state}_exit"
 
 
-def every_period(state: str) -> str:
+def period_handler(state: str) -> str:
     return f"sm_{state}_period"
 
 
-def robocomps_machine(machine: StateMachine) -> str:
+def robocomp_machine(machine: StateMachine) -> str:
     """The member that RoboComp's code starts: it has the name that the machine has in its own file."""
-    taken = ROBOCOMPS | {"communicator", "events", "log", "mutex", "parameters", "statemachine"}
+    taken = ROBOCOMP_NAMES | {"communicator", "events", "log", "mutex", "parameters", "statemachine"}
     is_name = not machine.inline and re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", machine.name) and machine.name not in taken
     return machine.name if is_name else _DEFAULT_MACHINE
 
 
-def robocomps_signals(machine: StateMachine) -> list[str]:
+def robocomp_signals(machine: StateMachine) -> list[str]:
     """The events that RoboComp's code emits as signals: each is named after where the machine goes."""
     return [event.name for event in events(machine) if re.fullmatch(r"t_\w+_to_\w+", event.name)]
 
 
-def with_handler(machine: StateMachine) -> list[State]:
+def states_with_handlers(machine: StateMachine) -> list[State]:
     """The states that have handlers."""
     return [state for state in machine.states if state.id and state.kind != HISTORY]
 
 
-def events(machine: StateMachine) -> list[Named]:
+def events(machine: StateMachine) -> list[NamedPart]:
     """What the component's code may fire: what transitions wait for, unless it comes from the machine itself."""
-    found: dict[str, Named] = {}
+    found: dict[str, NamedPart] = {}
     listed = [event for _, transition in MachineIndex(machine).transitions() for event in transition.events]
     for event in (*machine.events, *listed):
         name = event.text.removesuffix(".*").rstrip(".")
         if name not in ("", "*", "error") and not name.startswith(("done.", "error.")):
-            found.setdefault(name, Named(EVENT, Text(name, span=event.span), re.sub(r"[.-]", "_", name)))
+            found.setdefault(name, NamedPart(EVENT, Text(name, span=event.span), re.sub(r"[.-]", "_", name)))
     return list(found.values())
 
 
-def guards(machine: StateMachine) -> list[Named]:
+def guards(machine: StateMachine) -> list[NamedPart]:
     """Methods that say whether a condition holds."""
     return list({named.name: named for named in _methods(machine) if named.kind == GUARD}.values())
 
 
-def actions(machine: StateMachine) -> list[Named]:
+def actions(machine: StateMachine) -> list[NamedPart]:
     """Methods that do something on the way."""
     return list({named.name: named for named in _methods(machine) if named.kind == ACTION}.values())
 
 
-def _methods(machine: StateMachine) -> Iterator[Named]:
+def _methods(machine: StateMachine) -> Iterator[NamedPart]:
     index = MachineIndex(machine)
     if machine.datamodel != PYTHON:
         texts = [transition.condition for _, transition in index.transitions()]
@@ -93,11 +93,11 @@ def _methods(machine: StateMachine) -> Iterator[Named]:
                 texts += [condition for condition, _ in action.branches]
             elif isinstance(action, Script):
                 for name in _read(conditions.script, action.code):
-                    yield Named(ACTION, Text(name, span=action.code.span), name)
+                    yield NamedPart(ACTION, Text(name, span=action.code.span), name)
         for text in texts:
             if text is not None:
                 for name in _read(_guards, text):
-                    yield Named(GUARD, Text(name, span=text.span), name)
+                    yield NamedPart(GUARD, Text(name, span=text.span), name)
     for invoked in index.invoked():
         yield from _methods(invoked)
 
@@ -110,5 +110,5 @@ def _read(read: Callable[[str], list[str]], text: Text) -> list[str]:
     """Nothing where the text is wrong, of which another one tells."""
     try:
         return read(text.text)
-    except conditions.NotInLanguage:
+    except conditions.NullSyntaxError:
         return []

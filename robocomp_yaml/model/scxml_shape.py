@@ -13,7 +13,7 @@ from robocomp_yaml.semantics.events import seconds
 from robocomp_yaml.source.xml import Element
 
 SCXML = "http://www.w3.org/2005/07/scxml"
-OURS = "urn:robocomp:statemachine"
+ROBOCOMP = "urn:robocomp:statemachine"
 
 
 class Shape(msgspec.Struct, frozen=True):
@@ -71,22 +71,22 @@ _VALUES: dict[tuple[str, str], tuple[str, ...]] = {
 }
 
 
-def misshapen(root: Element) -> Iterator[Diagnostic]:
+def shape_faults(root: Element) -> Iterator[Diagnostic]:
     """Everything that is not as SCXML wants it. Elements of other namespaces are notes of other tools."""
     if root.name != "scxml" or root.namespace not in (SCXML, ""):
         yield codes.NOT_SCXML.at(root.span, name=root.name)
     else:
         if root.namespace == "":
             yield codes.NO_NAMESPACE.at(root.span, hint=f'write <scxml xmlns="{SCXML}" …>')
-        yield from _misshapen(root)
+        yield from _element_faults(root)
 
 
-def ours(parent: Element) -> Iterator[Element]:
+def scxml_children(parent: Element) -> Iterator[Element]:
     """The children that are SCXML's."""
     return (child for child in parent.children if child.namespace in (SCXML, ""))
 
 
-def _misshapen(element: Element) -> Iterator[Diagnostic]:
+def _element_faults(element: Element) -> Iterator[Diagnostic]:
     shape = SHAPES[element.name]
     known = shape.attributes.split()
     for name in element.attributes:
@@ -106,11 +106,11 @@ def _misshapen(element: Element) -> Iterator[Diagnostic]:
     yield from _values(element)
     allowed = shape.children.split()
     if allowed == ["*"]:
-        for child in ours(element):
+        for child in scxml_children(element):
             if child.name == "scxml":
-                yield from _misshapen(child)
+                yield from _element_faults(child)
         return
-    for child in ours(element):
+    for child in scxml_children(element):
         if child.name not in allowed:
             close = suggest(child.name, allowed)
             holds = f"it holds {', '.join(allowed)}" if allowed else ""
@@ -118,7 +118,7 @@ def _misshapen(element: Element) -> Iterator[Diagnostic]:
                 child.span, name=child.name, parent=element.name, hint=f"did you mean <{close}>?" if close else holds
             )
         else:
-            yield from _misshapen(child)
+            yield from _element_faults(child)
     if stray := element.text.strip():
         yield codes.STRAY_TEXT.at(element.span, text=stray.split()[0][:40], element=element.name)
     yield from _counts(element)
@@ -140,13 +140,13 @@ def _values(element: Element) -> Iterator[Diagnostic]:
 
 def _counts(element: Element) -> Iterator[Diagnostic]:
     """What may stand there once."""
-    names = [child.name for child in ours(element)]
+    names = [child.name for child in scxml_children(element)]
     if element.name in ("initial", "history") and names.count("transition") != 1:
         yield codes.ONE_TRANSITION.at(element.span, element=element.name)
     for name in ("initial", "donedata", "datamodel", "finalize", "content"):
         if names.count(name) > 1:
-            second = [child for child in ours(element) if child.name == name][1]
+            second = [child for child in scxml_children(element) if child.name == name][1]
             yield codes.TWICE.at(second.span, name=name, element=element.name)
     if "content" in names and "param" in names and element.name != "invoke":
-        content = next(child for child in ours(element) if child.name == "content")
+        content = next(child for child in scxml_children(element) if child.name == "content")
         yield codes.TWO_ATTRIBUTES.at(content.span, first="param", second="content")

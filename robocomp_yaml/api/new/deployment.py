@@ -41,11 +41,11 @@ def _components(root: str) -> list[LinkedComponent]:
     """The components of a workspace that have no errors, in the order of their paths."""
     from robocomp_yaml.link.documents import Documents
     from robocomp_yaml.link.linker import Linker
-    from robocomp_yaml.link.workspace import Search
+    from robocomp_yaml.link.workspace import ImportSearch
     from robocomp_yaml.pipeline import search_folders
     from robocomp_yaml.source.discover import of_kind
 
-    program = Linker(Documents(), Search(search_folders(()))).link(of_kind(root, "cdsl"))
+    program = Linker(Documents(), ImportSearch(search_folders(()))).link(of_kind(root, "cdsl"))
     sound = (linked for linked in program.components.values() if not linked.broken)
     return sorted(sound, key=lambda linked: linked.component.path)
 

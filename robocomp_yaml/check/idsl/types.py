@@ -29,7 +29,7 @@ _MEANT = {foreign: ours for ours, others in _FOREIGN.items() for foreign in othe
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    index = _Index(program)
+    index = _Definers(program)
     for linked in program.modules.values():
         for definition in linked.module.definitions:
             for ref in types_of(definition):
@@ -40,7 +40,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                     yield from _resolved(linked, ref, index, {other.text for other in method.throws})
 
 
-class _Index:
+class _Definers:
     """What helps to explain a name that is not found; made only when there is one."""
 
     def __init__(self, program: Program) -> None:
@@ -63,7 +63,7 @@ class _Index:
 
 
 def _resolved(
-    linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | None = None
+    linked: LinkedModule, ref: TypeRef, index: _Definers, thrown: set[str] | None = None
 ) -> Iterator[Diagnostic]:  # fmt: skip
     """`thrown` are the exceptions of the same list, None for a type."""
     found = None if ref.is_basic else linked.find(ref)
@@ -93,7 +93,7 @@ def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
         )
 
 
-def _hint(linked: LinkedModule, ref: TypeRef, index: _Index, thrown: set[str] | None) -> Hint:
+def _hint(linked: LinkedModule, ref: TypeRef, index: _Definers, thrown: set[str] | None) -> Hint:
     """How to mend a name that is not there; `thrown` are the exceptions of the same list, None for a type."""
     exception = thrown is not None
     if not exception and ref.text == "void":

@@ -24,10 +24,10 @@ _Found = tuple[str, Text | None]
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
         if linked.machine is not None and STATEMACHINE in linked.component.language.target.has:
-            yield from of(linked.machine, linked.component.language.target)
+            yield from _machine(linked.machine, linked.component.language.target)
 
 
-def of(machine: StateMachine, language: TargetLanguage) -> Iterator[Diagnostic]:
+def _machine(machine: StateMachine, language: TargetLanguage) -> Iterator[Diagnostic]:
     """What a machine says in a data model that a component in this language does not have."""
     index = MachineIndex(machine)
     name = machine.datamodel or NULL
@@ -40,7 +40,7 @@ def of(machine: StateMachine, language: TargetLanguage) -> Iterator[Diagnostic]:
         for what, text in _expressions(index):
             yield from faults(index, what, text) if text is not None else ()
     for invoked in index.invoked():
-        yield from of(invoked, language)
+        yield from _machine(invoked, language)
 
 
 def _expressions(index: MachineIndex) -> Iterator[_Found]:
@@ -98,7 +98,7 @@ def _faults_in_null(index: MachineIndex, what: str, text: Text) -> Iterator[Diag
         return
     try:
         read = _READERS[what](text.text)
-    except conditions.NotInLanguage as error:
+    except conditions.NullSyntaxError as error:
         shown = " ".join(text.text.split())
         shown = shown if len(shown) <= 40 else f"{shown[:39]}…"
         yield codes.NOT_IN_LANGUAGE.at(text.span, what=what, text=shown, reason=str(error))

@@ -20,7 +20,7 @@ from robocomp_yaml.semantics.events import beginning
 _AT_ONCE = "an event"  # what a transition without events does not wait for
 
 
-class _Taker(msgspec.Struct, frozen=True):
+class _Claim(msgspec.Struct, frozen=True):
     """A transition with that of its events which leaves nothing to those behind it."""
 
     transition: Transition
@@ -69,8 +69,8 @@ def _history(state: State) -> Iterator[Diagnostic]:
 def _dead(state: State, machine: StateMachine) -> Iterator[Diagnostic]:
     """Of the transitions of a state the first that fits is taken, in the document's order. One of a state inside comes
     before all of them, so it takes nothing away. One that waits for nothing is asked before any event is handled."""
-    certain: dict[str, _Taker] = {}  # by what is taken whatever else holds
-    guarded: dict[tuple[str, object], _Taker] = {}
+    certain: dict[str, _Claim] = {}  # by what is taken whatever else holds
+    guarded: dict[tuple[str, object], _Claim] = {}
     restless = next((t for t in state.transitions if not t.events and is_unconditional(t, machine.datamodel)), None)
     for transition in state.transitions:
         is_certain = is_unconditional(transition, machine.datamodel)
@@ -83,26 +83,26 @@ def _dead(state: State, machine: StateMachine) -> Iterator[Diagnostic]:
             first = next((certain[one] for one in wider if one in certain), None)
             first = first or next((guarded[one, condition] for one in wider if (one, condition) in guarded), None)
             if first is not None:
-                yield _told(machine, state, _Taker(transition, event), first)
+                yield _told(machine, state, _Claim(transition, event), first)
             elif restless is not None and head != _AT_ONCE:
-                taker = _Taker(restless, Text("", span=restless.span))
-                yield _told(machine, state, _Taker(transition, event), taker, "behind")
+                taker = _Claim(restless, Text("", span=restless.span))
+                yield _told(machine, state, _Claim(transition, event), taker, "behind")
         for head, event in heads.items():
             if is_certain:
-                certain.setdefault(head, _Taker(transition, event))
+                certain.setdefault(head, _Claim(transition, event))
             elif machine.datamodel != PYTHON:  # Python's may say something else each time
-                guarded.setdefault((head, condition), _Taker(transition, event))
+                guarded.setdefault((head, condition), _Claim(transition, event))
 
 
 def _meaning(condition: Text | None) -> object:
     """The same for `near` and `near()`, `not near` and `!near`."""
     try:
         return conditions.condition(condition.text) if condition else None
-    except conditions.NotInLanguage:
+    except conditions.NullSyntaxError:
         return condition
 
 
-def _told(machine: StateMachine, state: State, dead: _Taker, first: _Taker, where: str = "before") -> Diagnostic:
+def _told(machine: StateMachine, state: State, dead: _Claim, first: _Claim, where: str = "before") -> Diagnostic:
     guard = "`if:`" if machine.inline else "`cond`"
     event, takes = dead.event, first.event
     is_guarded = not is_unconditional(first.transition, machine.datamodel)

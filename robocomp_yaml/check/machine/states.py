@@ -185,35 +185,35 @@ def _in_code(linked: LinkedComponent, machine: StateMachine, known: list[TargetL
     reserved = _WORKERS.union(*(language.keywords for language in known))
     reserved |= linked.component.language.target.taken
     if linked.component.compatibility:
-        reserved |= names.ROBOCOMPS
+        reserved |= names.ROBOCOMP_NAMES
     for named in (*guards, *actions):
         is_own = named.kind == names.ACTION and named.name in names.CALLABLE
         if named.name in reserved and not is_own:
             yield codes.METHOD_NAME.at(named.text.span, name=named.name)
     handlers = [
-        names.Named(names.STATE, Text(state.id, span=state.span), name)
-        for state in {state.id: state for state in names.with_handler(machine)}.values()
-        for name in (names.entered(state.id), names.left(state.id), names.every_period(state.id))
+        names.NamedPart(names.STATE, Text(state.id, span=state.span), name)
+        for state in {state.id: state for state in names.states_with_handlers(machine)}.values()
+        for name in (names.entry_handler(state.id), names.exit_handler(state.id), names.period_handler(state.id))
     ]
     for named in (*handlers, *guards, *actions):
         yield from _clash(named, taken)
-    fired: dict[str, names.Named] = {}
+    fired: dict[str, names.NamedPart] = {}
     for event in names.events(machine):
         yield from _clash(event, fired)
 
 
-def _of_ports(linked: LinkedComponent) -> Iterator[names.Named]:
+def _of_ports(linked: LinkedComponent) -> Iterator[names.NamedPart]:
     """What the worker has of interfaces."""
     for port in (*linked.implements, *linked.subscribes):
         for method in port.interface.methods:
             name = f"{port.interface.name}_{method.name}"
-            yield names.Named("the method", Text(name, span=port.use.span), name)
+            yield names.NamedPart("the method", Text(name, span=port.use.span), name)
     for port in (*linked.requires, *linked.publishes):
         name = f"{port.name.lower()}_proxy"
-        yield names.Named("the proxy", Text(port.name, span=port.use.span), name)
+        yield names.NamedPart("the proxy", Text(port.name, span=port.use.span), name)
 
 
-def _clash(named: names.Named, taken: dict[str, names.Named]) -> Iterator[Diagnostic]:
+def _clash(named: names.NamedPart, taken: dict[str, names.NamedPart]) -> Iterator[Diagnostic]:
     first = taken.setdefault(named.name, named)
     if first is not named:
         yield codes.SAME_IN_CODE.at(

@@ -9,7 +9,7 @@ from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.codes.files import BAD_ICE_TEXT
 from robocomp_yaml.diag.diagnostic import WARNING, Diagnostic, has_errors
 from robocomp_yaml.diag.suggest import did_you_mean
-from robocomp_yaml.link.attachments import leads_to
+from robocomp_yaml.link.attachments import refers_to
 from robocomp_yaml.link.program import LinkedParameters, LinkedValues, Program
 from robocomp_yaml.model.build_interface import entries
 from robocomp_yaml.parameters.layers.effective import Effective, document_faults
@@ -26,10 +26,10 @@ _SUCH_AS = {"endpoint": "tcp -p 10001", "proxy": '"mouth:tcp -h localhost -p 100
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in sorted(program.values.values(), key=lambda values: values.document.path):
-        yield from of_document(linked, program)
+        yield from check_document(linked, program)
 
 
-def of_document(linked: LinkedValues, program: Program, *, complete: bool = False) -> Iterator[Diagnostic]:
+def check_document(linked: LinkedValues, program: Program, *, complete: bool = False) -> Iterator[Diagnostic]:
     """`complete`: to be judged as the values of a component even where another document builds on it."""
     yield from _texts_of_ice(linked)
     if linked.parameters is None:
@@ -40,12 +40,12 @@ def of_document(linked: LinkedValues, program: Program, *, complete: bool = Fals
         return
     yield from _layers(linked)
     yield from _ports(linked)
-    if is_only_layer(linked) and not complete:
+    if is_only_a_layer(linked) and not complete:
         yield from document_faults(linked, linked.parameters)
         return
     values, found = program.effective(linked)
     yield from found
-    if values is not None and not has_errors(found) and not is_plain(linked, values):
+    if values is not None and not has_errors(found) and not has_only_harmless_parameters(linked, values):
         yield from properties(linked, values)[1]
 
 
@@ -84,12 +84,12 @@ def _own(section: Node | None) -> Iterator[Node]:
             yield node
 
 
-def is_only_layer(linked: LinkedValues) -> bool:
+def is_only_a_layer(linked: LinkedValues) -> bool:
     """Whether a document may be incomplete, since another one builds on it."""
     return linked.is_extended and os.path.basename(linked.document.path) != "config.yaml"
 
 
-def is_plain(linked: LinkedValues, values: Effective) -> bool:
+def has_only_harmless_parameters(linked: LinkedValues, values: Effective) -> bool:
     """Whether nothing stands there but parameters, none of which can be trouble."""
     given = {key for layer in linked.layers() for key in layer.document.root.entries}
     return given <= {"component", "doc", "extends", "parameters"} and is_harmless(values.parameters, values.data)
@@ -100,7 +100,7 @@ def _layers(linked: LinkedValues) -> Iterator[Diagnostic]:
     for base in linked.extends:
         if base.parameters is not None and base.parameters is not linked.parameters:
             real = os.path.realpath(base.document.path)
-            layer = next(each for each in linked.document.extends if leads_to(each, linked.document, real))
+            layer = next(each for each in linked.document.extends if refers_to(each, linked.document, real))
             yield codes.OTHER_COMPONENT.at(
                 layer.span, name=layer.value, other=_owner(base.parameters), own=_owner(linked.parameters)
             )

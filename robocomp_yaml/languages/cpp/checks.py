@@ -15,7 +15,7 @@ from robocomp_yaml.languages.cpp import LANGUAGE
 from robocomp_yaml.languages.cpp.globals import GLOBALS
 from robocomp_yaml.languages.cpp.macros import EVER, FAMILIES, is_macro
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
-from robocomp_yaml.link.references import Name, exceptions_of, groups, kind_of, types_of
+from robocomp_yaml.link.references import Identifier, exceptions_of, groups, kind_of, types_of
 from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Module, Struct, TypeRef
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.migrated import is_migrated
@@ -48,10 +48,10 @@ class _Module(msgspec.Struct):
 
     def check(self) -> Iterator[Diagnostic]:
         module = self.linked.module
-        yield from self.macro(Name("module", module.name, module.span))
+        yield from self.macro(Identifier("module", module.name, module.span))
         yield from self.beside()
         for definition in module.definitions:
-            yield from self.macro(Name(kind_of(definition), definition.name, definition.span))
+            yield from self.macro(Identifier(kind_of(definition), definition.name, definition.span))
             inside = list(groups(definition))
             for group in inside:
                 for name in group:
@@ -73,7 +73,7 @@ class _Module(msgspec.Struct):
                         yield from self.in_result(method)
                     yield from self.results(definition)
 
-    def macro(self, name: Name) -> Iterator[Diagnostic]:
+    def macro(self, name: Identifier) -> Iterator[Diagnostic]:
         if name.text not in EVER and not name.text.startswith(FAMILIES):
             return  # as nearly all: no user needs to be asked
         hit = [user for user in self.users if _is_macro_for(name.text, user)]
@@ -90,7 +90,7 @@ class _Module(msgspec.Struct):
             hint = f"call it 'RoboComp{name[0].upper()}{name[1:]}'"
             yield self.said(codes.CPP_GLOBAL.at(span, name=name, owner=owner, hint=hint), self.users)
 
-    def told_apart(self, names: Iterable[Name], taken: set[str]) -> Iterator[Diagnostic]:
+    def told_apart(self, names: Iterable[Identifier], taken: set[str]) -> Iterator[Diagnostic]:
         """Ice's C++ has no second name for a member called as its exception, nor for a method as a type it uses."""
         for name in names:
             if name.text in taken:
@@ -100,7 +100,7 @@ class _Module(msgspec.Struct):
         """In a list of parameters, a name hides the type of the same name from those behind it."""
         for number, member in enumerate(members):
             if any(self.is_own(other.type, member.name) for other in members[number + 1 :]):
-                yield self.clash(Name(kind, member.name, member.span))
+                yield self.clash(Identifier(kind, member.name, member.span))
 
     def named_as_enum(self, members: tuple[Member, ...]) -> Iterator[Diagnostic]:
         """The constructor of an exception takes enums by value; then a member cannot mean something else."""
@@ -109,7 +109,7 @@ class _Module(msgspec.Struct):
             if any(self.is_own(other.type, member.name) for other in behind):
                 continue  # told as hidden
             if any(self.is_own(other.type, member.name) and self.is_enum(other.type) for other in members):
-                yield self.clash(Name("member", member.name, member.span))
+                yield self.clash(Identifier("member", member.name, member.span))
 
     def in_result(self, method: Method) -> Iterator[Diagnostic]:
         """What a method gives back, if it is more than one thing, becomes a struct: its members are named so."""
@@ -119,18 +119,18 @@ class _Module(msgspec.Struct):
         for number, output in enumerate(method.outputs):
             hides = any(self.is_own(other.type, output.name) for other in method.outputs[number + 1 :])
             if not hides and any(self.is_own(ref, output.name) for ref in types):
-                yield self.clash(Name("parameter", output.name, output.span))
+                yield self.clash(Identifier("parameter", output.name, output.span))
 
     def results(self, interface: Interface) -> Iterator[Diagnostic]:
         """That struct's name."""
         made = {f"{m.name[:1].upper()}{m.name[1:]}Result": m for m in interface.methods if _has_result(m)}
         for method in interface.methods:
             if method.name in made:
-                yield self.clash(Name("method", method.name, method.span))
+                yield self.clash(Identifier("method", method.name, method.span))
         for ref in types_of(interface):
             if ref.name in made and self.is_own(ref, ref.name):
                 method = made[ref.name]
-                yield self.clash(Name("method", method.name, method.span), ref.name)
+                yield self.clash(Identifier("method", method.name, method.span), ref.name)
 
     def is_own(self, ref: TypeRef, name: str) -> bool:
         """Whether a type is this one of the module; those of others are written with their module's name."""
@@ -143,7 +143,7 @@ class _Module(msgspec.Struct):
         found = self.linked.find(ref)
         return found is not None and isinstance(found[1], Enum)
 
-    def clash(self, name: Name, other: str = "") -> Diagnostic:
+    def clash(self, name: Identifier, other: str = "") -> Diagnostic:
         return self.said(_clash(name, other), self.users)
 
     def said(self, told: Diagnostic, users: list[LinkedComponent]) -> Diagnostic:
@@ -154,7 +154,7 @@ class _Module(msgspec.Struct):
         return msgspec.structs.replace(told, severity=ERROR, related=(*told.related, related))
 
 
-def _clash(name: Name, other: str = "") -> Diagnostic:
+def _clash(name: Identifier, other: str = "") -> Diagnostic:
     first = name.text[0].lower() + name.text[1:]
     better = first if first != name.text else f"the{name.text[0].upper()}{name.text[1:]}"
     hint = f"call it '{better}'" if not other else f"call the method otherwise: its results become a '{other}'"

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from robocomp_yaml.model.conditions import (
     MAX_PARTS,
     Condition,
-    NotInLanguage,
+    NullSyntaxError,
     condition,
     literal,
     names,
@@ -42,7 +42,7 @@ def test_conditions(text: str, found: Condition) -> None:
     "low; near", "a.b", "!= low", "1", "not", "low " + "or low " * MAX_PARTS,
 ])  # fmt: skip
 def test_what_is_no_condition(text: str) -> None:
-    with pytest.raises(NotInLanguage):
+    with pytest.raises(NullSyntaxError):
         condition(text)
 
 
@@ -50,7 +50,7 @@ def test_what_is_no_condition(text: str) -> None:
 def test_any_text_is_a_condition_or_is_refused(text: str) -> None:
     try:
         found = condition(text)
-    except NotInLanguage:
+    except NullSyntaxError:
         return
     assert all(name.isidentifier() and name.isascii() for name in names(found, "guard"))
 
@@ -65,12 +65,12 @@ def test_literals(text: str, json: str) -> None:
 
 @pytest.mark.parametrize("text", ["", "a", "'a", "'a' + 'b'", "1 + 1", "[1]", "nan", "1_000", "'a\\'b'"])
 def test_what_is_no_literal(text: str) -> None:
-    with pytest.raises(NotInLanguage):
+    with pytest.raises(NullSyntaxError):
         literal(text)
 
 
 def test_scripts() -> None:
     assert script(" park; beep()\n  stop ( ) ;; ") == ["park", "beep", "stop"]
     for text in ("park(1)", "x = 1", "park beep", "import os"):
-        with pytest.raises(NotInLanguage):
+        with pytest.raises(NullSyntaxError):
             script(text)
