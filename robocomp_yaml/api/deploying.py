@@ -133,7 +133,7 @@ class Deployment:
         from robocomp_yaml.deploy import stale
 
         found = [one.as_severity(severity) for one in stale.told(self.network, self.stale(*names))]
-        told = self._analysis.shown(self._analysis.judged(found).told)
+        told = self._analysis.shown(self._analysis.judged(found).reported)
         self._told += told
         return has_errors(told)
 

@@ -100,7 +100,10 @@ def _asked(analysis: Analysis) -> set[str]:
     workspaces."""
     program, read = analysis.program, analysis.linker.documents.read
     machines = {
-        path for real, linked in program.components.items() if real in program.requested for path in linked.machine_files
+        path
+        for real, linked in program.components.items()
+        if real in program.requested
+        for path in linked.machine_files
     }
     settings = {
         path for each in analysis.linker.workspaces.values()

@@ -1,4 +1,4 @@
-"""A CDSL document's tree as a `Component`. The tree has the schema's shape."""
+"""Builds a `Component` from the tree of a CDSL document. The tree fits the schema."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _DURATION = r"(\d+(?:\.\d*)?|\.\d+)\s*(us|ms|s|min|h)"
 
 
 def build(root: Mapping, path: str) -> model.Component:
-    """The component of a document that fits `cdsl.schema.json`."""
+    """Returns the component of a document that fits `cdsl.schema.json`; `path` is the document as opened."""
     machine = root.get("statemachine")
     period = seconds(root.get("period"))
     return model.Component(
@@ -54,7 +54,7 @@ def _machine(node: Mapping, name: str, path: str) -> StateMachine:
 
 
 def seconds(node: Node | None) -> float | None:
-    """A duration in seconds: `100 ms`, `10 s`, or a bare number of milliseconds."""
+    """The seconds of `100 ms`, `10 s`, or of a plain number, which counts milliseconds. None for any other node."""
     if not isinstance(node, Scalar) or node.data is None:
         return None
     if isinstance(node.data, int | float):
@@ -63,7 +63,7 @@ def seconds(node: Node | None) -> float | None:
 
 
 def duration(text: str) -> float | None:
-    """The seconds of `100 ms`, `10 s` or `2min`."""
+    """The seconds of `100 ms`, `10 s` or `2min`; None if the text is no duration."""
     parts = re.fullmatch(_DURATION, text.strip())
     return float(parts[1]) * _SECONDS[parts[2]] if parts else None
 
@@ -115,13 +115,18 @@ def _sources(uses: Node | None) -> Iterator[model.Source]:
 
 
 def _libraries(uses: Node | None) -> Iterator[model.Library]:
-    """One for each place that an entry names; a check says that it may name but one."""
+    """One library for each kind that an entry names. A check reports entries that name several."""
     for number, item in enumerate(items(uses, "libraries")):
         if isinstance(item, Mapping):
             version = text(item, "version")
             for key, node in item.items():
                 if key.lexeme in (model.CMAKE, model.PKG_CONFIG, model.LINK, model.PIP):
-                    given = item.get("version") or node
+                    version_span = (item.get("version") or node).span
                     yield model.Library(
-                        key.lexeme, text(item, key.lexeme), version, number, span=node.span, version_span=given.span
+                        key.lexeme,
+                        text(item, key.lexeme),
+                        version,
+                        number,
+                        span=node.span,
+                        version_span=version_span,
                     )

@@ -1,4 +1,4 @@
-"""A DDSL document's tree as a `Deployment`. The tree has the schema's shape."""
+"""Builds a `Deployment` from the tree of a DDSL document. The tree fits the schema."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
 def build(root: Mapping, path: str) -> model.Deployment:
-    """The deployment of a document that fits `ddsl.schema.json`."""
+    """Returns the deployment of a document that fits `ddsl.schema.json`; `path` is the document as opened."""
     return model.Deployment(
         name=text(root, "deployment"),
         path=path,
@@ -37,7 +37,7 @@ def _text(parent: Node, key: str) -> Text | None:
 
 
 def _integer(parent: Node | None, key: str) -> int | None:
-    """A whole number; YAML may spell it as a float, which the schema allows."""
+    """An integer. The schema also allows a float without a fraction, such as `3.0`."""
     node = parent.get(key) if parent else None
     return int(node.data) if isinstance(node, Scalar) and isinstance(node.data, int | float) else None
 
@@ -131,12 +131,12 @@ def _ready(node: Node | None) -> model.Ready | None:
         _integer(node, "port"),
         _command(node.get("command")),
         text(node, "log"),
-        span=_said(node),
+        span=_ready_span(node),
     )
 
 
-def _said(node: Mapping) -> Span:
-    """Where it stands how readiness is told."""
+def _ready_span(node: Mapping) -> Span:
+    """The span of the value that defines readiness."""
     return next((node.entries[key][1].span for key in ("port", "command", "log") if key in node.entries), node.span)
 
 
@@ -144,22 +144,22 @@ def _command(node: Node | None) -> tuple[str, ...]:
     if isinstance(node, Scalar):
         try:
             return tuple(shlex.split(node.lexeme))
-        except ValueError:  # an open quote stands for itself
+        except ValueError:  # an unclosed quote is a plain character
             return tuple(node.lexeme.split())
     parts = node.items if isinstance(node, Sequence) else []
     return tuple(part.lexeme for part in parts if isinstance(part, Scalar))
 
 
 def _extra(node: Node | None) -> tuple[tuple[str, object], ...]:
-    return tuple((key.lexeme, _as_spelled(value)) for key, value in node.items()) if isinstance(node, Mapping) else ()
+    return tuple((key.lexeme, _plain_data(value)) for key, value in node.items()) if isinstance(node, Mapping) else ()
 
 
-def _as_spelled(node: Node) -> object:
-    """Plain data in which every scalar is its text: an exporter writes numbers as they were."""
+def _plain_data(node: Node) -> object:
+    """Plain data in which every scalar is its text, so that exporters write numbers as the document spells them."""
     if isinstance(node, Mapping):
-        return {key.lexeme: _as_spelled(value) for key, value in node.items()}
+        return {key.lexeme: _plain_data(value) for key, value in node.items()}
     if isinstance(node, Sequence):
-        return [_as_spelled(item) for item in node.items]
+        return [_plain_data(item) for item in node.items]
     return node.lexeme if isinstance(node, Scalar) else None
 
 

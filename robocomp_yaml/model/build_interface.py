@@ -1,4 +1,4 @@
-"""An IDSL document's tree as a `Module`. The tree has the schema's shape; what each value may be is said there."""
+"""Builds a `Module` from the tree of an IDSL document. The tree fits the schema. All builders share its helpers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _Value = TypeVar("_Value")
 
 
 def build(root: Mapping, path: str) -> model.Module:
-    """The module of a document that fits `idsl.schema.json`."""
+    """Returns the module of a document that fits `idsl.schema.json`; `path` is the document as opened."""
     return model.Module(
         name=text(root, "module"),
         path=path,
@@ -32,11 +32,11 @@ def build(root: Mapping, path: str) -> model.Module:
     )
 
 
-# What the builders of every kind of document share.
+# Helpers of the builders of every kind of document.
 
 
 def entries(parent: Node | None, key: str) -> Iterator[tuple[Scalar, Node]]:
-    """Keys and values of the mapping under a key, without `x-…`; none where it is missing or null."""
+    """Keys and values of the mapping under `key`, without `x-…`; nothing if the mapping is missing or null."""
     child = parent.get(key) if parent else None
     if isinstance(child, Mapping):
         yield from (entry for name, entry in child.entries.items() if not name.startswith("x-"))
@@ -48,7 +48,7 @@ def items(parent: Node | None, key: str) -> list[Node]:
 
 
 def text(parent: Node | None, key: str, default: str = "") -> str:
-    """A scalar's text as spelled."""
+    """The scalar under `key`, as spelled, or the default."""
     child = parent.get(key) if parent else None
     return child.lexeme if isinstance(child, Scalar) else default
 
@@ -58,7 +58,7 @@ def doc(node: Node | None) -> str:
 
 
 def span_of(parent: Node, key: str) -> Span:
-    """Where the value of a key stands, else where the mapping does."""
+    """The span of the value of `key`, or of the mapping if the key is missing."""
     child = parent.get(key)
     return (child or parent).span
 
@@ -78,13 +78,13 @@ def imports(root: Mapping) -> tuple[model.Import, ...]:
 
 
 def required(value: _Value | None) -> _Value:
-    """What the schema asks for."""
+    """A value that the schema requires."""
     assert value is not None
     return value
 
 
 def type_ref(node: Node | None) -> model.TypeRef | None:
-    """A type in its short form, or in its long form's `type`."""
+    """A type: the scalar itself, or `type` of a mapping."""
     if isinstance(node, Mapping):
         node = node.get("type")
     return model.TypeRef(node.lexeme, span=node.span) if isinstance(node, Scalar) and node.data is not None else None
@@ -102,7 +102,7 @@ def _constant(key: Scalar, node: Node) -> model.Constant:
 
 
 def _member(key: Scalar, node: Node) -> model.Member:
-    if isinstance(node, Scalar):  # as most: its type alone
+    if isinstance(node, Scalar):  # the short form: its type alone
         return model.Member(key.lexeme, required(type_ref(node)), span=key.span)
     default = literal(node.get("default"))
     return model.Member(key.lexeme, required(type_ref(node)), doc(node), text(node, "unit"), default, span=key.span)

@@ -1,4 +1,4 @@
-"""An SCXML document's elements as a `StateMachine`. The elements have SCXML's shape."""
+"""Builds a `StateMachine` from the elements of an SCXML document, after `scxml_shape` has accepted them."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ ReadMachine = Callable[[str, Span], model.StateMachine | None]
 
 
 class IncludedFiles(msgspec.Struct, frozen=True):
-    """What `src` names, read by the caller, who also tells of what cannot be read (then it is None)."""
+    """Reads the files that `src` names. Both functions report a file that cannot be read, and return None."""
 
     text: ReadText
     machine: ReadMachine
 
 
 def build(root: Element, path: str, files: IncludedFiles) -> model.StateMachine:
-    """The machine of an <scxml> element."""
+    """Returns the machine of an `<scxml>` element; `path` is the document as opened."""
     return _ScxmlBuilder(path, files).machine(root)
 
 
@@ -73,7 +73,7 @@ class _ScxmlBuilder:
         )
 
     def initial(self, element: Element, children: list[Element]) -> model.Transition | None:
-        """What `initial=` says, or <initial>; for a history, its transition."""
+        """The transition of `initial=` or `<initial>`; of a history, its own transition."""
         if element.get("initial") is not None:
             return model.Transition(targets=_words(element, "initial"), span=element.place("initial"))
         for child in children:
@@ -123,13 +123,13 @@ class _ScxmlBuilder:
                 )  # fmt: skip
 
     def branches(self, element: Element) -> tuple[tuple[Text | None, model.Block], ...]:
-        found: list[tuple[Text | None, list[model.Action]]] = [(_text(element, "cond"), [])]
+        branches: list[tuple[Text | None, list[model.Action]]] = [(_text(element, "cond"), [])]
         for child in scxml_children(element):
             if child.name in ("elseif", "else"):
-                found.append((_text(child, "cond"), []))
+                branches.append((_text(child, "cond"), []))
             else:
-                found[-1][1].append(self.action(child))
-        return tuple((condition, tuple(inner)) for condition, inner in found)
+                branches[-1][1].append(self.action(child))
+        return tuple((condition, tuple(inner)) for condition, inner in branches)
 
     def data(self, element: Element) -> model.Data:
         if "src" in element.attributes:
@@ -141,7 +141,7 @@ class _ScxmlBuilder:
         return model.Data(_text(element, "id") or Text(""), value, span=element.span)
 
     def content(self, element: Element) -> model.Value:
-        """An expression, a machine, or the text that stands in the element."""
+        """An expression, a machine, or the text in the element."""
         if element.get("expr") is not None:
             return model.Value(expr=_text(element, "expr"), span=element.span)
         for child in scxml_children(element):
@@ -192,5 +192,5 @@ def _words(element: Element, name: str) -> tuple[Text, ...]:
 
 
 def _value(element: Element, name: str) -> model.Value:
-    """The attribute as it stands, or the expression in the one beside it."""
+    """The attribute `name` as a literal, and the attribute `NAMEexpr` as an expression."""
     return model.Value(_text(element, f"{name}expr"), element.get(name), span=element.place(name))

@@ -1,8 +1,8 @@
-"""The CDSL's inline state machine as a `StateMachine`. The tree has the schema's shape.
+"""Builds a `StateMachine` from `statemachine:` of a CDSL document. The tree fits the schema.
 
-States that `initial:` and `final:` name need not be listed where a transition knows them, or where no `states:` are. A
-transition that says neither on which event nor on what condition is caused by the event `t_HERE_to_THERE`, which is
-what RoboComp calls the signal of such a transition.
+`initial:` and `final:` may name a state that `states:` does not list, if a transition names that state, or if there is
+no `states:`. A transition without event and condition waits for the event `t_SOURCE_to_TARGET`, RoboComp's name for the
+signal of such a transition.
 """
 
 from __future__ import annotations
@@ -20,21 +20,22 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
 class _StateNames(msgspec.Struct):
-    """What the whole document says of states: `transitions` by their source, `listed` under any `states:`, and `met` as
-    the start or the target of a transition."""
+    """The names of states in the whole document: `transitions` by the source state, `sources` with their locations, and
+    the names `listed` under any `states:`."""
 
     transitions: dict[str, list[model.Transition]] = {}
-    places: dict[str, Text] = {}
+    sources: dict[str, Text] = {}
     listed: set[str] = set()
 
     @property
-    def met(self) -> set[str]:
-        targets = {target.text for found in self.transitions.values() for one in found for target in one.targets}
+    def in_transitions(self) -> set[str]:
+        """The states that are source or target of a transition."""
+        targets = {target.text for own in self.transitions.values() for each in own for target in each.targets}
         return targets | self.transitions.keys()
 
 
 def build(node: Mapping, name: str, path: str) -> model.StateMachine:
-    """The machine under `statemachine:` of the component `name`."""
+    """Returns the machine under `statemachine:` of the component `name`; `path` is the document as opened."""
     names = _StateNames()
     _collect(node, names)
     root = model.numbered(_state("", node, model.STATE, node.span, names))
@@ -45,24 +46,24 @@ def build(node: Mapping, name: str, path: str) -> model.StateMachine:
         root,
         events=tuple(texts(node, "events")),
         inline=True,
-        strays=tuple(source for key, source in names.places.items() if key not in known),
+        strays=tuple(source for key, source in names.sources.items() if key not in known),
         span=node.span,
     )
 
 
 def _collect(node: Node, names: _StateNames) -> None:
-    """All transitions by their source: those of one state may stand at any level."""
+    """Collects all transitions by source state: a state's transitions may be at any level of the document."""
     for key, value in entries(node, "transitions"):
-        names.places.setdefault(key.lexeme, Text(key.lexeme, span=key.span))
-        found = names.transitions.setdefault(key.lexeme, [])
-        found += (_transition(key.lexeme, item) for item in _listed(value))
+        names.sources.setdefault(key.lexeme, Text(key.lexeme, span=key.span))
+        own = names.transitions.setdefault(key.lexeme, [])
+        own += (_transition(key.lexeme, item) for item in _listed(value))
     for key, state in entries(node, "states"):
         names.listed.add(key.lexeme)
         _collect(state, names)
 
 
 def _state(name: str, node: Node | None, kind: str, span: Span, names: _StateNames) -> model.State:
-    initial, final = _named(node, "initial"), _named(node, "final")
+    initial, final = _text_at(node, "initial"), _text_at(node, "final")
     own = names.transitions.get(name, []) if name else []
     history = text(node, "history")
     if history:
@@ -75,7 +76,7 @@ def _state(name: str, node: Node | None, kind: str, span: Span, names: _StateNam
         kind=kind,
         states=tuple(_children(node, initial, final, names)),
         transitions=tuple(own[1:] if kind == model.HISTORY else own),
-        initial=_remembered(name, own) if kind == model.HISTORY else entered,
+        initial=_default_of_history(name, own) if kind == model.HISTORY else entered,
         final=final,
         deep=history == "deep",
         entry=_blocks(node, "entry"),
@@ -86,24 +87,24 @@ def _state(name: str, node: Node | None, kind: str, span: Span, names: _StateNam
 
 
 def _children(node: Node | None, initial: Text | None, final: Text | None, names: _StateNames) -> Iterator[model.State]:
-    """The states listed, and around them those that are only named: by a transition, or where nothing is listed. What
-    is named and nowhere else is no state, but a name misspelled."""
+    """The listed states. `initial` and `final` that no `states:` lists are added before and after them, if a transition
+    names them or nothing is listed; any other such name is a misspelled one."""
     listed = {key.lexeme: (key, value) for key, value in entries(node, "states")}
-    ends = {end.text: end for end in (final, initial) if end}
-    for name in list(ends):
-        if name in names.listed or (listed and name not in names.met):
-            del ends[name]
+    unlisted = {end.text: end for end in (final, initial) if end}
+    for name in list(unlisted):
+        if name in names.listed or (listed and name not in names.in_transitions):
+            del unlisted[name]
     last = final.text if final else ""
-    if initial and initial.text in ends:
+    if initial and initial.text in unlisted:
         yield _state(initial.text, None, model.FINAL if initial.text == last else model.STATE, initial.span, names)
     for name, (key, value) in listed.items():
         yield _state(name, value, model.FINAL if name == last else model.STATE, key.span, names)
-    if final and final.text in ends and not (initial and initial.text == last):
+    if final and final.text in unlisted and not (initial and initial.text == last):
         yield _state(last, None, model.FINAL, final.span, names)
 
 
-def _remembered(name: str, own: list[model.Transition]) -> model.Transition | None:
-    """Where a history leads before anything is remembered: at once, without an event."""
+def _default_of_history(name: str, own: list[model.Transition]) -> model.Transition | None:
+    """Where a history leads as long as it remembers nothing: its first transition, without an implied event."""
     if not own:
         return None
     first = own[0]
@@ -116,7 +117,7 @@ def _transition(source: str, node: Node) -> model.Transition:
         return model.Transition((_signal(source, target),), targets=(target,), span=node.span)
     to = node.get("to")
     targets = tuple(filter(None, map(as_text, _listed(to)))) if to else ()
-    condition = _named(node, "if")
+    condition = _text_at(node, "if")
     if node.get("event"):
         events = model.words(text(node, "event"), span_of(node, "event"))
     else:
@@ -135,7 +136,7 @@ def _signal(source: str, target: Text) -> Text:
     return Text(f"t_{source}_to_{target.text}", span=target.span)
 
 
-def _named(node: Node | None, key: str) -> Text | None:
+def _text_at(node: Node | None, key: str) -> Text | None:
     return as_text(node.get(key)) if node else None
 
 
@@ -149,8 +150,8 @@ def _listed(node: Node) -> list[Node]:
 
 
 def _blocks(node: Node | None, key: str) -> tuple[model.Block, ...]:
-    found = _actions(node.get(key)) if node else ()
-    return (found,) if found else ()
+    block = _actions(node.get(key)) if node else ()
+    return (block,) if block else ()
 
 
 def _actions(node: Node | None) -> model.Block:
@@ -161,7 +162,7 @@ def _action(node: Node) -> model.Action:
     """A method of the worker, or {raise: …}, {send: …, after: …}, {cancel: …}."""
     if isinstance(node, Scalar):
         return model.Script(Text(node.lexeme, span=node.span), span=node.span)
-    if raised := _named(node, "raise"):
+    if raised := _text_at(node, "raise"):
         return model.Raise(raised, span=node.span)
     if node.get("cancel"):
         return model.Cancel(model.Value(literal=text(node, "cancel")), span=node.span)

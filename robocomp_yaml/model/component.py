@@ -1,4 +1,4 @@
-"""The CDSL model: what a component is made of."""
+"""The CDSL model: components."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Use(Spanned, frozen=True):
     """An entry of `implements`, `requires`, `publishes` or `subscribes`.
 
     `interface` is as written: `Camera`, or `RoboCompCamera.Camera` / `Camera.Camera`. `name` is the interface's name,
-    or the entry's own (`{Camera1: Camera}`). `absent` says what a required proxy does when the other side is not
-    there; `timeout` is in seconds: how long to wait for it (None: for ever), and for each call thereafter (None: Ice's
+    or the entry's own (`{Camera1: Camera}`). `absent` says what a required proxy does while its server is not running.
+    `timeout` is in seconds: the longest wait for the server (None: no limit), and the longest call (None: Ice's
     default).
     """
 
@@ -42,7 +42,7 @@ class Language(Spanned, frozen=True):
 
     @property
     def target(self) -> TargetLanguage:
-        """All that there is to know of the language."""
+        """The record of the language."""
         return languages.language(self.name)
 
 
@@ -55,8 +55,8 @@ CMAKE, PKG_CONFIG, LINK, PIP = "cmake", "pkg-config", "link", "pip"
 
 
 class Library(Spanned, frozen=True):
-    """A library that the component's own code needs. `kind` is CMAKE, PKG_CONFIG, LINK or PIP; `version` is as
-    written, '' for any; `entry` counts the entries of the document."""
+    """A library that the user's code needs. `kind` is CMAKE, PKG_CONFIG, LINK or PIP; `version` is as written, '' for
+    any; `entry` is the index of the entry in `libraries:`."""
 
     kind: str
     name: str
@@ -66,21 +66,21 @@ class Library(Spanned, frozen=True):
 
 
 class Source(Spanned, frozen=True):
-    """A file of the user's repository, or (`is_class`) a folder of shared classes; by a relative path."""
+    """A file of the user's repository, or (`is_class`) a folder of shared classes, as a relative path."""
 
     path: str
     is_class: bool = False
 
     @property
     def kind(self) -> str:
-        """The key of `uses:` that it stands below."""
+        """The key of `uses:` that lists the source."""
         return "classes" if self.is_class else "sources"
 
 
 class Component(Spanned, frozen=True):
-    """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written,
-    or ''; `machine` is the state machine that stands in the document. `keys_span` are the keys of the document that
-    say anything, and where they stand."""
+    """One CDSL document. `period` is in milliseconds. `parameters` and `statemachine` are paths as written, or '';
+    `machine` is a state machine inside the document. `keys_span` has each key with a value that is not empty, and the
+    key's span."""
 
     name: str
     path: str

@@ -1,4 +1,4 @@
-"""The IDSL model: what a module defines."""
+"""The IDSL model: modules."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class TypeRef(Text, frozen=True):
 
     @property
     def module(self) -> str:
-        """What stands before the dot, or ''."""
+        """The part before the last dot, or ''."""
         return self.text.rpartition(".")[0]
 
     @property
@@ -28,7 +28,7 @@ class TypeRef(Text, frozen=True):
 
 
 class Literal(Spanned, frozen=True):
-    """A value as spelled (`lexeme`: `.9`, `2000.`, `True`, without quotes) and as understood."""
+    """A value as spelled (`lexeme`: `.9`, `2000.`, `True`, without quotes) and as parsed."""
 
     value: bool | int | float | str
     lexeme: str
@@ -45,7 +45,7 @@ class Member(Spanned, frozen=True):
 
 
 class Struct(Spanned, frozen=True):
-    """`list_span` is the place of the word `struct`."""
+    """`list_span` is the span of the key `struct`."""
 
     name: str
     members: tuple[Member, ...]
@@ -54,7 +54,8 @@ class Struct(Spanned, frozen=True):
 
 
 class Enumerator(Spanned, frozen=True):
-    """`value` is None where the author gave none (then: one more than the one before, from 0)."""
+    """`value` is None if it is not written; then it is the value of the enumerator before, plus 1, or 0 for the
+    first."""
 
     name: str
     value: int | None = None
@@ -113,7 +114,7 @@ class Method(Spanned, frozen=True):
 
     @property
     def can_be_published(self) -> bool:
-        """Topics carry one way: no result, no `out`, no exceptions."""
+        """Whether a topic can have the method: it returns nothing, has no `out` and throws nothing."""
         return self.returns is None and not self.outputs and not self.throws
 
 
@@ -136,9 +137,9 @@ class Import(Text, frozen=True):
 
 
 class Module(Spanned, frozen=True):
-    """One IDSL document. `path` is the document as opened; `stem` its name without `.idsl.yaml`.
+    """One IDSL document. `path` is the document as opened; `stem` is its name without `.idsl.yaml`.
 
-    Each tuple keeps the author's order.
+    Each tuple has the order of the document.
     """
 
     name: str
@@ -161,7 +162,7 @@ class Module(Spanned, frozen=True):
 
     @property
     def definitions(self) -> Iterator[Constant | TypeDefinition | ExceptionType | Interface]:
-        """All that the module defines, in one name space."""
+        """All definitions of the module, which share one name space."""
         yield from self.constants
         yield from self.types
         yield from self.exceptions

@@ -1,4 +1,4 @@
-"""What follows from the tree of a state machine: who holds whom, what is entered, what names there are in code."""
+"""Facts that follow from the tree of a state machine: parents, initial states, events that are sent."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from robocomp_yaml.model import conditions
 from robocomp_yaml.model import statemachine as model
 from robocomp_yaml.model.located import Text
 
-MANY = 500  # names to compare a misspelled one with: more take too long
+MANY = 500  # at most so many names are compared with a misspelled one, to stay fast
 
 
 class MachineIndex(msgspec.Struct):
-    """States are told apart by their numbers: an id may be missing, or, in a faulty machine, stand twice. `parents` are
-    by the number of each state in them."""
+    """States are identified by their numbers, because an id may be missing or, in a machine with errors, be used twice.
+    `parents` maps the number of each state to its parent."""
 
     machine: model.StateMachine
     by_id: dict[str, model.State] = {}
@@ -36,16 +36,16 @@ class MachineIndex(msgspec.Struct):
         yield from self.machine.states
 
     def parent(self, state: model.State) -> model.State | None:
-        """What holds it; None for the root."""
+        """The parent of a state; None for the root."""
         return self.parents.get(state.number)
 
     def similar(self, name: str, inside: model.State | None = None) -> Hint:
-        """A hint at a state (in this one) whose name is like this one; looking for it in thousands takes too long."""
-        ids = [found for found, state in self.by_id.items() if inside is None or inside in self.ancestors(state)]
+        """A hint at a state with a similar name, only among those in the state `inside` if it is set."""
+        ids = [id_ for id_, state in self.by_id.items() if inside is None or inside in self.ancestors(state)]
         return did_you_mean(name, ids, open_=True) if len(ids) < MANY else NO_HINT
 
     def ancestors(self, state: model.State) -> list[model.State]:
-        """From the nearest to the root."""
+        """From the parent to the root."""
         found = []
         parent = self.parent(state)
         while parent is not None:
@@ -57,7 +57,7 @@ class MachineIndex(msgspec.Struct):
         return [self.by_id[target.text] for target in transition.targets if target.text in self.by_id]
 
     def defaults(self, state: model.State) -> list[model.State]:
-        """What is entered with a state when nothing says otherwise."""
+        """The states that are entered with a state by default."""
         children = [child for child in state.states if child.kind != model.HISTORY]
         if state.kind == model.PARALLEL:
             return children
@@ -66,13 +66,13 @@ class MachineIndex(msgspec.Struct):
         return children[:1]
 
     def transitions(self) -> Iterator[tuple[model.State, model.Transition]]:
-        """Every transition with the state it belongs to, those of `initial` left out."""
+        """Every transition with its state, but for the transitions of `initial`."""
         for state in self.states:
             for transition in state.transitions:
                 yield state, transition
 
     def actions(self) -> Iterator[model.Action]:
-        """Every action of the machine, not of those that it invokes."""
+        """Every action of the machine, without those of the machines that it invokes."""
         yield from model.actions(self.machine.scripts)
         for state in self.states:
             for block in model.blocks(state):
@@ -92,14 +92,14 @@ class MachineIndex(msgspec.Struct):
             yield from state.invokes
 
     def invoked(self) -> Iterator[model.StateMachine]:
-        """The machines that it invokes, as far as the document holds them."""
+        """The machines that the machine invokes, if the document contains them."""
         for invoke in self.invokes():
             for value in (invoke.source, invoke.payload.content):
                 if value is not None and value.machine is not None:
                     yield value.machine
 
     def can_be_done(self, state: model.State) -> bool:
-        """Whether `done.state.X` can come."""
+        """Whether the event `done.state.X` of the state can occur."""
         if state.kind == model.PARALLEL:
             children = [child for child in state.states if child.kind != model.HISTORY]
             return bool(children) and all(self.can_be_done(child) for child in children)
@@ -107,7 +107,7 @@ class MachineIndex(msgspec.Struct):
 
 
 def is_unconditional(transition: model.Transition, datamodel: str) -> bool:
-    """Whether it is taken whatever holds: it has no condition, or one that is always true."""
+    """Whether the transition has no condition, or one that is always true."""
     if transition.condition is None:
         return True
     text = transition.condition.text.strip()
@@ -120,6 +120,6 @@ def is_unconditional(transition: model.Transition, datamodel: str) -> bool:
 
 
 def prefixes(event: str) -> list[str]:
-    """What matches an event: `door` and `door.open` for `door.open`, and '' for everything."""
+    """The descriptors that match an event: '' (for every event), `door` and `door.open` for `door.open`."""
     words = event.split(".")
     return ["", *(".".join(words[:number]) for number in range(1, len(words) + 1))]

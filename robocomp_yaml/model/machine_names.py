@@ -1,4 +1,4 @@
-"""What the parts of a state machine are called in code: the same in every language."""
+"""The names of a state machine's parts in generated code, which are the same in every language."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from robocomp_yaml.model.statemachine import HISTORY, PYTHON, If, Script, State,
 
 STATE, GUARD, ACTION, EVENT = "the state", "the guard", "the action", "the event"
 
-# Methods that every worker has and an action may call.
+# Methods of every worker that an action may call.
 CALLABLE = frozenset(["compute", "killYourSelf"])
 
-# What the worker of code for RoboComp's own tool has besides what every worker has, or calls of Qt.
+# Further names that a worker has, or gets from Qt, if its code is like that of RoboComp's own generator.
 ROBOCOMP_NAMES = frozenset(
     "Period close configLoader connect disconnect emergency event hibernation hibernationCheck hibernationChecker kill "
     "parent restore setParams setupUi show startup_check states timer ui".split()
@@ -26,7 +26,7 @@ _DEFAULT_MACHINE = "defaultMachine"
 
 
 class NamedPart(msgspec.Struct, frozen=True):
-    """A part of a machine, under the name that it has in the document and in code."""
+    """A part of a machine: `text` is its name in the document, `name` its name in code."""
 
     kind: str
     text: Text
@@ -34,7 +34,7 @@ class NamedPart(msgspec.Struct, frozen=True):
 
 
 def entry_handler(state: str) -> str:
-    """RoboComp's name for the method that is called when a state is entered."""
+    """The name of the method that is called when a state is entered, as in RoboComp."""
     return f"sm_{state}"
 
 
@@ -47,24 +47,24 @@ def period_handler(state: str) -> str:
 
 
 def robocomp_machine(machine: StateMachine) -> str:
-    """The member that RoboComp's code starts: it has the name that the machine has in its own file."""
+    """The member with which RoboComp's code starts the machine: the name in the SCXML file, if it is a legal one."""
     taken = ROBOCOMP_NAMES | {"communicator", "events", "log", "mutex", "parameters", "statemachine"}
     is_name = not machine.inline and re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", machine.name) and machine.name not in taken
     return machine.name if is_name else _DEFAULT_MACHINE
 
 
 def robocomp_signals(machine: StateMachine) -> list[str]:
-    """The events that RoboComp's code emits as signals: each is named after where the machine goes."""
+    """The events that RoboComp's code emits as signals: `t_SOURCE_to_TARGET`."""
     return [event.name for event in events(machine) if re.fullmatch(r"t_\w+_to_\w+", event.name)]
 
 
 def states_with_handlers(machine: StateMachine) -> list[State]:
-    """The states that have handlers."""
+    """The states with handler methods: those with an id, without histories."""
     return [state for state in machine.states if state.id and state.kind != HISTORY]
 
 
 def events(machine: StateMachine) -> list[NamedPart]:
-    """What the component's code may fire: what transitions wait for, unless it comes from the machine itself."""
+    """The events that the component's code may fire: those that transitions wait for, without the machine's own."""
     found: dict[str, NamedPart] = {}
     listed = [event for _, transition in MachineIndex(machine).transitions() for event in transition.events]
     for event in (*machine.events, *listed):
@@ -75,12 +75,12 @@ def events(machine: StateMachine) -> list[NamedPart]:
 
 
 def guards(machine: StateMachine) -> list[NamedPart]:
-    """Methods that say whether a condition holds."""
+    """The guards: methods that return whether a condition holds."""
     return list({named.name: named for named in _methods(machine) if named.kind == GUARD}.values())
 
 
 def actions(machine: StateMachine) -> list[NamedPart]:
-    """Methods that do something on the way."""
+    """The actions: methods that transitions and handlers call."""
     return list({named.name: named for named in _methods(machine) if named.kind == ACTION}.values())
 
 
@@ -107,7 +107,7 @@ def _guards(text: str) -> list[str]:
 
 
 def _read(read: Callable[[str], list[str]], text: Text) -> list[str]:
-    """Nothing where the text is wrong, of which another one tells."""
+    """The names in a text; none if the text is wrong, which a check reports."""
     try:
         return read(text.text)
     except conditions.NullSyntaxError:

@@ -1,4 +1,4 @@
-"""The shape of SCXML: which element may stand where, with which attributes. What a schema is for YAML."""
+"""The shape of SCXML: which elements may contain which, with which attributes. It is what a schema is for YAML."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ROBOCOMP = "urn:robocomp:statemachine"
 
 
 class Shape(msgspec.Struct, frozen=True):
-    """`one` are groups of attributes of which at most one is given; a group that starts with '!' needs one."""
+    """Each group in `one` has attributes that exclude each other; if it starts with '!', one of them is required."""
 
     attributes: str = ""
     children: str = ""
@@ -72,7 +72,7 @@ _VALUES: dict[tuple[str, str], tuple[str, ...]] = {
 
 
 def shape_faults(root: Element) -> Iterator[Diagnostic]:
-    """Everything that is not as SCXML wants it. Elements of other namespaces are notes of other tools."""
+    """Reports all that SCXML 1.0 does not allow. Elements of other namespaces are skipped."""
     if root.name != "scxml" or root.namespace not in (SCXML, ""):
         yield codes.NOT_SCXML.at(root.span, name=root.name)
     else:
@@ -82,7 +82,7 @@ def shape_faults(root: Element) -> Iterator[Diagnostic]:
 
 
 def scxml_children(parent: Element) -> Iterator[Element]:
-    """The children that are SCXML's."""
+    """The children in the namespace of SCXML."""
     return (child for child in parent.children if child.namespace in (SCXML, ""))
 
 
@@ -91,17 +91,19 @@ def _element_faults(element: Element) -> Iterator[Diagnostic]:
     known = shape.attributes.split()
     for name in element.attributes:
         if name not in known and " " not in name:
-            hint = did_you_mean(name, known, element.attributes, otherwise=f"it has {', '.join(known) or 'none'}")
+            hint = did_you_mean(
+                name, known, element.attributes, otherwise=f"it has {', '.join(known) or 'no attributes'}"
+            )
             yield codes.UNKNOWN_ATTRIBUTE.at(element.place(name), name=name, element=element.name, hint=hint)
     for name in shape.required.split():
         if not (element.get(name) or "").strip():
             yield codes.MISSING_ATTRIBUTE.at(element.span, name=name, element=element.name)
     for group in shape.one:
         names = group.lstrip("!").split()
-        given = [name for name in names if element.get(name) is not None]
-        if len(given) > 1:
-            yield codes.TWO_ATTRIBUTES.at(element.place(given[1]), first=given[0], second=given[1])
-        elif not given and group.startswith("!"):
+        present = [name for name in names if element.get(name) is not None]
+        if len(present) > 1:
+            yield codes.TWO_ATTRIBUTES.at(element.place(present[1]), first=present[0], second=present[1])
+        elif not present and group.startswith("!"):
             yield codes.MISSING_ATTRIBUTE.at(element.span, name="' or '".join(names), element=element.name)
     yield from _values(element)
     allowed = shape.children.split()
@@ -113,9 +115,12 @@ def _element_faults(element: Element) -> Iterator[Diagnostic]:
     for child in scxml_children(element):
         if child.name not in allowed:
             close = suggest(child.name, allowed)
-            holds = f"it holds {', '.join(allowed)}" if allowed else ""
+            otherwise = f"it may contain {', '.join(allowed)}" if allowed else ""
             yield codes.UNKNOWN_ELEMENT.at(
-                child.span, name=child.name, parent=element.name, hint=f"did you mean <{close}>?" if close else holds
+                child.span,
+                name=child.name,
+                parent=element.name,
+                hint=f"did you mean <{close}>?" if close else otherwise,
             )
         else:
             yield from _element_faults(child)
@@ -126,20 +131,23 @@ def _element_faults(element: Element) -> Iterator[Diagnostic]:
 
 def _values(element: Element) -> Iterator[Diagnostic]:
     for name, value in element.attributes.items():
-        wanted = _VALUES.get((element.name, name))
-        if wanted and value not in wanted:
-            yield codes.BAD_VALUE.at(element.place(name), name=name, value=value, hint=f"write {' or '.join(wanted)}")
+        allowed = _VALUES.get((element.name, name))
+        if allowed and value not in allowed:
+            yield codes.BAD_VALUE.at(element.place(name), name=name, value=value, hint=f"write {' or '.join(allowed)}")
     delay = element.get("delay")
     if element.name == "send" and delay is not None and seconds(delay) is None:
         yield codes.BAD_VALUE.at(element.place("delay"), name="delay", value=delay, hint="write 100ms or 1.5s")
     if element.name == "send" and delay is not None and element.get("target") == "#_internal":
         yield codes.BAD_VALUE.at(
-            element.place("delay"), name="delay", value=delay, hint="what goes to #_internal goes at once"
+            element.place("delay"),
+            name="delay",
+            value=delay,
+            hint="an event to #_internal is sent at once: remove the delay, or the target",
         )
 
 
 def _counts(element: Element) -> Iterator[Diagnostic]:
-    """What may stand there once."""
+    """Elements that may occur once only."""
     names = [child.name for child in scxml_children(element)]
     if element.name in ("initial", "history") and names.count("transition") != 1:
         yield codes.ONE_TRANSITION.at(element.span, element=element.name)
