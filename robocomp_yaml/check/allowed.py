@@ -1,4 +1,4 @@
-"""What comments in documents allow is not told; what they allow in vain is."""
+"""Suppresses diagnostics that comments (`# rcyaml: allow`) allow, and reports comments that suppress nothing."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ _ABOUT_THEM = ("RC0060", "RC0061", "RC0062", "RC0063", "RC0064")
 
 
 class AllowanceVerdict(msgspec.Struct, frozen=True):
-    """`reported` is what no comment allows, and what is wrong with comments for that; `used` are the allowances that this
-    gave something to do."""
+    """`reported` are the diagnostics that no comment suppresses, and those about comments that cannot suppress theirs;
+    `used` are the allowances that apply to a diagnostic."""
 
     reported: tuple[Diagnostic, ...]
     used: frozenset[Allowance]
 
 
 class Allowances(msgspec.Struct, frozen=True):
-    """The allowances of a run's documents by their paths; `faults` is what is wrong with the comments themselves."""
+    """The allowances of a run's documents by path; `faults` are the diagnostics about the comments themselves."""
 
     by_file: Mapping[str, tuple[Allowance, ...]] = {}
     faults: tuple[Diagnostic, ...] = ()
@@ -34,38 +34,38 @@ class Allowances(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, texts: Texts, plugins_of: Callable[[str], Plugins]) -> Allowances:
-        """Those of the YAML documents among these files; `plugins_of` says which plug-ins count for one."""
-        by_file, faults, having = {}, [], {}
+        """The allowances in the YAML documents of these files; `plugins_of` returns the plug-ins of a workspace."""
+        by_file, faults, with_comments = {}, [], {}
         for path, raw in texts.contents.items():
             if path.endswith(".yaml") and OURS.search(raw) and (text := texts.get(path)) is not None:
                 plugins = plugins_of(path)
                 found, wrong = allowances(text, plugins.codes, whole=plugins.whole)
-                by_file[path], having[path] = tuple(found), text
+                by_file[path], with_comments[path] = tuple(found), text
                 faults += wrong
-        return cls(by_file, tuple(faults), having)
+        return cls(by_file, tuple(faults), with_comments)
 
     def judge(self, diagnostics: Iterable[Diagnostic], lint: Callable[[str], Mapping[str, str]]) -> AllowanceVerdict:
-        """Which of these are told. `lint` gives the severities that a file's workspace asks for: an error that it makes
-        less than an error can be allowed, and so can a warning that it makes an error."""
+        """Separates suppressed diagnostics from the others. `lint` returns the severities that the workspace of a file
+        sets. A comment can suppress all but errors that have no other severity there."""
         reported: list[Diagnostic] = []
         used: set[Allowance] = set()
         errors: set[Allowance] = set()
         for one in diagnostics:
             file = self.by_file.get(one.span.file, ())
-            here = [each for each in file if each.code == one.code and each.covers(one.span)]
-            if not here:
+            covering = [each for each in file if each.code == one.code and each.covers(one.span)]
+            if not covering:
                 reported.append(one)
             elif one.code in _ABOUT_THEM or ERROR == one.severity == lint(one.span.file).get(one.code, ERROR):
-                errors.update(here)
+                errors.update(covering)
                 reported.append(one)
             else:
-                used.add(here[0])
+                used.add(covering[0])
         return AllowanceVerdict((*reported, *_of_errors(errors)), frozenset(used | errors))
 
     def unused(
         self, files: Iterable[str], used: Collection[Allowance], *, environment: bool
     ) -> Iterator[Diagnostic]:  # fmt: skip
-        """The allowances in these files that are not among those that a whole check used."""
+        """Reports the allowances in these files that are not `used`, after a complete check."""
         for file in files:
             for one in self.by_file.get(file, ()):
                 if one not in used and _is_checked(row_of(one.code), environment):
@@ -75,13 +75,13 @@ class Allowances(msgspec.Struct, frozen=True):
 
 
 def _of_errors(errors: Iterable[Allowance]) -> Iterator[Diagnostic]:
-    """The allowances of what no comment can allow."""
+    """Reports allowances of errors, and of diagnostics about such comments."""
     for one in sorted(errors, key=lambda one: (one.span, one.code)):
         why = "it is about such comments" if one.code in _ABOUT_THEM else "it is an error"
-        yield codes.ALLOW_ERROR.at(one.span, code=one.code, why=why, hint="mend what it says, and remove this")
+        yield codes.ALLOW_ERROR.at(one.span, code=one.code, why=why, hint="correct the error, and remove this comment")
 
 
 def _is_checked(row: Code, environment: bool) -> bool:
-    """Whether a check would have given it: what only a compile can see, it cannot judge."""
+    """Whether a check can report the code: some codes are reported only by `rcyaml compile`."""
     command = row.command
     return not command.startswith("compile") and (environment or "--environment" not in command)

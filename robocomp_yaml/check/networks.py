@@ -1,4 +1,4 @@
-"""What is wrong with networks: the checks of `ddsl/`, and what depends on this machine."""
+"""Checks of networks: those of `ddsl/`, and those that depend on this machine."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _FAMILY = "RC4"
 
 
 def check_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
-    """What deriving them said, and what the checks say."""
+    """The diagnostics of deriving the networks, and of the checks."""
     if not derived.networks:
         return iter(())
     checks = checks_of("ddsl")
@@ -26,8 +26,7 @@ def check_networks(derived: Derived, program: Program) -> Iterator[Diagnostic]:
 
 
 def check_environment(derived: Derived, *, environment: bool) -> Iterator[Diagnostic]:
-    """What depends on this machine: warnings about executables that are not there, and, where `environment` is asked
-    for, about programs and addresses."""
+    """Diagnostics that depend on this machine: missing executables and, with `environment`, programs and addresses."""
     from robocomp_yaml.check.ddsl import files, hosts
 
     found: list[Diagnostic] = []
@@ -39,7 +38,7 @@ def check_environment(derived: Derived, *, environment: bool) -> Iterator[Diagno
 
 
 def one_per_cause(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """What a document says once is reported once, however many instances it gives or includes it is part of."""
+    """Removes repetitions: an error in a document is reported once, even if it affects many instances or includes."""
     seen = set()
     for fault in diagnostics:
         cause: object = fault

@@ -1,4 +1,4 @@
-"""Imports resolved and names looked up: documents become one program."""
+"""Resolves imports and interfaces: documents become one program."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _VERBS = {
 
 
 class Linker(msgspec.Struct):
-    """Links the documents of one run; `diagnostics` collects what is wrong with references."""
+    """Links the documents of one run; `diagnostics` collects the errors in references."""
 
     documents: Documents
     search: ImportSearch
@@ -45,10 +45,10 @@ class Linker(msgspec.Struct):
     workspaces: dict[str, WorkspaceSettings] = {}
     diagnostics: list[Diagnostic] = []
     _by_folder: dict[str, WorkspaceSettings] = {}
-    _found: dict[str, list[str]] = {}  # real path: those of the modules it imports
+    _imported: dict[str, list[str]] = {}  # by real path: the real paths of the imported modules
 
     def link(self, paths: Iterable[str]) -> Program:
-        """The program of these documents and of all that they import."""
+        """Returns the program of these documents and of all documents to which they refer."""
         self.documents.plugins_of = self._plugins_of
         todo = [self.documents.get(path) for path in paths]
         requested = frozenset(document.real for document in todo)
@@ -105,7 +105,7 @@ class Linker(msgspec.Struct):
         return self.workspace_of(path).plugins
 
     def _expanded(self, component: Component) -> LinkedComponent:
-        """A component with what its options add."""
+        """The component with the interfaces that its options add."""
         if component.options:
             from robocomp_yaml.link import options  # of legacy components
 
@@ -114,13 +114,13 @@ class Linker(msgspec.Struct):
         return LinkedComponent(component)
 
     def _root_of(self, path: str) -> str:
-        """The folder that a document's workspace consists of; without a declared one, that of its component."""
+        """The root of a document's workspace; without a declared workspace, the folder of its component."""
         workspace = self.workspace_of(path)
         is_deep = not workspace.declared and os.path.basename(os.path.abspath(workspace.root or ".")) == "etc"
         return os.path.normpath(os.path.join(workspace.root, os.pardir)) if is_deep else workspace.root
 
     def workspace_of(self, path: str) -> WorkspaceSettings:
-        """The workspace that a document belongs to; without a declared one, its own folder."""
+        """The settings of a document's workspace; without a declared workspace, its root is the document's folder."""
         folder = os.path.dirname(path)
         if folder not in self._by_folder:
             root = root_above(folder, self.documents.disk)
@@ -138,7 +138,7 @@ class Linker(msgspec.Struct):
         if linked.component.machine is not None or not linked.component.statemachine:
             tie(linked, machine=linked.component.machine)
             return
-        from robocomp_yaml.link.machines import MachineReader  # with XML, which few need
+        from robocomp_yaml.link.machines import MachineReader  # it imports the parser of XML, which few runs need
 
         reader = MachineReader(self.documents.disk)
         machine = reader.of(linked.component)
@@ -148,10 +148,10 @@ class Linker(msgspec.Struct):
     def _imports(
         self, document: Document, imports: tuple[Import, ...], unresolved: set[str], codes: ModuleType
     ) -> list[Document]:
-        """The documents that imports name. What an import that cannot be used might have defined goes to
+        """The imported documents. The names of modules that imports without a usable document might define are added to
         `unresolved`."""
         workspace = self.workspace_of(document.path)
-        found: dict[str, Document] = {}
+        documents: dict[str, Document] = {}
         for imported in imports:
             path, other_case = self.search.find(imported.text, document.path, workspace)
             if path is None:
@@ -169,36 +169,36 @@ class Linker(msgspec.Struct):
                         hint=Hint(f"write '{name}'", imported.stem, name, safe=True),
                     )
                 )
-            if target.real in found or target.real == document.real:
+            if target.real in documents or target.real == document.real:
                 self.diagnostics.append(
                     codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text, fixes=[removal(imported.span)])
                 )
                 continue
-            found[target.real] = target
+            documents[target.real] = target
             if not isinstance(target.model, Module):
                 unresolved.update(_names(imported), {target.module} - {""})
-        self._found[document.real] = [real for real in found if isinstance(found[real].model, Module)]
-        return list(found.values())
+        self._imported[document.real] = [real for real, target in documents.items() if isinstance(target.model, Module)]
+        return list(documents.values())
 
     def _unresolved(
-        self, document: Document, imported: Import, given: set[str], workspace: WorkspaceSettings, codes: ModuleType
+        self, document: Document, imported: Import, others: set[str], workspace: WorkspaceSettings, codes: ModuleType
     ) -> None:
         itself = os.path.basename(document.path).removesuffix(SUFFIX)
         known = [name for name in self.search.known(document.path, workspace) if name != itself]
         hint = did_you_mean(
             imported.text,
             known,
-            given,
+            others,
             open_=True,
-            otherwise="put its document beside this one, or name its folder under `interfaces:` in rcyaml.yaml, or "
-            "with -I",
+            otherwise="put its document beside this one, or list its folder under `interfaces:` in rcyaml.yaml, or "
+            "pass it with -I",
         )
         self.diagnostics.append(codes.UNRESOLVED_IMPORT.at(imported.span, name=imported.text, hint=hint))
 
     def _join(self) -> None:
-        """Modules point at the modules they import, but for imports in a circle, which are reported."""
+        """Links modules with the modules that they import, except for imports on a circle, which are reported."""
         graph = {
-            real: [other for other in self._found.get(real, ()) if other in self.tables.modules]
+            real: [other for other in self._imported.get(real, ()) if other in self.tables.modules]
             for real in self.tables.modules
         }
         in_circle = self._circles(graph)
@@ -208,31 +208,31 @@ class Linker(msgspec.Struct):
             names = {name for imported in circular for name in (imported.name, imported.stem)}
             tie(linked, imports=tuple(direct), unresolved=linked.unresolved | names)
         for real, component in self.tables.components.items():
-            tie(component, imports=tuple(self.tables.modules[other] for other in self._found.get(real, ())))
+            tie(component, imports=tuple(self.tables.modules[other] for other in self._imported.get(real, ())))
 
     def _circles(self, graph: dict[str, list[str]]) -> set[tuple[str, str]]:
-        """The imports that lie on a circle, each circle reported once, at the first of its documents."""
+        """The imports on circles. Each circle is reported once, at the first of its documents."""
         circles: set[tuple[str, str]] = set()
         for members in digraph.knots(graph):
             circles |= {(real, other) for real in members for other in graph[real] if other in members}
             first = min(members, key=lambda real: self.tables.modules[real].module.path)
-            around = [self.tables.modules[real].module for real in (*digraph.circle(graph, members, first), first)]
-            places = [
+            circle = [self.tables.modules[real].module for real in (*digraph.circle(graph, members, first), first)]
+            steps = [
                 Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
-                for one, next_ in pairwise(around)
+                for one, next_ in pairwise(circle)
             ]
             self.diagnostics.append(
                 idsl.IMPORT_CYCLE.at(
-                    places[0].span,
-                    cycle=" → ".join(module.stem for module in around),
-                    related=places[1:],
-                    hint="move what both need to a third document",
+                    steps[0].span,
+                    cycle=" → ".join(module.stem for module in circle),
+                    related=steps[1:],
+                    hint="move the definitions that both need to a third document",
                 )
             )
         return circles
 
     def _importable(self, document: Document, interface: str) -> str | None:
-        """The document to import for an interface that no import defines."""
+        """The document to import for an interface that no imported module defines; None if it is unknown."""
         for linked in sorted(self.tables.modules.values(), key=lambda m: m.module.path):
             if any(i.name == interface for i in linked.module.all_interfaces):
                 return linked.module.stem
@@ -250,18 +250,18 @@ def _import_of(module: Module, other: Module) -> Import:
 
 
 def _link_ports(linked: LinkedComponent, importable: Callable[[str], str | None]) -> Iterator[Diagnostic]:
-    """Fills the component's ports; a name that cannot be resolved makes it `broken`. `importable` says which document
-    to import for an interface, where one is known."""
+    """Resolves the interfaces of a component's ports; an unknown one makes the component `broken`. `importable` returns
+    the document to import for an interface, or None."""
     component = linked.component
     for list_, verb in _VERBS.items():
         ports = []
         for use in getattr(component, list_):
-            found = list(_lookup(linked, use))
-            if len(found) == 1:
-                ports.append(Port(use, found[0][1], found[0][0]))
+            matches = list(_lookup(linked, use))
+            if len(matches) == 1:
+                ports.append(Port(use, matches[0][1], matches[0][0]))
                 continue
-            if found:
-                names = " or ".join(f"{scope.module.name}.{interface.name}" for scope, interface in found)
+            if matches:
+                names = " or ".join(f"{scope.module.name}.{interface.name}" for scope, interface in matches)
                 yield cdsl.AMBIGUOUS_INTERFACE.at(use.span, name=use.interface, hint=f"write {names}")
             elif not linked.broken or not _may_be_missing(linked):
                 yield cdsl.UNKNOWN_INTERFACE.at(
@@ -286,21 +286,21 @@ def _lookup(linked: LinkedComponent, use: Use) -> Iterator[tuple[LinkedModule, I
 
 
 def _may_be_missing(linked: LinkedComponent) -> bool:
-    """Whether an import that could not be used may define what is not found."""
+    """Whether an import without a usable document may define an unknown name."""
     return len(linked.imports) < len({imported.text for imported in linked.component.imports})
 
 
-def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | None], given: set[str]) -> Hint:
-    """`given` are the interfaces that stand beside it; another use of one has a name of its own."""
+def _hint(linked: LinkedComponent, use: Use, importable: Callable[[str], str | None], others: set[str]) -> Hint:
+    """The hint at an unknown interface; `others` are the interfaces in the same list."""
     name = use.interface.rpartition(".")[2]
     document = importable(name)
     imported = {scope.module.stem for scope in linked.imports}
     if document and document not in imported:
         return Hint(f"add '{document}' to `imports`", imports=document)
     where = {i.name: scope.module.path for scope in linked.imports for i in scope.module.all_interfaces}
-    meant = suggest(name, (one for one in where if one not in given))
+    meant = suggest(name, (one for one in where if one not in others))
     if meant:
         return meaning(name, meant, more=f" ({where[meant]})", safe=meant.lower() == name.lower())
-    if meant := suggest(name, given & where.keys()):
-        return Hint(f"'{meant}' is there already")
+    if meant := suggest(name, others & where.keys()):
+        return Hint(f"the list already has '{meant}'")
     return Hint(f"the imported modules define: {', '.join(where)}" if where else "import the module that defines it")

@@ -1,4 +1,4 @@
-"""Options of legacy components: what each stands for, as data in `migrate/options/`, is added to the component."""
+"""Options of legacy components. The data in `migrate/options/` says what each option adds to a component."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from robocomp_yaml.source.tree import parse
 
 
 class OptionMeaning(msgspec.Struct, frozen=True):
-    """`imports` and, by list, interfaces that an option adds; `left` is what it asked for besides."""
+    """The `imports` and, by list, the interfaces that an option adds; `left` is what the user has to write."""
 
     imports: tuple[str, ...]
     interfaces: dict[str, tuple[str, ...]]
@@ -27,13 +27,13 @@ class OptionMeaning(msgspec.Struct, frozen=True):
 
 
 def expanded(component: Component) -> tuple[Component, list[Diagnostic]]:
-    """The component with what its options add. What it has already is not added again."""
+    """Returns the component with what its options add, without duplicates, and diagnostics about the options."""
     diagnostics: list[Diagnostic] = []
     for option in component.options:
         meaning = _meanings().get(option.text.lower())
         if meaning is None:
-            given = {other.text.lower() for other in component.options}
-            hint = did_you_mean(option.text, _meanings(), given, otherwise=f"there are {', '.join(_meanings())}")
+            others = {other.text.lower() for other in component.options}
+            hint = did_you_mean(option.text, _meanings(), others, otherwise=f"there are {', '.join(_meanings())}")
             diagnostics.append(codes.UNKNOWN_OPTION.at(option.span, name=option.text, hint=hint))
             continue
         component = _with(component, option, meaning)
@@ -48,14 +48,14 @@ def _with(component: Component, option: Text, meaning: OptionMeaning) -> Compone
     lists: dict[str, tuple[Use, ...]] = {}
     for list_, names in meaning.interfaces.items():
         uses: tuple[Use, ...] = getattr(component, list_)
-        mine = {use.interface.rpartition(".")[2] for use in uses}
-        lists[list_] = (*uses, *(Use(name, name, span=option.span) for name in names if name not in mine))
+        present = {use.interface.rpartition(".")[2] for use in uses}
+        lists[list_] = (*uses, *(Use(name, name, span=option.span) for name in names if name not in present))
     return replace(component, imports=(*component.imports, *imports), **lists)
 
 
 @cache
 def _meanings() -> dict[str, OptionMeaning]:
-    """The meaning of each option, by its name in lower case."""
+    """The meanings of all options by their names in lower case."""
     names = (name for name in resources.names("migrate/options") if name.endswith(".yaml"))
     return {name.removesuffix(".yaml"): _meaning(resources.text(f"migrate/options/{name}"), name) for name in names}
 

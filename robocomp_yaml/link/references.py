@@ -1,4 +1,4 @@
-"""What documents and definitions name: the types they refer to, the identifiers they introduce."""
+"""The types that definitions refer to, and the identifiers that they introduce."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ KINDS: dict[type, str] = {
 
 
 class Identifier(msgspec.Struct, frozen=True):
-    """An identifier where it is introduced; `kind` in the user's words, and `owner` where it stands in something that
-    has no definition of its own."""
+    """An identifier where it is introduced. `kind` is a word for messages; `owner` is set if the owner has no
+    definition of its own, as a method has none."""
 
     kind: str
     text: str
@@ -38,7 +38,7 @@ def kind_of(definition: Definition) -> str:
 
 
 def types_of(definition: Definition) -> Iterator[model.TypeRef]:
-    """Every type that a definition refers to, in its order; `throws` apart."""
+    """Every type that a definition refers to, in the order of the document, without `throws`."""
     match definition:
         case model.Constant(type=type_):
             yield type_
@@ -66,7 +66,7 @@ def exceptions_of(definition: Definition) -> Iterator[model.TypeRef]:
 
 
 def groups(definition: Definition) -> Iterator[list[Identifier]]:
-    """The identifiers inside of a definition, by the scope that they share."""
+    """The identifiers inside of a definition, one list for each scope."""
     match definition:
         case model.Struct(members=members) | model.ExceptionType(members=members):
             yield [Identifier("member", member.name, member.span) for member in members]
@@ -81,5 +81,5 @@ def groups(definition: Definition) -> Iterator[list[Identifier]]:
 
 
 def macro(stem: str) -> str:
-    """A document's name in the characters of a macro. Documents that share it cannot become files of one program."""
+    """A document's name as the name of a macro. Two documents with the same macro cannot be in one program."""
     return "".join(c if c.isascii() and c.isalnum() else "_" for c in stem).upper()

@@ -202,7 +202,7 @@ class Connections(msgspec.Struct):
 
     def _called(self, offer: Offer, draft: Draft) -> str:
         """As `connect:` may name it: a member of a closed group by the group."""
-        for group in self.drafts.linked.closed_around(offer.owner.instance, draft.instance)[:1]:
+        for group in self.drafts.linked.closed_groups_of(offer.owner.instance, draft.instance)[:1]:
             for served in group.serves:
                 if self.drafts.of(served.instance) is offer.owner and served.adapter == offer.adapter:
                     return f"{group.name}.{served.name}"

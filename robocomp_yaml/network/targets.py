@@ -45,7 +45,7 @@ class Targets(msgspec.Struct):
             return None
         served: list[tuple[str, Offer]] = []
         for target in targets:
-            around = linked.closed_around(target, instance)
+            around = linked.closed_groups_of(target, instance)
             if isinstance(target, LinkedStorm):
                 self.diagnostics.append(
                     codes.NOT_SERVED.at(

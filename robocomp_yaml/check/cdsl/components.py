@@ -1,4 +1,4 @@
-"""Components: what their lists may say together."""
+"""Components: names, folders, ports and libraries."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from robocomp_yaml.model.component import LINK, LISTS, PIP, Component, Library
 from robocomp_yaml.source.file_names import LONGEST_NAME, is_too_long, shortened
 
 _NUMBERS = r" *(>=|<=|==|=|>|<)? *\d+(\.\d+)* *"
-_LONGEST_SUFFIX = "_autogen"  # the folder of what CMake makes for Qt
+_LONGEST_SUFFIX = "_autogen"  # CMake's folder for generated Qt code
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -39,24 +39,25 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 name=linked.component.name,
                 other=first.name,
                 hint="give each component a folder of its own",
-                related=[Related("the other one", first.span)],
+                related=[Related("the other component", first.span)],
             )
         yield from _libraries(component)
     yield from _same_names(program)
 
 
 def _same_names(program: Program) -> Iterator[Diagnostic]:
-    """The same component in several languages is one; whatever belongs to no declared workspace belongs together. Of
-    two alike, the one with the longer path is told of: copies are called `speech2`, `speech (copy)` or `old/speech`."""
+    """A component's name is unique in its workspace, except that the same component may be in several languages.
+    Documents without a workspace count as one workspace. The component with the longer path is reported, because copies
+    are called `speech2`, `speech (copy)` or `old/speech`."""
     by_name: dict[str, list[LinkedComponent]] = {}
     for linked in program.components.values():
         by_name.setdefault(linked.component.name, []).append(linked)
-    for name, alike in by_name.items():
-        if len(alike) == 1:
+    for name, same in by_name.items():
+        if len(same) == 1:
             continue
         first: dict[tuple[str, str], LinkedComponent] = {}
         free = (f"{name}{n}" for n in count(2) if f"{name}{n}" not in by_name)
-        for linked in sorted(alike, key=lambda each: (len(each.component.path), each.component.path)):
+        for linked in sorted(same, key=lambda each: (len(each.component.path), each.component.path)):
             component = linked.component
             root = root_above(os.path.dirname(component.path))
             workspace = "" if root is None else os.path.realpath(root)
@@ -66,8 +67,8 @@ def _same_names(program: Program) -> Iterator[Diagnostic]:
                     component.span,
                     name=name,
                     other=other.path,
-                    related=[Related("the other one", other.span)],
-                    hint=f"a copy needs a name of its own: `component: {next(free)}`",
+                    related=[Related("the other component", other.span)],
+                    hint=f"rename the copy: `component: {next(free)}`",
                 )
 
 
@@ -76,13 +77,13 @@ def _is_same(one: Port, other: Port) -> bool:
 
 
 def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
-    """Each entry has a name of its own in its list, and each proxy a name of its own in code."""
+    """Names are unique in a list, and so are the names of proxies in code."""
     for list_ in LISTS:
         names: dict[str, Port] = {}
         accessors: dict[str, Port] = {}
         for port in getattr(linked, list_):
             if port.interface.name == "CommonBehavior" and list_ == "implements":
-                yield codes.COMMON_BEHAVIOR.at(port.use.span, hint="leave it out", fixes=[removal(port.use.span)])
+                yield codes.COMMON_BEHAVIOR.at(port.use.span, hint="remove it", fixes=[removal(port.use.span)])
             if port.name in names:
                 free = next(f"{port.name}{n}" for n in range(1, 1000) if f"{port.name}{n}" not in names)
                 entry = f"{{{free}: {port.use.interface}}}"
@@ -90,8 +91,8 @@ def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
                     port.use.span,
                     name=port.name,
                     list=list_,
-                    hint="leave it out" if list_ != "requires" else f"write {entry}, or leave it out",
-                    related=[Related("it stands here first", names[port.name].use.span)],
+                    hint="remove it" if list_ != "requires" else f"write {entry}, or remove it",
+                    related=[Related("the first one", names[port.name].use.span)],
                     fixes=[removal(port.use.span, safe=list_ != "requires" and _is_same(port, names[port.name]))],
                 )
                 continue
@@ -106,13 +107,13 @@ def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
                     name=port.name,
                     other=other.name,
                     accessor=accessor,
-                    hint=f"give one of them a name of its own: {{{port.name}2: {port.use.interface}}}",
-                    related=[Related(f"'{other.name}' stands here", other.use.span)],
+                    hint=f"rename one of them: {{{port.name}2: {port.use.interface}}}",
+                    related=[Related(f"'{other.name}'", other.use.span)],
                 )
 
 
 def _topics(linked: LinkedComponent) -> Iterator[Diagnostic]:
-    """What is published goes one way; what is a topic is not called."""
+    """Topics are published and subscribed; what is published has no results."""
     for port in (*linked.publishes, *linked.subscribes):
         lost = [method.name for method in port.interface.methods if not method.can_be_published]
         if lost and not port.interface.is_topic:
@@ -129,11 +130,11 @@ def _libraries(component: Component) -> Iterator[Diagnostic]:
         by_entry.setdefault(library.entry, []).append(library)
     for libraries in by_entry.values():
         if len(libraries) > 1:
-            places = " and ".join(f"`{library.kind}`" for library in libraries)
-            yield codes.LIBRARY_OF_TWO_KINDS.at(libraries[1].span, places=places, hint="write two entries")
+            kinds = " and ".join(f"`{library.kind}`" for library in libraries)
+            yield codes.LIBRARY_OF_TWO_KINDS.at(libraries[1].span, places=kinds, hint="write two entries")
     for library in component.libraries:
-        plain = all(re.fullmatch(_NUMBERS, part) for part in library.version.split(",")) and library.kind != LINK
-        if library.version and library.kind != PIP and not plain:
+        is_numeric = all(re.fullmatch(_NUMBERS, part) for part in library.version.split(",")) and library.kind != LINK
+        if library.version and library.kind != PIP and not is_numeric:
             yield codes.LIBRARY_VERSION.at(
                 library.version_span, version=library.version.strip(), kind=f"`{library.kind}`"
             )

@@ -1,4 +1,4 @@
-"""Addresses of hosts, and TCP ports: what is no address, what the others cannot reach, what two processes listen on."""
+"""Addresses of hosts, and TCP ports: wrong and unreachable addresses, and ports of two processes on one host."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ def _addresses(network: Network) -> Iterator[Diagnostic]:
             yield codes.BAD_ADDRESS.at(host.span, address=host.address, problem=problem)
         elif is_far and is_loopback(host.address):
             yield codes.LOOPBACK.at(
-                host.span, name=host.name, address=host.address, hint="give it the address by which the others reach it"
+                host.span, name=host.name, address=host.address, hint="write the address that other hosts use for it"
             )
 
 
 def unresolved(network: Network) -> Iterator[Diagnostic]:
-    """Names that this machine cannot resolve: a question to the network, so it is asked only when wanted."""
+    """Reports host names that this machine cannot resolve. Name servers are asked, so this is for `--environment`."""
     for host in _declared(network):
         if not _problem(host.address):
             try:
@@ -49,7 +49,7 @@ def _declared(network: Network) -> list[Host]:
 
 
 def _problem(address: str) -> str:
-    """Why a text is no address, or ''."""
+    """Why a text is not an address, or ''."""
     if ":" in address or re.fullmatch(r"[0-9.]+", address):
         try:
             found = ipaddress.ip_address(address)
@@ -69,7 +69,7 @@ def _conflicts(network: Network) -> Iterator[Diagnostic]:
     named = {name for name, host in network.hosts.items() if host.span.file}
     for process in network.enabled():
         if named and process.host not in named:
-            continue  # its host is not known, which has been told
+            continue  # its host is unknown, which is reported already
         machine = _machine(network.address(process))
         for endpoint in process.endpoints:
             if not endpoint.port:
@@ -85,23 +85,23 @@ def _conflicts(network: Network) -> Iterator[Diagnostic]:
                         name=_name(process, endpoint),
                         other=_name(other, served),
                         host=f"host '{process.host}'" if network.hosts[process.host].span.file else "this machine",
-                        hint=_mend(process, endpoint, served),
-                        related=[Related(f"{_name(other, served)} has it, too", served.span)],
+                        hint=_hint(process, endpoint, served),
+                        related=[Related(f"{_name(other, served)} uses it too", served.span)],
                     )
                     break
             others.append((bound, process, endpoint))
 
 
-def _mend(process: Process, endpoint: Endpoint, other: Endpoint) -> str:
+def _hint(process: Process, endpoint: Endpoint, other: Endpoint) -> str:
     if endpoint.span != other.span:
-        return "give one of them another port"
+        return "change one of the two ports"
     if process.component:
-        return "leave the port out, and each of them gets one of its own"
-    return f"give each one of its own; {{i}} counts instances: `-p {endpoint.port // 10}{{i}}`"
+        return "remove the port; then rcyaml chooses one for each instance"
+    return f"use {{i}}, the number of the instance, in the port: `-p {endpoint.port // 10}{{i}}`"
 
 
 def _machine(address: str, *, keep: bool = False) -> str:
-    """All loopback addresses lead to one machine; with `keep`, they are told apart."""
+    """The machine of an address. All loopback addresses are one machine, unless `keep` distinguishes them."""
     if address in (LOOPBACK, "127.0.0.1", "::1") or (is_loopback(address) and not keep):
         return LOOPBACK
     return address

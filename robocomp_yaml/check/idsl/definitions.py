@@ -1,4 +1,4 @@
-"""Definitions of types that Slice refuses: values without an end, empty types, numbers of enums, keys of maps."""
+"""Types that Slice rejects: types that contain themselves, empty types, numbers of enums, keys of maps."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                         kind="enum",
                         name=definition.name,
                         parts="enumerators",
-                        hint="name at least one: {enum: [first]}",
+                        hint="add at least one: {enum: [first]}",
                     )
             elif isinstance(definition, Struct) and not definition.members:
                 yield codes.EMPTY_TYPE.at(
@@ -36,47 +36,47 @@ def check(program: Program) -> Iterator[Diagnostic]:
                     kind="struct",
                     name=definition.name,
                     parts="members",
-                    hint="give it a member: {struct: {x: float}}",
+                    hint="add a member: {struct: {x: float}}",
                 )
             elif isinstance(definition, Map):
                 yield from _key(linked, definition.key)
 
 
 def _cycles(linked: LinkedModule) -> Iterator[Diagnostic]:
-    """Imports form no circles, so a circle of types lies within one module. One is told of each knot of types that
-    contain each other, from the type that the author wrote first."""
+    """Reports types that contain themselves: one circle of each group of types that contain each other, from the type
+    that is first in the document. Imports have no circles, so a circle of types is in one module."""
     types = {definition.name: definition for definition in reversed(linked.module.types)}
     uses = {name: [other for other in _used(linked, types[name]) if other in types] for name in types}
     for knot in digraph.knots(uses):
         start = min(knot, key=lambda name: types[name].span)
         circle = [types[name] for name in digraph.circle(uses, knot, start)]
         first = circle[0]
-        inside = [_holds(linked, d, circle[(n + 1) % len(circle)]) for n, d in enumerate(circle)]
+        inside = [_span_of_use(linked, d, circle[(n + 1) % len(circle)]) for n, d in enumerate(circle)]
         names = [definition.name for definition in (*circle, first)]
         yield codes.VALUE_CYCLE.at(
             inside[0], kind=kind_of(first), name=first.name, cycle=" → ".join(names),
-            hint="hold an identifier or a key of the other value, not the value itself",
+            hint="use an identifier or a key of the other value, not the value itself",
             related=[
-                Related(f"'{d.name}' holds '{circle[(n + 1) % len(circle)].name}' here", inside[n])
+                Related(f"'{d.name}' contains '{circle[(n + 1) % len(circle)].name}'", inside[n])
                 for n, d in enumerate(circle) if n
             ],
         )  # fmt: skip
 
 
-def _holds(linked: LinkedModule, outer: TypeDefinition, inner: TypeDefinition) -> Span:
-    """Where one type holds another: the member of a struct, else the type of the elements."""
-    places = [m.span for m in outer.members] if isinstance(outer, Struct) else [ref.span for ref in types_of(outer)]
-    for place, ref in zip(places, types_of(outer), strict=True):
-        found = None if ref.is_basic else linked.find(ref)
-        if found and found[1] is inner:
-            return place
+def _span_of_use(linked: LinkedModule, outer: TypeDefinition, inner: TypeDefinition) -> Span:
+    """The span where one type contains another: the member of a struct, or the type of the elements."""
+    spans = [m.span for m in outer.members] if isinstance(outer, Struct) else [ref.span for ref in types_of(outer)]
+    for span, ref in zip(spans, types_of(outer), strict=True):
+        target = None if ref.is_basic else linked.find(ref)
+        if target and target[1] is inner:
+            return span
     return outer.span
 
 
 def _used(linked: LinkedModule, definition: TypeDefinition) -> list[str]:
-    """The own types that a type contains."""
-    found = (linked.find(ref) for ref in types_of(definition) if not ref.is_basic)
-    return [other[1].name for other in found if other and other[0] is linked]
+    """The types of the same module that a type contains."""
+    targets = (linked.find(ref) for ref in types_of(definition) if not ref.is_basic)
+    return [target[1].name for target in targets if target and target[0] is linked]
 
 
 def _numbers(enum: Enum) -> Iterator[Diagnostic]:
@@ -92,7 +92,7 @@ def _numbers(enum: Enum) -> Iterator[Diagnostic]:
             name=enumerator.name,
             number=number,
             largest=LARGEST,
-            hint="give it a number of its own: an enumerator without one has one more than the one before",
+            hint="write its number: without one, it is the number before, plus 1",
         )
     for (number, other), (_, enumerator) in repeated(numbered, lambda pair: pair[0]):
         yield codes.ENUM_NUMBER_TWICE.at(
@@ -100,13 +100,13 @@ def _numbers(enum: Enum) -> Iterator[Diagnostic]:
             name=enumerator.name,
             other=other.name,
             number=number,
-            hint="give one of them another number",
-            related=[Related(f"'{other.name}' stands here", other.span)],
+            hint="change one of the numbers",
+            related=[Related(f"'{other.name}'", other.span)],
         )
 
 
 def _key(linked: LinkedModule, key: TypeRef) -> Iterator[Diagnostic]:
-    """Only values that can be compared exactly are keys of maps; a struct is judged by its members."""
+    """Checks the key of a map: its values must compare exactly; those of a struct do if its members do."""
 
     def members(part: tuple[LinkedModule, TypeRef]) -> Iterator[tuple[LinkedModule, TypeRef]]:
         target = part[0].find(part[1])

@@ -1,7 +1,7 @@
-"""Names within a module: what Slice lets them be, and that no two are alike.
+"""Names in a module: names that Slice allows, and duplicates.
 
-Reserved words of target languages are no concern, since Ice's mappings escape them: but for a few that the one to
-Python forgets. What C++ cannot have all the same, `cpp` says.
+Reserved words of target languages are allowed, because Ice's mappings escape them, except a few in Python. Names that
+cannot be used in a language nevertheless are the subject of that language's own checks.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ LONGEST_NAME = 200
 
 
 class SliceNameFault(msgspec.Struct, frozen=True):
-    """Why Slice does not take a word; `facts` fill the code's message beside the word and its kind."""
+    """Why Slice rejects a name; `facts` are for the message, in addition to the name and its kind."""
 
     code: Code
     hint: str | Hint = "choose another name"
@@ -72,7 +72,7 @@ def _legal(name: Identifier) -> Iterator[Diagnostic]:
 
 @lru_cache(maxsize=10_000)
 def fault_of(word: str) -> SliceNameFault | None:
-    """Whether Slice takes a word as an identifier; its characters are the schema's matter."""
+    """Why Slice rejects a word as an identifier, or None. The schema checks the characters."""
     if word in RESERVED:
         other = word[0].swapcase() + word[1:]
         return SliceNameFault(codes.RESERVED_WORD, f"choose another name; '{other}' is allowed")
@@ -80,15 +80,19 @@ def fault_of(word: str) -> SliceNameFault | None:
         return SliceNameFault(codes.PYTHON_WORD)
     parts = [part for part in word.split("_") if part]
     if "_".join(parts) != word:
-        reason = "underscores stand alone, between other characters"
+        reason = "each underscore must be between other characters"
         better = "_".join(parts) if parts and not parts[0][0].isdigit() else ""
         hint = Hint(f"write '{better}'", word, better) if better else "choose another name"
         return SliceNameFault(codes.ILLEGAL_NAME, hint, {"reason": reason})
     if word[:3].lower() == "ice":
-        return SliceNameFault(codes.ILLEGAL_NAME, facts={"reason": f"names that start with '{word[:3]}' are Ice's own"})
+        return SliceNameFault(
+            codes.ILLEGAL_NAME, facts={"reason": f"names that start with '{word[:3]}' are reserved for Ice"}
+        )
     if word.endswith(RESERVED_SUFFIXES):
         suffix = next(suffix for suffix in RESERVED_SUFFIXES if word.endswith(suffix))
-        return SliceNameFault(codes.ILLEGAL_NAME, facts={"reason": f"names that end in '{suffix}' are Ice's own"})
+        return SliceNameFault(
+            codes.ILLEGAL_NAME, facts={"reason": f"names that end in '{suffix}' are reserved for Ice"}
+        )
     if len(word) > LONGEST_NAME:
         return SliceNameFault(codes.ILLEGAL_NAME, facts={"reason": f"a name has at most {LONGEST_NAME} characters"})
     return None
@@ -96,7 +100,7 @@ def fault_of(word: str) -> SliceNameFault | None:
 
 def _distinct(owner: str, names: Iterable[Identifier], kinds: str) -> Iterator[Diagnostic]:
     for other, name in repeated(names, lambda name: name.text.lower()):
-        related = [Related(f"'{other.text}' stands here first", other.span)]
+        related = [Related(f"the first '{other.text}'", other.span)]
         if other.text == name.text:
             yield codes.DUPLICATE_NAME.at(
                 name.span, owner=owner, kinds=kinds, name=name.text, hint="rename one of them", related=related
@@ -108,7 +112,7 @@ def _distinct(owner: str, names: Iterable[Identifier], kinds: str) -> Iterator[D
                 kinds=kinds,
                 name=name.text,
                 other=other.text,
-                hint="rename one of them: Slice takes both for the same name",
+                hint="rename one of them: in Slice, case does not distinguish names",
                 related=related,
             )
 
@@ -122,5 +126,5 @@ def _not_named_as(outer: str, outer_name: str, names: Iterable[Identifier]) -> I
                 name=name.text,
                 outer=outer,
                 outer_name=outer_name,
-                hint="choose another name: Slice allows no such pair, in whatever case",
+                hint="choose another name, not one that differs only in case",
             )

@@ -1,4 +1,4 @@
-"""References to types and exceptions: that each names something, and something of the right kind."""
+"""References to types and exceptions: unknown ones, those of a wrong kind, and repetitions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from robocomp_yaml.link.program import LinkedModule, Program
 from robocomp_yaml.link.references import kind_of, types_of
 from robocomp_yaml.model.interface import BASIC_TYPES, ExceptionType, Interface, Method, Module, TypeDefinition, TypeRef
 
-# How other languages call the basic types.
+# The names of basic types in other languages.
 _FOREIGN = {
     "bool": "boolean Boolean Bool",
     "byte": "char uint8 uint8_t int8 int8_t octet",
@@ -24,8 +24,8 @@ _FOREIGN = {
     "double": "float64 Double",
     "string": "str text String wstring",
 }
-MOST_SUGGESTIONS = 100  # in a run: each compares a word with every name in reach
-_MEANT = {foreign: ours for ours, others in _FOREIGN.items() for foreign in others.split()}
+MOST_SUGGESTIONS = 100  # in a run, because each compares a word with all known names
+_MEANT = {foreign: name for name, others in _FOREIGN.items() for foreign in others.split()}
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -41,16 +41,16 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 class _Definers:
-    """What helps to explain a name that is not found; made only when there is one."""
+    """The modules that define a name, for hints. It is filled when the first name is unknown."""
 
     def __init__(self, program: Program) -> None:
         self.program = program
         self._by_name: dict[tuple[str, bool], list[Module]] = {}
         self._suggestions_left = MOST_SUGGESTIONS
 
-    def meant(self, word: str, candidates: Iterator[str], given: Container[str]) -> Hint:
+    def meant(self, word: str, candidates: Iterator[str], others: Container[str]) -> Hint:
         self._suggestions_left -= 1
-        return did_you_mean(word, candidates, given) if self._suggestions_left >= 0 else NO_HINT
+        return did_you_mean(word, candidates, others) if self._suggestions_left >= 0 else NO_HINT
 
     def definers(self, name: str, exception: bool) -> list[Module]:
         """The modules that define a type, or an exception, of this name, in order of their paths."""
@@ -65,36 +65,37 @@ class _Definers:
 def _resolved(
     linked: LinkedModule, ref: TypeRef, index: _Definers, thrown: set[str] | None = None
 ) -> Iterator[Diagnostic]:  # fmt: skip
-    """`thrown` are the exceptions of the same list, None for a type."""
-    found = None if ref.is_basic else linked.find(ref)
-    if found is None:
+    """Reports a reference that is unknown or of a wrong kind. `thrown` are the exceptions of the same list, None for a
+    type."""
+    target = None if ref.is_basic else linked.find(ref)
+    if target is None:
         if ref.module not in linked.unresolved:
             code = codes.UNKNOWN_TYPE if thrown is None else codes.UNKNOWN_EXCEPTION
             yield code.at(ref.span, name=ref.text, hint=_hint(linked, ref, index, thrown))
-    elif not isinstance(found[1], TypeDefinition if thrown is None else ExceptionType):
-        kind = kind_of(found[1])
-        code, hint = codes.NOT_A_TYPE, "a type is a basic one, or one defined under `types:`"
+    elif not isinstance(target[1], TypeDefinition if thrown is None else ExceptionType):
+        kind = kind_of(target[1])
+        code, hint = codes.NOT_A_TYPE, "use a basic type, or one that is defined under `types:`"
         if thrown is not None:
-            code, hint = codes.NOT_AN_EXCEPTION, "an exception is defined under `exceptions:`"
-        related = [Related(f"the {kind} stands here", found[1].span)]
+            code, hint = codes.NOT_AN_EXCEPTION, "define it under `exceptions:`"
+        related = [Related(f"the {kind}", target[1].span)]
         yield code.at(ref.span, name=ref.text, kind=kind, hint=hint, related=related)
 
 
 def _thrown_once(linked: LinkedModule, method: Method) -> Iterator[Diagnostic]:
-    """`Other.Failed` and `RoboCompOther.Failed` are the same exception."""
+    """Reports exceptions that a method lists twice. `Other.Failed` and `RoboCompOther.Failed` are the same."""
     for other, ref in repeated(method.throws, lambda ref: linked.find(ref) or ref.text):
         yield codes.THROWN_TWICE.at(
             ref.span,
             method=method.name,
             name=ref.text,
             hint="remove one of them",
-            related=[Related("it stands here first", other.span)],
+            related=[Related("the first one", other.span)],
             fixes=[removal(ref.span)],
         )
 
 
 def _hint(linked: LinkedModule, ref: TypeRef, index: _Definers, thrown: set[str] | None) -> Hint:
-    """How to mend a name that is not there; `thrown` are the exceptions of the same list, None for a type."""
+    """The hint at an unknown name; `thrown` are the exceptions of the same list, None for a type."""
     exception = thrown is not None
     if not exception and ref.text == "void":
         return Hint("a method that returns nothing has no `returns`")
@@ -109,26 +110,26 @@ def _hint(linked: LinkedModule, ref: TypeRef, index: _Definers, thrown: set[str]
             return meaning(ref.text, f"{module.stem}.{ref.name}")
         if is_imported:
             return Hint(
-                f"write '{module.stem}.{ref.name}': a name of another module stands behind that module's",
+                f"write '{module.stem}.{ref.name}': names of other modules need the module's name",
                 ref.text,
                 f"{module.stem}.{ref.name}",
                 len(definers) == 1,
             )
     if definers:
         full = f"{definers[0].stem}.{ref.name}"
-        said = f"add {definers[0].stem} to `imports`"
+        words = f"add {definers[0].stem} to `imports`"
         if full == ref.text:
-            return Hint(said, imports=definers[0].stem)
-        return Hint(f"{said}, and write '{full}'", ref.text, full, imports=definers[0].stem)
+            return Hint(words, imports=definers[0].stem)
+        return Hint(f"{words}, and write '{full}'", ref.text, full, imports=definers[0].stem)
     meant = index.meant(ref.text, _known(linked, exception), thrown or ())
-    return meant or Hint("define it, or import the module that does")
+    return meant or Hint("define it, or import the module that defines it")
 
 
 def _known(linked: LinkedModule, exception: bool) -> Iterator[str]:
-    """The names that could stand there."""
-    wanted = ExceptionType if exception else TypeDefinition
-    yield from (d.name for d in linked.module.definitions if isinstance(d, wanted))
+    """All names of types, or of exceptions, that a reference can have."""
+    kinds = ExceptionType if exception else TypeDefinition
+    yield from (d.name for d in linked.module.definitions if isinstance(d, kinds))
     if not exception:
         yield from BASIC_TYPES
     for imported in linked.imports:
-        yield from (f"{imported.module.stem}.{d.name}" for d in imported.module.definitions if isinstance(d, wanted))
+        yield from (f"{imported.module.stem}.{d.name}" for d in imported.module.definitions if isinstance(d, kinds))

@@ -1,4 +1,4 @@
-"""State machines: the data model, and what conditions, values and scripts say in it. Nothing is run."""
+"""State machines: the data model, and the syntax of conditions, values and scripts in it. Nothing is executed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from robocomp_yaml.model.machine_index import MachineIndex
 from robocomp_yaml.model.statemachine import NULL, PYTHON, StateMachine
 
 _VALUE, _CONDITION, _SCRIPT = "the value", "the condition", "the script"
-_Found = tuple[str, Text | None]
+_Expression = tuple[str, Text | None]
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -28,12 +28,12 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _machine(machine: StateMachine, language: TargetLanguage) -> Iterator[Diagnostic]:
-    """What a machine says in a data model that a component in this language does not have."""
+    """Checks a machine, and those that it invokes, for a component in this language."""
     index = MachineIndex(machine)
     name = machine.datamodel or NULL
     if name not in language.datamodels:
         others = [other for other in language.datamodels if other != NULL]
-        hint = f'write "{others[0]}"' if others else "leave it out: then conditions are guards of the worker"
+        hint = f'write "{others[0]}"' if others else "remove it; then conditions consist of guards of the worker"
         yield codes.DATAMODEL.at(machine.datamodel_span, name=name, language=language.title, hint=hint)
     else:
         faults = _faults_in_python if name == PYTHON else _faults_in_null
@@ -43,8 +43,8 @@ def _machine(machine: StateMachine, language: TargetLanguage) -> Iterator[Diagno
         yield from _machine(invoked, language)
 
 
-def _expressions(index: MachineIndex) -> Iterator[_Found]:
-    """Every expression of a machine, after what it is: a value, a condition, a script, or the element that names a
+def _expressions(index: MachineIndex) -> Iterator[_Expression]:
+    """Every expression of a machine, with its kind: a value, a condition, a script, or the element that names a
     variable."""
     for state in index.states:
         for data in state.data:
@@ -59,7 +59,7 @@ def _expressions(index: MachineIndex) -> Iterator[_Found]:
         yield from _of_action(action)
 
 
-def _of_action(action: model.Action) -> Iterator[_Found]:
+def _of_action(action: model.Action) -> Iterator[_Expression]:
     match action:
         case model.Send():
             for value in (action.event, action.target, action.type, action.delay):
@@ -80,7 +80,7 @@ def _of_action(action: model.Action) -> Iterator[_Found]:
             yield from ((_CONDITION, condition) for condition, _ in branches)
 
 
-def _of_payload(payload: model.Payload) -> Iterator[_Found]:
+def _of_payload(payload: model.Payload) -> Iterator[_Expression]:
     yield from ((_VALUE, param.value.expr) for param in payload.params)
     if payload.content is not None:
         yield _VALUE, payload.content.expr
@@ -92,7 +92,7 @@ _READERS: dict[str, Callable[[str], object]] = {
 
 
 def _faults_in_null(index: MachineIndex, what: str, text: Text) -> Iterator[Diagnostic]:
-    """Values are literals, conditions consist of guards, scripts of actions."""
+    """Checks an expression of the data model `null`, and the states in its conditions."""
     if what not in _READERS:
         yield codes.NEEDS_DATAMODEL.at(text.span, what=what)
         return
@@ -109,7 +109,7 @@ def _faults_in_null(index: MachineIndex, what: str, text: Text) -> Iterator[Diag
 
 
 def _faults_in_python(_: MachineIndex, what: str, text: Text) -> Iterator[Diagnostic]:
-    """Python's syntax."""
+    """Checks the syntax of an expression in Python."""
     if what not in _READERS:
         return
     is_script = what == _SCRIPT

@@ -1,4 +1,4 @@
-"""State machines: states that nothing leads to, circles without an end, events that are lost or never come."""
+"""State machines: unreachable states, endless circles, events that are lost or never sent."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def _of(machine: StateMachine) -> Iterator[Diagnostic]:
 
 
 def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
-    """The outermost ones. Not told where a name is wrong: then everything behind it would be."""
+    """Reports the outermost unreachable states. If a name is unknown, none is reported, because too many would be."""
     if index.machine.strays or any(
         target.text not in index.by_id
         for state in index.states
@@ -51,26 +51,30 @@ def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
             continue
         reached.add(state.number)
         if state.kind == HISTORY:
-            around = index.ancestors(state)[:1]
-            todo += index.targets(state.initial) if state.initial else index.defaults(around[0])
+            parent = index.ancestors(state)[0]
+            todo += index.targets(state.initial) if state.initial else index.defaults(parent)
             continue
-        around = index.ancestors(state)
-        todo += around
-        for parent in around:
+        ancestors = index.ancestors(state)
+        todo += ancestors
+        for parent in ancestors:
             if parent.kind == PARALLEL:
                 todo += index.defaults(parent)
         if state.number in targets or not any(child.number in reached for child in state.states):
-            todo += index.defaults(state)  # it is not only entered because a state in it is
+            todo += index.defaults(state)  # it may be entered by itself, not only with a state inside
         for transition in state.transitions:
             todo += index.targets(transition)
     for state in index.machine.states:
-        lost = state.number not in reached
-        if lost and state.kind != HISTORY and all(one.number in reached for one in index.ancestors(state)[:1]):
+        is_unreachable = state.number not in reached
+        if (
+            is_unreachable
+            and state.kind != HISTORY
+            and all(one.number in reached for one in index.ancestors(state)[:1])
+        ):
             yield codes.UNREACHABLE.at(state.span, id=state.id or "(without a name)")
 
 
 def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
-    """Transitions that are taken at once, and lead back to where they came from."""
+    """Reports circles of transitions that are taken at once."""
     seen: set[int] = set()
     for start in index.machine.states:
         path: dict[int, State] = {}
@@ -82,9 +86,9 @@ def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
         if state is not None and state.number in path:
             members = list(path.values())
             circle = members[list(path).index(state.number) :]
-            place = next(t.span for s in _sources(index, state) for t in s.transitions if not t.events)
+            span = next(t.span for s in _sources(index, state) for t in s.transitions if not t.events)
             names = " → ".join(member.id or "(without a name)" for member in (*circle, state))
-            yield codes.ENDLESS.at(place, circle=names, hint="give one of the transitions an event or a condition")
+            yield codes.ENDLESS.at(span, circle=names, hint="give one of the transitions an event or a condition")
 
 
 def _sources(index: MachineIndex, state: State) -> list[State]:
@@ -92,7 +96,7 @@ def _sources(index: MachineIndex, state: State) -> list[State]:
 
 
 def _at_once(index: MachineIndex, state: State) -> State | None:
-    """Where the machine goes from an atomic state whatever happens; None where that depends, or it stays."""
+    """The state to which the machine always goes on at once; None if there is none, or if it depends."""
     while state.states:
         inner = index.defaults(state)
         if state.kind == PARALLEL or len(inner) != 1 or inner[0].kind == HISTORY:
@@ -104,25 +108,25 @@ def _at_once(index: MachineIndex, state: State) -> State | None:
     transition = next((t for source in ancestors for t in source.transitions if not t.events), None)
     if transition is None or not is_unconditional(transition, index.machine.datamodel):
         return None
-    found = index.targets(transition) if transition.targets else [state]
-    return found[0] if len(found) == 1 and found[0].kind != HISTORY else None
+    targets = index.targets(transition) if transition.targets else [state]
+    return targets[0] if len(targets) == 1 and targets[0].kind != HISTORY else None
 
 
 def _sent(machine: StateMachine) -> tuple[list[Text], bool]:
-    """The events that a machine and those it invokes raise and send, and whether these are all."""
+    """The events that a machine and its invoked machines raise or send, and whether these are all."""
     index = MachineIndex(machine)
-    found = [event for event, _ in index.sends()]
+    events = [event for event, _ in index.sends()]
     complete = not any(isinstance(action, Send) and action.event.expr for action in index.actions())
     complete &= all(invoke.source.expr is None for invoke in index.invokes())
     for invoked in index.invoked():
         inner, inner_complete = _sent(invoked)
-        found += inner
+        events += inner
         complete &= inner_complete
-    return found, complete
+    return events, complete
 
 
 def _unheard(index: MachineIndex) -> Iterator[Diagnostic]:
-    """What the machine sends to itself, and no transition waits for."""
+    """Reports events that the machine sends to itself and no transition waits for."""
     heard = [event.text for _, transition in index.transitions() for event in transition.events]
     known = {beginning(descriptor) for descriptor in heard}
     named = [descriptor for descriptor in known if descriptor and not descriptor.startswith(_PLATFORM)]
@@ -139,7 +143,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
     heads = {prefix for event in known for prefix in prefixes(event)}
     listed = "`events:`" if index.machine.inline else "`rc:events`"
     for state, transition in index.transitions():
-        signals = {f"t_{state.id}_to_{target.text}" for target in transition.targets}  # what RoboComp's code fires
+        signals = {f"t_{state.id}_to_{target.text}" for target in transition.targets}  # RoboComp's code fires these
         for event in transition.events:
             if event.text in signals:
                 continue
@@ -150,7 +154,7 @@ def _never_sent(index: MachineIndex) -> Iterator[Diagnostic]:
                     event.text,
                     known[:MANY],
                     open_=True,
-                    otherwise=f"list it under {listed}, for the component's code to fire it",
+                    otherwise=f"list it under {listed}, if the component's code fires it",
                 )
                 yield codes.NEVER_SENT.at(event.span, event=event.text, why="", hint=hint)
 
@@ -163,11 +167,11 @@ def _platform(index: MachineIndex, transition: Transition, event: Text) -> Itera
     if what == "state":
         state = index.by_id.get(name)
         if state is None:
-            why = f": there is no state '{name}'"
+            why = f": unknown state '{name}'"
             yield codes.NEVER_SENT.at(event.span, event=event.text, why=why, hint=index.similar(name))
         elif not index.can_be_done(state):
             why = f": '{name}' has no final state in " + ("each of its parts" if state.kind == PARALLEL else "it")
             yield codes.NEVER_SENT.at(event.span, event=event.text, why=why)
     elif what == "invoke":
         if all(invoke.id and name not in prefixes(invoke.id) for invoke in index.invokes()):
-            yield codes.NEVER_SENT.at(event.span, event=event.text, why=": nothing is invoked under this name")
+            yield codes.NEVER_SENT.at(event.span, event=event.text, why=": no invocation has this id")
