@@ -272,7 +272,7 @@ class Expansion(msgspec.Struct):
                     hint="rename one of the two hosts",
                     related=[
                         Related("the other host", known.address.span),
-                        Related("included expanded", expanded.span),
+                        Related("the include", expanded.span),
                     ],
                 )
             )

@@ -47,7 +47,7 @@ def test_check_says_what_the_command_says(place: Path, rcyaml: Rcyaml) -> None:
         (one["code"], one["message"], one["file"], one["line"]) for one in told
     ]
     assert str(found[0]) == (
-        "interfaces/Bad.idsl.yaml:2:11: error[RC1101]: there is no interface document called 'Speach'"
+        "interfaces/Bad.idsl.yaml:2:11: error[RC1101]: unknown import 'Speach'"
     )
 
 

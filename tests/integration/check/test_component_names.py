@@ -30,7 +30,7 @@ def test_a_copied_folder(rcyaml: Run, tmp_path: Path, copy: str, head: Tree) -> 
     (tmp_path / copy).parent.mkdir(exist_ok=True)
     (tmp_path / "copied").rename(tmp_path / copy)
     document = f"{copy}/speech.cdsl.yaml"
-    wanted = ("RC2011", document, "a copy needs a name of its own: `component: SpeechComp2`")
+    wanted = ("RC2011", document, "rename the copy: `component: SpeechComp2`")
     for command in ("check", "compile"):
         result = rcyaml(command, "--format", "json")
         assert result.exit_code == 1
@@ -45,7 +45,7 @@ def test_a_copied_folder(rcyaml: Run, tmp_path: Path, copy: str, head: Tree) -> 
 def test_each_copy_is_told_and_gets_another_name(rcyaml: Run, tmp_path: Path) -> None:
     write_tree(tmp_path, {f"s{n}/s.cdsl.yaml": CDSL for n in ("", "2", "3")})
     write_tree(tmp_path, {"t/t.cdsl.yaml": CDSL.replace("SpeechComp", "SpeechComp2")})
-    hint = "a copy needs a name of its own: `component: SpeechComp{}`"
+    hint = "rename the copy: `component: SpeechComp{}`"
     assert _told(rcyaml("check", "--format", "json")) == [
         ("RC2011", "s2/s.cdsl.yaml", hint.format(3)), ("RC2011", "s3/s.cdsl.yaml", hint.format(4))
     ]  # fmt: skip

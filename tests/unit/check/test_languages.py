@@ -42,7 +42,7 @@ def said(rcyaml: Rcyaml, folder: Path, language: Any, keys: dict[str, Any]) -> l
 
 def told(language: TargetLanguage, key: str, line: int) -> list[tuple[str, str, int]]:
     if key in language.ignored:
-        message = f"a component in {language.title} does not build anything: `{key}` has no effect"
+        message = f"`{key}` has no effect: a component in {language.title} is not compiled"
         return [("RC2303", message, line)]
     return [] if key in language.has else [("RC2060", f"`{key}:` is not available in {language.title}", line)]
 
