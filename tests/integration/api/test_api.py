@@ -46,9 +46,7 @@ def test_check_says_what_the_command_says(place: Path, rcyaml: Rcyaml) -> None:
     assert [(one.code, one.message, one.span.file, one.span.line) for one in found] == [
         (one["code"], one["message"], one["file"], one["line"]) for one in told
     ]
-    assert str(found[0]) == (
-        "interfaces/Bad.idsl.yaml:2:11: error[RC1101]: unknown import 'Speach'"
-    )
+    assert str(found[0]) == ("interfaces/Bad.idsl.yaml:2:11: error[RC1101]: unknown import 'Speach'")
 
 
 def test_an_overlay_counts_everywhere(place: Path) -> None:

@@ -36,7 +36,7 @@ A_B = '<state id="a"><transition event="go" target="b"/></state><state id="b"/>'
     (machine('<state id="a"><transition event="done.state.a" target="b"/></state><final id="b"/>'),
      ["2:34 RC2229 nobody sends the event 'done.state.a': 'a' has no final state in it"]),
     (machine('<state id="a"><transition event="done.invoke.x error.* * .*"/></state>'),
-     ["2:34 RC2229 nobody sends the event 'done.invoke.x': nothing is invoked under this name"]),
+     ["2:34 RC2229 nobody sends the event 'done.invoke.x': no invocation has this id"]),
     (machine('<state id="a"><transition event="go" target="b c"/></state>'
              '<parallel id="p"><state id="b"/><state id="c"/></parallel>'), []),
     (machine('<state id="a"><transition event="go" target="p b"/></state>'
@@ -54,8 +54,8 @@ A_B = '<state id="a"><transition event="go" target="b"/></state><state id="b"/>'
              '<state id="e"><transition event="y" target="h"/></state>'), []),
     (machine('<state id="ä"/>', 'initial="ä"'), ["2:12 RC2222 'ä' cannot be the name of a state"]),
     (machine('<state id="a"><onentry><script>while True: pass</script></onentry></state>'),
-     ["2:24 RC2217 the script 'while True: pass' is not valid in the data model null: 'while True: pass' is no name of an "
-      "action"]),
+     ["2:24 RC2217 the script 'while True: pass' is not valid in the data model null: 'while True: pass' is not the name of "
+      "an action"]),
     (machine('<state id="a"><transition cond="In(\'z\')" event="x"/></state>'), ["2:33 RC2221 unknown state 'z'"]),
     (machine('<state id="a"><onentry><foreach array="x" item="y"/><assign location="z" expr="1"/></onentry></state>'),
      ["2:40 RC2218 <foreach> needs a data model with variables",
@@ -139,8 +139,8 @@ def test_no_script_language_in_cpp(diagnostics: Check) -> None:
     ("  initial: a\n  states: {b: {parallel: true, states: {c: {}}}}\n  transitions: {a: b}\n", []),
     ("  initial: a\n  states: {b: {initial: c, states: {c: {}, d: {}, h: {history: deep}}}}\n"
      "  transitions: {a: b, c: d, b: {to: h, event: again}}\n",
-     ["5:51 RC2223 the history 'h' has no initial state write transitions: {h: …}, for when "
-      "there is nothing to remember yet"]),
+     ["5:51 RC2223 the history 'h' has no initial state write transitions: {h: …}, for the first time, "
+      "when it remembers nothing"]),
     ("  initial: a\n  transitions: {a: {to: a, event: x y.z w.*, if: 'In(\"a\")'}}\n", []),
     ("  initial: a\n  transitions: {a: {to: a, if: '1 < 2'}}\n",
      ["5:32 RC2217 the condition '1 < 2' is not valid in the data model null: '1 < 2' is neither the name of a guard nor In('state')"]),
@@ -182,7 +182,7 @@ def test_a_name_of_no_state_in_initial_or_final(diagnostics: Check, text: str, m
     ("{a: [{to: b, event: x}, {to: c, event: @x, if: near}]}", "never for 'x': takes 'x'"),
     ("{a: [{to: b, event: x, if: near}, {to: c, event: x}]}", ""),
     ("{a: [{to: b, event: x, if: near}, {to: c, event: x, if: far}]}", ""),
-    ("{a: [{to: b, event: x, if: near}, {to: c, event: @x, if: near}]}", "never for 'x': takes 'x' on the same"),
+    ("{a: [{to: b, event: x, if: near}, {to: c, event: @x, if: near}]}", "never for 'x': takes 'x' under the same"),
     ("{a: [{to: b, event: x y}, {to: c, event: z @y}]}", "never for 'y': takes 'y'"),
     ("{a: [{to: b, event: '*'}, {to: c, event: @x.y}]}", "never for 'x.y': takes '*'"),
     ("{a: [{to: b, event: x}, {to: c, event: @x.y.*}]}", "never for 'x.y.*': takes 'x'"),
@@ -190,14 +190,14 @@ def test_a_name_of_no_state_in_initial_or_final(diagnostics: Check, text: str, m
     ("{a: [{to: b, event: x}, {to: c, event: xy}]}", ""),
     ("{a: [{event: x, do: beep}, {to: c, event: @x}]}", "never for 'x': takes 'x'"),
     ("{a: [b, c, @b]}", "never for 't_a_to_b': takes 't_a_to_b'"),
-    ("{a: [{to: b, if: near}, @{to: c, if: near}]}", "never: is taken at once on the same"),
-    ("{a: [{to: b, if: near}, {to: c, event: @x, if: near}]}", "never for 'x': is taken at once on the same"),
+    ("{a: [{to: b, if: near}, @{to: c, if: near}]}", "never: is taken at once under the same"),
+    ("{a: [{to: b, if: near}, {to: c, event: @x, if: near}]}", "never for 'x': is taken at once under the same"),
     ("{a: {to: b, event: x}, b: {to: c, event: x}}", ""),
     ("{a: [{to: b, event: x, if: 'true'}, {to: c, event: @x}]}", "never for 'x': takes 'x'"),
     ("{a: [{to: b, event: x, if: far or not false}, {to: c, event: @x}]}", "never for 'x': takes 'x'"),
     ("{a: [{to: b, event: x, if: far and true}, {to: c, event: x}]}", ""),
     ("{a: [{to: b, event: x, if: 'false'}, {to: c, event: x}]}", ""),
-    ("{a: [{to: b, event: x, if: not near}, {to: c, event: @x, if: '!near()'}]}", "never for 'x': takes 'x' on the same"),
+    ("{a: [{to: b, event: x, if: not near}, {to: c, event: @x, if: '!near()'}]}", "never for 'x': takes 'x' under the same"),
     ("{a: [{to: b, event: @x}, {to: c, if: 'true'}]}", "never for 'x': is taken at once"),
     ("{a: [{to: b, event: x}, {to: c, if: near}]}", ""),
 ])  # fmt: skip
@@ -206,7 +206,9 @@ def test_transitions_behind_others(diagnostics: Check, transitions: str, told: s
     line = f"  transitions: {transitions}"  # with an @ before what is told of
     found = diagnostics({"c.cdsl.yaml": f"{text}{line.replace('@', '')}\n"})
     errors = [d for d in found if d["severity"] == "error"]
-    said = [re.sub(r".* is (never) taken(.*): one (?:before|behind) it(.*)", r"\1\2:\3", d["message"]) for d in errors]
+    said = [
+        re.sub(r".* is (never) taken(.*): (?:an earlier|a later) one(.*)", r"\1\2:\3", d["message"]) for d in errors
+    ]
     assert len(said) == bool(told) and "".join(said).startswith(told)
     assert [(d["code"], d["line"], d["column"]) for d in errors] == (
         [("RC2238", 7, line.index("@") + 1)] if told else []

@@ -42,7 +42,9 @@ def test_a_package_that_ends_cmake_keeps_no_other_from_being_found(
 ) -> None:
     write_tree(tmp_path, {"lib/cmake/Bad/BadConfig.cmake": "message(FATAL_ERROR no)\n"})
     monkeypatch.setenv("CMAKE_PREFIX_PATH", str(tmp_path))
-    assert told(rcyaml, tmp_path, [{"cmake": "Bad"}, {"link": "m"}]) == ["the CMake package Bad is not installed on this machine"]
+    assert told(rcyaml, tmp_path, [{"cmake": "Bad"}, {"link": "m"}]) == [
+        "the CMake package Bad is not installed on this machine"
+    ]
 
 
 def test_pkg_config_tells_versions(rcyaml: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

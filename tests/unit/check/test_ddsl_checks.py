@@ -137,7 +137,7 @@ def test_an_executable_of_another_name_is_not_what_compile_writes(rcyaml: Run, t
 def test_instances_of_a_program_with_one_port(rcyaml: Run, tmp_path: Path) -> None:
     entry = 'components:\n  watch{i}: {program: sh, instances: 2, endpoints: {Laser: "tcp -p 14000"}}\n'
     output = check(rcyaml, tmp_path, deployed(entry))
-    assert "give each one of its own; {i} counts instances: `-p 1400{i}`" in output
+    assert "use {i}, the number of the instance, in the port: `-p 1400{i}`" in output
     assert "RC4303" not in check(rcyaml, tmp_path, deployed(entry.replace("14000", "1400{i}")))
 
 

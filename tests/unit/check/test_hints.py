@@ -50,14 +50,14 @@ def test_the_case_alone_leaves_one_meaning(word: str, known: list[str], open_: b
     (component("imports: [Arm, Amr]\n"), "'Arm' is there already"),
     (component("imports: [Amr]\n"), "did you mean 'Arm'?"),
     (component("imports: [Arm]\nrequires: [Arm, Arny]\n"), "did you mean 'Army' (Arm.idsl.yaml)?"),
-    (component("imports: [Arm]\nrequires: [Arm, Army, Armmy]\n"), "'Army' is there already"),
+    (component("imports: [Arm]\nrequires: [Arm, Army, Armmy]\n"), "the list already has 'Army'"),
     (component("imports: [Arm]\nrequires: [Arm]\nimplements: [Amr]\n"), "did you mean 'Arm' (Arm.idsl.yaml)?"),
     ({"Arm.idsl.yaml": IDSL.replace("Army: {}", "Leg: {methods: {go: {throws: [Stuck, Stuk]}}}")},
      "'Stuck' is there already"),
     ({"Arm.idsl.yaml": IDSL, "Leg.idsl.yaml": "module: RoboCompLeg\ntypes: {Pose: {struct: {x: int}}}\n"
       "interfaces: {Leg: {methods: {go: {throws: [Arm.Stuck]}}}}\n"}, "add Arm to `imports`"),
-    ({"Leg.idsl.yaml": "module: RoboCompLeg\nimports: [Lge]\n"}, "put its document beside this one, or name its folder "
-     "under `interfaces:` in rcyaml.yaml, or with -I"),
+    ({"Leg.idsl.yaml": "module: RoboCompLeg\nimports: [Lge]\n"}, "put its document beside this one, or list its folder "
+     "under `interfaces:` in rcyaml.yaml, or pass it with -I"),
 ])  # fmt: skip
 def test_hints_of_lists(diagnostics: Check, files: dict[str, str], hint: str) -> None:
     assert [d["hint"] for d in diagnostics(files)] == [hint]

@@ -56,7 +56,7 @@ FAULTS = [
     Fault("NameCanNotBeUsed", "RC1005", "7:7", "the method 'Map'", METHODS + "      Map:\n"),
     Fault("name of the module", "RC1005", "3:3", "the sequence 'RobocompMap'",
           TYPES + "  RobocompMap: {sequence: int}\n"),
-    Fault("Undefined", "RC1010", "3:17", "no type called 'Pose'", TYPES + "  A: {sequence: Pose}\n"),
+    Fault("Undefined", "RC1010", "3:17", "unknown type 'Pose'", TYPES + "  A: {sequence: Pose}\n"),
     Fault("Undefined case", "RC1010", "3:17", "did you mean 'B'", TYPES + "  A: {sequence: b}\n  B: {sequence: int}\n"),
     Fault("Undefined foreign", "RC1010", "3:17", "did you mean 'float'", TYPES + "  A: {sequence: float32}\n"),
     Fault("Undefined void", "RC1010", "7:20", "returns nothing has no `returns`",
@@ -173,8 +173,8 @@ def test_what_ice_cannot_say_in_cpp_is_a_warning(text: str, hint: str, diagnosti
 @pytest.mark.parametrize(
     ("type_", "value", "hint"),
     [
-        ("double", "3.141592653589793", "let the programs"),
-        ("float", "3.14159265", "let the programs"),
+        ("double", "3.141592653589793", "in the programs"),
+        ("float", "3.14159265", "in the programs"),
         ("float", "1e-7", "use double"),
         ("float", "1e20", "use double"),
     ],

@@ -77,7 +77,7 @@ def test_the_hint_says_what_there_is(rcyaml: Rcyaml, tmp_path: Path) -> None:
     for language, key in lacking:
         said(rcyaml, tmp_path, language.name, SAID[key])
         output = rcyaml("check").output
-        assert f"leave it out, or write the component in Python or C++; {language.title} has implements, " in output
+        assert f"remove it, or write the component in Python or C++; {language.title} has implements, " in output
         compiled = rcyaml("compile")
         assert compiled.exit_code == 1 and not (tmp_path / "src").exists(), compiled.output
 

@@ -24,12 +24,12 @@ def test_a_type_of_an_import_stands_behind_its_module(name: str, diagnostics: Ch
 @pytest.mark.parametrize(
     ("imports", "name", "hint"),
     [
-        ("[Types]", "Pose", "write 'Types.Pose': a name of another module stands behind that module's"),
+        ("[Types]", "Pose", "write 'Types.Pose': names of other modules need the module's name"),
         ("[]", "Pose", "add Types to `imports`, and write 'Types.Pose'"),
         ("[]", "RoboCompTypes.Pose", "add Types to `imports`, and write 'Types.Pose'"),
         ("[Types]", "Types.Posse", "did you mean 'Types.Pose'?"),
         ("[Types]", "Typos.Pose", "did you mean 'Types.Pose'?"),
-        ("[Types]", "Nothing.AtAll", "define it, or import the module that does"),
+        ("[Types]", "Nothing.AtAll", "define it, or import the module that defines it"),
     ],
 )
 def test_the_hint_says_how_to_reach_a_type(imports: str, name: str, hint: str, diagnostics: Check) -> None:

@@ -218,7 +218,7 @@ def test_who_is_outside_reaches_a_closed_group_only_as_a_whole(link: Link) -> No
     watch, speech = linked.instances["watch"], linked.instances["speech"]
     face, mouth = linked.groups["face"], linked.instances["mouth"]
     assert linked.closed_groups_of(mouth, watch) == [face]
-    assert linked.closed_groups_of(mouth, speech) == [] == linked.closed_around(face, watch)
+    assert linked.closed_groups_of(mouth, speech) == [] == linked.closed_groups_of(face, watch)
 
 
 @pytest.mark.parametrize(
