@@ -1,4 +1,4 @@
-"""What is said of a state machine, each thing once and where it is; of right machines, nothing."""
+"""Diagnostics of state machines: each fault is reported once, at its location, and right machines have none."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def test_guards_and_methods_of_interfaces_share_a_class(diagnostics: Check) -> N
 
 
 @pytest.mark.parametrize(("keys", "codes"), [("", []), ("compatibility: robocomp\n", ["RC2237"])], ids=["", "robocomp"])
-def test_what_robocomps_worker_has(diagnostics: Check, keys: str, codes: list[str]) -> None:
+def test_names_of_robocomps_worker(diagnostics: Check, keys: str, codes: list[str]) -> None:
     machine = "statemachine: {initial: a, transitions: {a: {to: a, event: x, if: timer}}}\n"
     files = {"c.cdsl.yaml": f"component: C\nlanguage: cpp\n{keys}{machine}"}
     assert [d["code"] for d in diagnostics(files)] == codes
@@ -173,11 +173,11 @@ def test_inline(diagnostics: Check, text: str, messages: list[str]) -> None:
     ("  initial: p\n  states: {p: {parallel: true, states: {l: {initial: l1, states: {l2: {}}}, r: {}}}}\n"
      "  transitions: {p: l2}\n", ["5:54 RC2221 unknown state 'l1' add it under `states:`, or name a state that is listed there"]),
 ], ids=lambda value: repr(value)[:60] if isinstance(value, str) else "")  # fmt: skip
-def test_a_name_of_no_state_in_initial_or_final(diagnostics: Check, text: str, messages: list[str]) -> None:
+def test_an_unknown_state_in_initial_or_final(diagnostics: Check, text: str, messages: list[str]) -> None:
     assert inline(diagnostics, text) == messages
 
 
-@pytest.mark.parametrize(("transitions", "told"), [
+@pytest.mark.parametrize(("transitions", "reported"), [
     ("{a: [{to: b, event: x}, {to: c, event: @x}]}", "never for 'x': takes 'x'"),
     ("{a: [{to: b, event: x}, {to: c, event: @x, if: near}]}", "never for 'x': takes 'x'"),
     ("{a: [{to: b, event: x, if: near}, {to: c, event: x}]}", ""),
@@ -201,17 +201,17 @@ def test_a_name_of_no_state_in_initial_or_final(diagnostics: Check, text: str, m
     ("{a: [{to: b, event: @x}, {to: c, if: 'true'}]}", "never for 'x': is taken at once"),
     ("{a: [{to: b, event: x}, {to: c, if: near}]}", ""),
 ])  # fmt: skip
-def test_transitions_behind_others(diagnostics: Check, transitions: str, told: str) -> None:
+def test_transitions_that_are_never_taken(diagnostics: Check, transitions: str, reported: str) -> None:
     text = "component: C\nlanguage: cpp\nstatemachine:\n  initial: a\n  states:\n    {b: {}, c: {}}\n"
-    line = f"  transitions: {transitions}"  # with an @ before what is told of
+    line = f"  transitions: {transitions}"  # with an @ before the reported event
     found = diagnostics({"c.cdsl.yaml": f"{text}{line.replace('@', '')}\n"})
     errors = [d for d in found if d["severity"] == "error"]
     said = [
         re.sub(r".* is (never) taken(.*): (?:an earlier|a later) one(.*)", r"\1\2:\3", d["message"]) for d in errors
     ]
-    assert len(said) == bool(told) and "".join(said).startswith(told)
+    assert len(said) == bool(reported) and "".join(said).startswith(reported)
     assert [(d["code"], d["line"], d["column"]) for d in errors] == (
-        [("RC2238", 7, line.index("@") + 1)] if told else []
+        [("RC2238", 7, line.index("@") + 1)] if reported else []
     )
 
 
@@ -229,32 +229,32 @@ def test_transitions_behind_others(diagnostics: Check, transitions: str, told: s
     ('<transition event="x" target="b"/><transition target="c"/>', "warning"),  # as W3C's 419
     ('<transition event="*" target="b"/><transition target="c"/>', "warning"),
 ])  # fmt: skip
-def test_what_is_lost_in_a_file(diagnostics: Check, transitions: str, severity: str) -> None:
+def test_lost_transitions_in_an_scxml_file(diagnostics: Check, transitions: str, severity: str) -> None:
     text = machine(f'<state id="a">{transitions}</state><state id="b"/><state id="c"/>')
     files = {"c.cdsl.yaml": "component: C\nlanguage: python\nstatemachine: c.scxml\n", "c.scxml": text}
     found = diagnostics(files)
     assert [(d["severity"], d["line"]) for d in found if d["code"] == "RC2238"] == [(severity, 2)]
 
 
-def test_a_start_misspelled_where_no_states_are_listed(diagnostics: Check) -> None:
+def test_a_misspelled_initial_without_listed_states(diagnostics: Check) -> None:
     text = "  initial: clozed\n  final: gone\n  transitions: {closed: gone}\n"
     assert inline(diagnostics, text) == ["4:12 RC2221 unknown state 'clozed' did you mean 'closed'?"]
 
 
-def test_a_hint_names_the_list_of_its_file(diagnostics: Check) -> None:
+def test_a_hint_names_the_list_of_events(diagnostics: Check) -> None:
     rc = 'initial="a" xmlns:rc="urn:robocomp:statemachine" rc:events="stop"'
     files = {"c.cdsl.yaml": "component: C\nlanguage: python\nstatemachine: c.scxml\n"}
     [found] = diagnostics({**files, "c.scxml": machine('<state id="a"><transition event="door"/></state>', rc)})
     assert found["hint"].startswith("list it under `rc:events`")
 
 
-def test_a_circle_on_what_is_always_true(diagnostics: Check) -> None:
+def test_a_circle_of_conditions_that_are_always_true(diagnostics: Check) -> None:
     text = "  initial: a\n  states: {b: {}}\n  transitions: {a: {to: b, if: 'true'}, b: {to: a, if: not false}}\n"
     assert [said.split()[1] for said in inline(diagnostics, text)] == ["RC2233"]
 
 
-def test_what_a_state_inside_takes_is_its_own(diagnostics: Check) -> None:
-    """A child's transition comes before its parent's for the same event, whichever stands first."""
+def test_transitions_of_inner_states_are_separate(diagnostics: Check) -> None:
+    """A child's transition comes before its parent's for the same event, in any order."""
     assert (
         inline(
             diagnostics,
@@ -273,13 +273,13 @@ def test_a_state_with_transitions_at_two_levels(diagnostics: Check) -> None:
     assert [said[:12] for said in inline(diagnostics, text)] == ["7:70 RC2238 "]
 
 
-def test_a_component_whose_machine_is_wrong_is_not_compiled(rcyaml: Callable[..., Any], diagnostics: Check) -> None:
+def test_a_component_with_a_wrong_machine_is_not_compiled(rcyaml: Callable[..., Any], diagnostics: Check) -> None:
     assert said(diagnostics, machine(A_B.replace('target="b"', 'target="c"'))) != []
     result = rcyaml("compile", ".")
     assert result.exit_code == 1
     assert "wrote" not in result.output
 
 
-def test_a_large_machine_is_checked_in_a_moment(diagnostics: Check) -> None:
+def test_a_large_machine_is_checked_fast(diagnostics: Check) -> None:
     states = "".join(f'<state id="s{n}"><transition event="e{n}" target="s{n + 1}"/></state>' for n in range(3000))
     assert said(diagnostics, machine(states + '<state id="s3000"/>', 'initial="s0"')) == []

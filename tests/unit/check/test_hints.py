@@ -1,4 +1,4 @@
-"""A hint is something to type: never what stands there already, nor what beside it would be the next error."""
+"""A hint can be typed: it is neither the word itself, nor a word that would be the next error."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def component(keys: str) -> dict[str, str]:
     return {"Arm.idsl.yaml": IDSL, "c.cdsl.yaml": f"component: C\nlanguage: python\n{keys}"}
 
 
-def test_the_word_itself_is_no_suggestion() -> None:
+def test_the_word_itself_is_not_suggested() -> None:
     assert suggest("closd", ["closd", "closed"]) == "closed"
     assert suggest("closed", ["closed"]) is None
 
 
-def test_what_stands_beside_it_is_none_either() -> None:
+def test_words_of_the_same_list_are_not_suggested() -> None:
     assert str(did_you_mean("Amr", ["Arm", "Leg"])) == "did you mean 'Arm'?"
     assert str(did_you_mean("Amr", ["Arm", "Amor"], {"Arm"})) == "did you mean 'Amor'?"
     assert str(did_you_mean("Amr", ["Arm"], {"Arm"})) == "'Arm' is there already"
@@ -34,11 +34,13 @@ def test_what_stands_beside_it_is_none_either() -> None:
 @pytest.mark.parametrize(("word", "known", "open_", "meant", "safe"), [
     ("Amr", ["Arm", "Leg"], False, "Arm", False),
     ("ARM", ["Arm", "Leg"], False, "Arm", True),
-    ("ARM", ["Arm", "arm"], False, "Arm", False),  # either may be meant
-    ("ARM", ["Arm", "Leg"], True, "Arm", False),  # there may be one more that nobody knows of
+    ("ARM", ["Arm", "arm"], False, "Arm", False),  # both are possible
+    ("ARM", ["Arm", "Leg"], True, "Arm", False),  # there may be an unknown third one
     ("Leg", ["Arm"], False, "", False),
 ])  # fmt: skip
-def test_the_case_alone_leaves_one_meaning(word: str, known: list[str], open_: bool, meant: str, safe: bool) -> None:
+def test_a_fix_of_the_case_is_safe_if_only_one_word_matches(
+    word: str, known: list[str], open_: bool, meant: str, safe: bool
+) -> None:
     hint = did_you_mean(word, known, open_=open_)
     assert (hint.meant, hint.safe) == (meant, safe)
     assert [(edit.word, edit.text) for fix in hint.fixes(Span("a")) for edit in fix.edits] == [(word, meant)][

@@ -1,4 +1,4 @@
-"""What is wrong with a deployment, and where: groups, names, hosts, includes, components and their configurations."""
+"""Errors in deployments: groups, names, hosts, includes, components and configurations."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def wrong(text: str, others: dict[str, str]) -> list[Said]:
         ('include: {l: arm.ddsl.yaml, r: arm.ddsl.yaml}\n', {'arm.ddsl.yaml': ARM}),
     ],
 )  # fmt: skip
-def test_nothing_is_wrong(text: str, others: dict[str, str]) -> None:
+def test_right_deployments(text: str, others: dict[str, str]) -> None:
     assert wrong(text, others) == []
 
 
@@ -105,7 +105,7 @@ def test_nothing_is_wrong(text: str, others: dict[str, str]) -> None:
         ('components: {m: {component: mouth, set: {period.compute: x}}}\n', {}, 'RC3302', 'x', "period.compute must be a whole number (ms), and is the text 'x'", ''),
     ],
 )  # fmt: skip
-def test_what_is_wrong(text: str, others: dict[str, str], code: str, at: str, message: str, hint: str) -> None:
+def test_wrong_deployments(text: str, others: dict[str, str], code: str, at: str, message: str, hint: str) -> None:
     assert [one[:4] for one in wrong(text, others)] == [(code, at, message, hint)]
 
 
@@ -122,19 +122,19 @@ def test_what_is_wrong(text: str, others: dict[str, str], code: str, at: str, me
         ("components: {mouth: {component: mouth, ports: {Muoth: 1}}}\n", {}, [("the component", "MouthComp")]),
     ],
 )  # fmt: skip
-def test_the_other_places_are_shown(text: str, others: dict[str, str], related: list[tuple[str, str]]) -> None:
+def test_related_locations(text: str, others: dict[str, str], related: list[tuple[str, str]]) -> None:
     (found,) = wrong(text, others)
     assert list(found.related) == related
 
 
-def test_of_several_components_any_that_is_named_is_found() -> None:
+def test_a_folder_with_several_components() -> None:
     others = {"both/a.cdsl.yaml": COMPONENT, "both/b.cdsl.yaml": COMPONENT}
     (found,) = wrong("components: {m: {component: both}}\n", others)
     for meant in found.hint.removeprefix("name ").split(" or "):
         assert wrong(f"components: {{m: {{component: {meant}}}}}\n", others) == []
 
 
-def test_of_instances_each_has_its_own_component_and_configuration() -> None:
+def test_each_instance_has_its_own_component_and_configuration() -> None:
     text = "components: {'m{i}': {component: 'mouth{i}', instances: 2, config: 'c{i}.config.yaml'}}\n"
     mouths = {f"mouth{i}/m.cdsl.yaml": COMPONENT.replace(": C", f": C{i}") for i in (0, 1)}
     values = {f"mouth{i}/c{i}.config.yaml": "component: m.cdsl.yaml\n" for i in (0, 1)}
@@ -155,7 +155,7 @@ def test_an_include_in_an_include_needs_its_host_too() -> None:
     )
 
 
-def test_what_a_group_exposes_already_is_not_meant_again() -> None:
+def test_hints_name_nothing_that_a_group_already_exposes() -> None:
     (found,) = wrong(
         TWO + "groups: {g: {components: [speech], as: speech, expose: {Speech: speech, Speach: speech}}}\n", {}
     )

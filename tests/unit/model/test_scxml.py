@@ -1,4 +1,4 @@
-"""SCXML as it is read: which element stands where, what is said of one that does not, and what a machine comes to."""
+"""SCXML: elements at wrong places, their diagnostics, and the model of a machine."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ CDSL = "component: Door\nlanguage: python\nstatemachine: door.scxml\n"
         ('<state id="a"/>', 'version="1.0" initial="a" speed="fast"', 'RC2208', 'fast', "<scxml> has no attribute 'speed'", 'it has initial, name, version, datamodel, binding'),
     ],
 )  # fmt: skip
-def test_what_is_no_scxml(body: str, root: str, code: str, at: str, message: str, hint: str) -> None:
+def test_wrong_scxml(body: str, root: str, code: str, at: str, message: str, hint: str) -> None:
     root = root or 'version="1.0" initial="a" datamodel="python"'
     text = f'<scxml xmlns="http://www.w3.org/2005/07/scxml" {root}>{body}</scxml>\n'
     found = said({"door.cdsl.yaml": CDSL, "door.scxml": text})
@@ -66,7 +66,7 @@ def test_what_is_no_scxml(body: str, root: str, code: str, at: str, message: str
     assert len([one for one in found if one.code == code]) == 1
 
 
-def test_notes_of_other_tools_are_left_alone() -> None:
+def test_elements_of_other_namespaces_are_ignored() -> None:
     text = """<scxml xmlns="http://www.w3.org/2005/07/scxml" xmlns:x="urn:x" version="1.0" initial="a" x:zoom="2">
       <state id="a" x:colour="red"><x:note>about <x:b/></x:note></state></scxml>"""
     assert not said({"door.cdsl.yaml": CDSL, "door.scxml": text})
@@ -122,7 +122,7 @@ FILES = {
 }
 
 
-def test_what_a_machine_comes_to(golden: Callable[[str, Mapping[str, str]], None]) -> None:
+def test_the_model_of_a_machine(golden: Callable[[str, Mapping[str, str]], None]) -> None:
     program = analysed(FILES).program
     machine = program.components[f"{ROOT}/door.cdsl.yaml"].machine
     golden("read/scxml", {"machine.txt": "\n".join(outline("machine", machine, FILES)) + "\n"})
