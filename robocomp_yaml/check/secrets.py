@@ -19,14 +19,13 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.terminal import typed
-from robocomp_yaml.link.documents import Document
+from robocomp_yaml.link.documents import Document, read_tree
 from robocomp_yaml.link.program import LinkedParameters, Program
 from robocomp_yaml.parameters.hidden import declared, named_nodes, nodes, plain_below
 from robocomp_yaml.parameters.types import RecordType
 from robocomp_yaml.source import properties
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.text import decode
-from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, pairs_below, parse
+from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, pairs_below
 
 _PROPERTIES = ("properties", "ice", "endpoints", "proxies", "topics")
 
@@ -320,9 +319,7 @@ def _names_nearby(path: str, disk: Disk) -> Iterator[str]:
     for where in (folder, os.path.join(folder, os.pardir)):
         names = [name for name in disk.documents(where) if name.endswith("pdsl.yaml")]
         for name in names[:20]:
-            raw, _ = disk.read(os.path.join(where, name))
-            text = decode(path, raw)[0] if raw is not None else None
-            tree, _ = parse(path, text) if text is not None else (None, [])
+            tree, _ = read_tree(os.path.join(where, name), disk)
             for key, value in pairs_below(tree) if tree is not None else ():
                 if isinstance(value, Mapping) and value.data.get("secret") is True:  # type: ignore[attr-defined]
                     yield key.lexeme

@@ -235,14 +235,10 @@ class Attachments(msgspec.Struct):
         for other, span in named[1:]:
             if other != reals[0]:
                 first, name = self.documents.read[reals[0]], component.component.name
+                hint, related = "remove one of them", [Related("the first reference", named[0][1])]
+                other_name = os.path.basename(first.path)
                 self.diagnostics.append(
-                    codes.DISAGREEMENT.at(
-                        span,
-                        component=name,
-                        other=os.path.basename(first.path),
-                        hint="remove one of them",
-                        related=[Related("named here", named[0][1])],
-                    )
+                    codes.DISAGREEMENT.at(span, component=name, other=other_name, hint=hint, related=related)
                 )
         period = component.component.period
         document = self.documents.read[reals[0]].model if reals else None

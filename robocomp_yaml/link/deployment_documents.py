@@ -74,24 +74,20 @@ class DeploymentDocuments(msgspec.Struct):
             self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
         elif not found:
             path = paths.joined(paths.document_folder(model), target.text)
-            self.diagnostics.append(
-                codes.NO_COMPONENT.at(target.span, path=target.text, hint=self._nearby(path, ".cdsl.yaml", "cdsl.yaml"))
-            )
+            hint = self._nearby(path, ".cdsl.yaml", "cdsl.yaml")
+            self.diagnostics.append(codes.NO_COMPONENT.at(target.span, path=target.text, hint=hint))
         return found[0] if len(found) == 1 else None
 
     def _config(self, model: Deployment, folder: str, config: Text) -> str | None:
-        places = paths.config_paths(model, folder, config.text)
-        for path in places:
+        candidates = paths.config_paths(model, folder, config.text)
+        for path in candidates:
             if self.documents.disk.has_file(path):
                 return path
-        self.diagnostics.append(
-            codes.NO_CONFIG.at(
-                config.span,
-                path=config.text,
-                places=" and no ".join(dict.fromkeys(places)),
-                hint=self._nearby(places[0]) or self._nearby(places[1]),
-            )
+        hint, listed = (
+            self._nearby(candidates[0]) or self._nearby(candidates[1]),
+            " and no ".join(dict.fromkeys(candidates)),
         )
+        self.diagnostics.append(codes.NO_CONFIG.at(config.span, path=config.text, places=listed, hint=hint))
         return None
 
     def _follow_include(self, model: Deployment, include: Text) -> Iterator[Document]:

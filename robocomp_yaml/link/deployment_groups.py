@@ -16,10 +16,10 @@ from robocomp_yaml.model.deployment import Exposed
 
 def resolve(root: LinkedDeployment, documents: Iterable[ExpandedDocument]) -> Iterator[Diagnostic]:
     """Sets `serves` of each group, and reports errors in the groups of the deployment's own document."""
-    for expanded in documents:
-        for group in expanded.groups:
+    for part in documents:
+        for group in part.groups:
             faults = list(_group(root, group)) if group.is_closed else []
-            if expanded.is_own:
+            if part.is_own:
                 yield from faults
 
 

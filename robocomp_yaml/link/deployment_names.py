@@ -29,28 +29,28 @@ class DeploymentNames(msgspec.Struct):
 
     def resolve(self) -> None:
         direct: dict[LinkedGroup, list[Target]] = {}
-        for expanded in self.documents:
-            for group in expanded.groups:
-                direct[group] = list(self._direct(expanded, group))
-        for expanded in self.documents:
-            for group in expanded.groups:
-                self._fill(expanded, group, direct)
-        for expanded in self.documents:
-            for instance in expanded.instances:
-                self._processes(expanded, instance)
+        for part in self.documents:
+            for group in part.groups:
+                direct[group] = list(self._direct(part, group))
+        for part in self.documents:
+            for group in part.groups:
+                self._fill(part, group, direct)
+        for part in self.documents:
+            for instance in part.instances:
+                self._processes(part, instance)
                 for name in instance.entry.after:
-                    for target in self._find(expanded, name, "`after:`", instance) or ():
+                    for target in self._find(part, name, "`after:`", instance) or ():
                         grow(instance, "after", *(target.members if isinstance(target, LinkedGroup) else [target]))
-                if expanded.is_own and not instance.number:  # the same for all instances of an entry
+                if part.is_own and not instance.number:  # the same for all instances of an entry
                     self.diagnostics += _ports(instance)
                     self.diagnostics += [*_patterns(instance.entry), *_programs(instance.entry)]
 
-    def _direct(self, expanded: ExpandedDocument, group: LinkedGroup) -> Iterator[Target]:
+    def _direct(self, part: ExpandedDocument, group: LinkedGroup) -> Iterator[Target]:
         for name in group.group.members:
-            for target in self._find(expanded, name, f"the group '{group.group.name}'", group) or ():
+            for target in self._find(part, name, f"the group '{group.group.name}'", group) or ():
                 if isinstance(target, LinkedStorm):
                     self._unknown(
-                        expanded,
+                        part,
                         name,
                         f"the group '{group.group.name}'",
                         Hint("a service cannot be a member of a group"),
@@ -61,7 +61,7 @@ class DeploymentNames(msgspec.Struct):
         if group in self.included:
             yield from (inner for inner in self.root.groups.values() if inner.name.startswith(f"{group.name}."))
 
-    def _fill(self, expanded: ExpandedDocument, group: LinkedGroup, direct: dict[LinkedGroup, list[Target]]) -> None:
+    def _fill(self, part: ExpandedDocument, group: LinkedGroup, direct: dict[LinkedGroup, list[Target]]) -> None:
         """Sets the members of a group: its own instances, and those of its inner groups."""
 
         def into(target: Target) -> Iterable[Target]:
@@ -70,7 +70,7 @@ class DeploymentNames(msgspec.Struct):
         targets = list(reached(direct[group], into))
         if group in targets:
             before = [group, *targets[: targets.index(group)]]
-            if expanded.is_own and not any(isinstance(other, LinkedGroup) and other.broken for other in before):
+            if part.is_own and not any(isinstance(other, LinkedGroup) and other.broken for other in before):
                 self.diagnostics.append(codes.GROUP_CYCLE.at(group.group.span, name=group.group.name))
             tie(group, broken=True)
         members = [target for target in targets if isinstance(target, LinkedInstance)]
@@ -79,43 +79,43 @@ class DeploymentNames(msgspec.Struct):
         inner = [target for target in targets if isinstance(target, LinkedGroup) and target is not group]
         tie(group, members=tuple(members), inner=tuple(inner))
 
-    def _processes(self, expanded: ExpandedDocument, instance: LinkedInstance) -> None:
+    def _processes(self, part: ExpandedDocument, instance: LinkedInstance) -> None:
         if instance.entry.kind != PROCESS:
             return
         name = instance.entry.target
-        targets = self._find(expanded, name, "`process:`", instance)
+        targets = self._find(part, name, "`process:`", instance)
         target = targets[0] if targets and len(targets) == 1 else None
         if isinstance(target, LinkedInstance) and target.entry.kind != PROCESS:
             tie(instance, process=target, host=target.host)
             return
         tie(instance, broken=True)
-        if targets and expanded.is_own:
+        if targets and part.is_own:
             self.diagnostics.append(codes.NOT_A_PROCESS.at(name.span, name=name.text, what=_kind_of(targets)))
 
     def _find(
-        self, expanded: ExpandedDocument, name: Text, where: str, source: LinkedInstance | LinkedGroup
+        self, part: ExpandedDocument, name: Text, where: str, source: LinkedInstance | LinkedGroup
     ) -> tuple[Target, ...] | None:
         """The targets of a name; None if it is unknown, which is reported if this document is the cause."""
-        targets, behind = self.root.find(name.text, expanded.scope)
+        targets, behind = self.root.find(name.text, part.scope)
         if targets and not behind:
             return targets
         tie(source, broken=True)
         hides = any(isinstance(target, LinkedGroup) and target.broken for target in targets)
-        if expanded.is_whole and not hides:
-            self._unknown(expanded, name, where, self._hint(expanded, name.text, source.name))
+        if part.is_whole and not hides:
+            self._unknown(part, name, where, self._hint(part, name.text, source.name))
         return None
 
-    def _unknown(self, expanded: ExpandedDocument, name: Text, where: str, hint: Hint) -> None:
-        if expanded.is_own:
+    def _unknown(self, part: ExpandedDocument, name: Text, where: str, hint: Hint) -> None:
+        if part.is_own:
             self.diagnostics.append(codes.UNKNOWN_NAME.at(name.span, where=where, name=name.text, hint=hint))
 
-    def _hint(self, expanded: ExpandedDocument, text: str, own: str) -> Hint:
+    def _hint(self, part: ExpandedDocument, text: str, own: str) -> Hint:
         if INDEX in text:
             return Hint(f"only an entry with `instances:` replaces {INDEX}")
         names = [
-            scope.removeprefix(expanded.scope) + name
+            scope.removeprefix(part.scope) + name
             for scope, names in self.root.names.items()
-            if scope.startswith(expanded.scope)
+            if scope.startswith(part.scope)
             for name in names
             if scope + name != own
         ]

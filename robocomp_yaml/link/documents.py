@@ -47,6 +47,14 @@ def builder(kind: str) -> Callable[[Mapping, str], Model]:
     return build
 
 
+def read_tree(path: str, disk: Disk) -> tuple[Node | None, list[Diagnostic]]:
+    """The tree of a YAML file, None if it cannot be read, decoded or parsed, and diagnostics."""
+    raw, diagnostics = disk.read(path)
+    text, in_text = decode(path, raw) if raw is not None else (None, [])
+    tree, in_tree = parse(path, text) if text is not None else (None, [])
+    return tree, [*diagnostics, *in_text, *in_tree]
+
+
 class Document(msgspec.Struct, frozen=True, eq=False):
     """A document as far as it can be read. `model` is None if it does not fit its schema, `tree` if it is no YAML.
     `real` is its real path, `module` the name of the module that it defines, or ''; `component` is the text under
@@ -97,18 +105,9 @@ class Documents(msgspec.Struct):
 
     def _load(self, path: str, real: str, kind: str) -> tuple[Document, list[Diagnostic]]:
         """Decodes, parses, validates and builds, until a pass reports an error."""
-        nothing = Document(path, real, kind)
-        raw, diagnostics = self.disk.read(path)
-        if raw is None:
-            return nothing, diagnostics
-        text, more = decode(path, raw)
-        diagnostics = [*diagnostics, *more]
-        if text is None:
-            return nothing, diagnostics
-        tree, more = parse(path, text)
-        diagnostics += more
+        tree, diagnostics = read_tree(path, self.disk)
         if tree is None:
-            return nothing, diagnostics
+            return Document(path, real, kind), diagnostics
         misfits = self._misfits(path, kind, tree)
         model = None
         if not has_errors(misfits):

@@ -1,6 +1,6 @@
 """Expands a deployment: instances, included documents, and the host of each.
 
-The errors of a document are reported when that document itself is expanded, not again for each document that includes
+The errors of a document are reported when that document itself is part, not again for each document that includes
 it. Only errors that the two documents make together are reported for the including one.
 """
 
@@ -13,10 +13,8 @@ from typing import TypeVar
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import ddsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
-from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link import deployment_paths as paths
@@ -30,6 +28,7 @@ from robocomp_yaml.source.tree import Mapping as MappingNode
 from robocomp_yaml.source.tree import Node, Scalar, Sequence, mapping_at, sequence_at, text_at
 
 _Part = TypeVar("_Part")
+_NO_HOSTS = "`hosts:` defines hosts; without it, all processes run on this machine"
 
 
 class ExpandedDocument(msgspec.Struct):
@@ -82,72 +81,72 @@ class Expansion(msgspec.Struct):
             storms=self._storms,
             groups=self._groups,
             names=self._names,
-            documents=tuple(expanded.document for expanded in self.documents),
+            documents=tuple(part.document for part in self.documents),
         )
 
-    def _expand(self, expanded: ExpandedDocument) -> None:
-        document = expanded.document
-        self.documents.append(expanded)
-        self._names.setdefault(expanded.scope, {})
+    def _expand(self, part: ExpandedDocument) -> None:
+        document = part.document
+        self.documents.append(part)
+        self._names.setdefault(part.scope, {})
         for host in document.hosts:
-            self._merge_host(host, expanded)
+            self._merge_host(host, part)
         if document.hosts:
-            expanded.hosts = {host.name: host for host in document.hosts}
-        if expanded.only is None and len(expanded.hosts) == 1:
-            expanded.only = next(iter(expanded.hosts.values()))
+            part.hosts = {host.name: host for host in document.hosts}
+        if part.only is None and len(part.hosts) == 1:
+            part.only = next(iter(part.hosts.values()))
         for storm in document.services:
-            linked = LinkedStorm(expanded.scope + storm.name, storm, document, expanded.scope)
-            storm_host, is_unknown = self._host(expanded, storm.host, storm.name, storm.span)
+            linked = LinkedStorm(part.scope + storm.name, storm, document, part.scope)
+            storm_host, is_unknown = self._host(part, storm.host, storm.name, storm.span)
             tie(linked, host=storm_host, broken=is_unknown)
-            if self._define(expanded, storm.name, linked, storm.span):
+            if self._define(part, storm.name, linked, storm.span):
                 self._storms[linked.name] = linked
         for entry in document.entries:
-            self._expand_entry(expanded, entry)
+            self._expand_entry(part, entry)
         for group in document.groups:
-            self._expand_group(expanded, LinkedGroup(expanded.scope + group.name, group, document, expanded.scope))
+            self._expand_group(part, LinkedGroup(part.scope + group.name, group, document, part.scope))
         seen: set[str] = set()
         for include in document.includes:
-            real = self._expand_include(expanded, include, expanded.scope, expanded.only, seen)
+            real = self._expand_include(part, include, part.scope, part.only, seen, no_host=False)
             seen.add(real)
 
-    def _expand_entry(self, expanded: ExpandedDocument, entry: Entry) -> None:
+    def _expand_entry(self, part: ExpandedDocument, entry: Entry) -> None:
         if (INDEX in entry.name) != (entry.instances is not None):
             if entry.instances is None:
-                self._report(expanded, codes.STRAY_INDEX, entry.span, name=entry.name, hint="add `instances:`")
+                self._report(part, codes.STRAY_INDEX.at(entry.span, name=entry.name, hint="add `instances:`"))
             else:
                 hint = f"rename it to '{entry.name}{INDEX}'"
-                self._report(expanded, codes.NO_INDEX, entry.instances_span, name=entry.name, hint=hint)
+                self._report(part, codes.NO_INDEX.at(entry.instances_span, name=entry.name, hint=hint))
             tie(self.root, broken=True)
-            expanded.is_whole = False  # the names of its instances are unknown
+            part.is_whole = False  # the names of its instances are unknown
             return
         every: list[Target] = []
         for number in (None,) if entry.instances is None else range(entry.instances):
-            one = entry if number is None else _instance(entry, number)
-            linked = LinkedInstance(expanded.scope + one.name, one, expanded.document, expanded.scope, number)
-            if self._define(expanded, one.name, linked, entry.span):
+            one = entry if number is None else _replaced(entry, str(number))
+            linked = LinkedInstance(part.scope + one.name, one, part.document, part.scope, number)
+            if self._define(part, one.name, linked, entry.span):
                 every.append(linked)
                 self._in_order.append(linked)
-                expanded.instances.append(linked)
+                part.instances.append(linked)
                 if entry.kind != PROCESS:
-                    host, is_unknown = self._host(expanded, one.host, one.name, one.span)
+                    host, is_unknown = self._host(part, one.host, one.name, one.span)
                     tie(linked, host=host, broken=is_unknown)
-                self._link(expanded, linked)
+                self._link(part, linked)
         if entry.instances is not None:
-            self._names[expanded.scope][entry.name] = tuple(every)
+            self._names[part.scope][entry.name] = tuple(every)
 
-    def _link(self, expanded: ExpandedDocument, linked: LinkedInstance) -> None:
+    def _link(self, part: ExpandedDocument, linked: LinkedInstance) -> None:
         """Links the instance's component and configuration. `DeploymentDocuments` has reported missing ones."""
         entry, component = linked.entry, ""
         if entry.kind == COMPONENT:
-            components = paths.component_paths(expanded.document, entry.target.text, self.disk)
+            components = paths.component_paths(part.document, entry.target.text, self.disk)
             if len(components) == 1:
                 component = components[0]
                 tie(linked, component=self.tables.components.get(os.path.realpath(component)))
             tie(linked, broken=linked.broken or linked.component is None)
-        tie(linked, folder=paths.entry_folder(expanded.document, entry, component))
-        config = self._config(expanded.document, linked)
+        tie(linked, folder=paths.entry_folder(part.document, entry, component))
+        config = self._config(part.document, linked)
         if config and linked.component is not None and paths.is_values(config):
-            self._link_values(expanded, linked, linked.component, config)
+            self._link_values(part, linked, linked.component, config)
         elif config:
             tie(linked, flat=config)
 
@@ -161,7 +160,7 @@ class Expansion(msgspec.Struct):
         return config
 
     def _link_values(
-        self, expanded: ExpandedDocument, linked: LinkedInstance, component: LinkedComponent, path: str
+        self, part: ExpandedDocument, linked: LinkedInstance, component: LinkedComponent, path: str
     ) -> None:
         values = self.tables.values.get(os.path.realpath(path))
         tie(linked, values=values)
@@ -179,144 +178,115 @@ class Expansion(msgspec.Struct):
             tie(linked, values=own)
         else:
             config, other = linked.entry.config, values.parameters.component
-            self._report(
-                expanded,
-                codes.OTHER_VALUES,
+            fault = codes.OTHER_VALUES.at(
                 config.span if config else linked.entry.span,
                 other=other.component.name if other else "another component",
                 component=component.component.name,
                 hint="a component cannot use the values of another one: see `component:` in that document",
             )
+            self._report(part, fault)
             tie(linked, values=None, broken=True)
 
-    def _expand_group(self, expanded: ExpandedDocument, linked: LinkedGroup) -> None:
+    def _expand_group(self, part: ExpandedDocument, linked: LinkedGroup) -> None:
         group = linked.group
-        if not self._define(expanded, group.name, linked, group.span):
+        if not self._define(part, group.name, linked, group.span):
             return
         self._groups[linked.name] = linked
-        expanded.groups.append(linked)
-        host, is_unknown = expanded.only, False
+        part.groups.append(linked)
+        host, is_unknown = part.only, False
         if group.host is not None:
-            host, is_unknown = self._host(expanded, group.host, group.name, group.span)
+            host, is_unknown = self._host(part, group.host, group.name, group.span)
             tie(linked, broken=is_unknown)
         if group.facade is not None:
-            facades = paths.component_paths(expanded.document, group.facade.text, self.disk)
+            facades = paths.component_paths(part.document, group.facade.text, self.disk)
             facade = self.tables.components.get(os.path.realpath(facades[0])) if len(facades) == 1 else None
             tie(linked, facade=facade, broken=linked.broken or facade is None)
         if group.include is not None:
-            whole, before = expanded.is_whole, len(self._in_order)
-            is_usable = self._expand_include(
-                expanded, group.include, f"{linked.name}.", host, set(), is_homeless=is_unknown
-            )
+            whole, before = part.is_whole, len(self._in_order)
+            is_usable = self._expand_include(part, group.include, f"{linked.name}.", host, set(), is_unknown)
             tie(linked, broken=linked.broken or not is_usable)
-            expanded.is_whole = whole
+            part.is_whole = whole
             self.included[linked] = self._in_order[before:]
 
     def _expand_include(
-        self,
-        expanded: ExpandedDocument,
-        include: Text,
-        scope: str,
-        host: Host | None,
-        seen: set[str],
-        *,
-        is_homeless: bool = False,
+        self, part: ExpandedDocument, include: Text, scope: str, host: Host | None, seen: set[str], no_host: bool
     ) -> str:
         """Expands an included deployment in a scope. Returns its real path, or '' if it cannot be used."""
-        path = paths.include_path(expanded.document, include.text, self.disk)
+        path = paths.include_path(part.document, include.text, self.disk)
         real = os.path.realpath(path) if path else ""
         target = self.deployments.get(real)
-        chain = (*expanded.chain, os.path.realpath(expanded.document.path))
+        chain = (*part.chain, os.path.realpath(part.document.path))
         if target is not None and real in chain:
             if real == chain[0] == min(chain):  # each cycle is reported once
                 cycle = " → ".join(os.path.basename(one) for one in (*chain, real))
-                self.diagnostics.append(
-                    codes.INCLUDE_CYCLE.at(
-                        include.span, path=include.text, cycle=cycle, hint="remove one of these includes"
-                    )
-                )
+                hint = "remove one of these includes"
+                self.diagnostics.append(codes.INCLUDE_CYCLE.at(include.span, path=include.text, cycle=cycle, hint=hint))
             target = None
         if target is None:
             tie(self.root, broken=True)
-            expanded.is_whole = False
+            part.is_whole = False
             return ""
         if real in seen:
-            self._report(expanded, codes.INCLUDED_TWICE, include.span, path=include.text)
+            self._report(part, codes.INCLUDED_TWICE.at(include.span, path=include.text))
             return real
-        inner = ExpandedDocument(target, scope, chain, include.span, expanded.hosts, host, is_homeless=is_homeless)
+        inner = ExpandedDocument(target, scope, chain, include.span, part.hosts, host, is_homeless=no_host)
         self._expand(inner)
-        expanded.is_whole &= inner.is_whole
+        part.is_whole &= inner.is_whole
         return real if inner.is_whole else ""
 
-    def _define(self, expanded: ExpandedDocument, name: str, target: Target, span: Span) -> bool:
+    def _define(self, part: ExpandedDocument, name: str, target: Target, span: Span) -> bool:
         """Defines a name in the scope. Returns whether the name was free."""
-        known = self._names[expanded.scope].get(name)
+        known = self._names[part.scope].get(name)
         if known is None:
-            self._names[expanded.scope][name] = (target,)
+            self._names[part.scope][name] = (target,)
             return True
-        if expanded.is_own or any(other.document is not expanded.document for other in known):
+        if part.is_own or any(other.document is not part.document for other in known):
             related = [Related("the first definition", _span_of(other)) for other in known[:1]]
             self.diagnostics.append(codes.DUPLICATE_NAME.at(span, name=name, related=related))
         return False
 
-    def _merge_host(self, host: Host, expanded: ExpandedDocument) -> None:
+    def _merge_host(self, host: Host, part: ExpandedDocument) -> None:
         known = self._hosts.setdefault(host.name, host)
-        if (known.address.text, known.user) != (host.address.text, host.user) and expanded.span is not None:
-            self.diagnostics.append(
-                codes.HOST_DIFFERS.at(
-                    host.address.span,
-                    name=host.name,
-                    address=_ssh_address(host),
-                    other=_ssh_address(known),
-                    document=os.path.basename(host.address.span.file),
-                    hint="rename one of the two hosts",
-                    related=[
-                        Related("the other host", known.address.span),
-                        Related("the include", expanded.span),
-                    ],
-                )
+        if (known.address.text, known.user) != (host.address.text, host.user) and part.span is not None:
+            fault = codes.HOST_DIFFERS.at(
+                host.address.span,
+                name=host.name,
+                address=_ssh_address(host),
+                other=_ssh_address(known),
+                document=os.path.basename(host.address.span.file),
+                hint="rename one of the two hosts",
+                related=[Related("the other host", known.address.span), Related("the include", part.span)],
             )
+            self.diagnostics.append(fault)
 
-    def _host(self, expanded: ExpandedDocument, named: Text | None, name: str, span: Span) -> tuple[Host | None, bool]:
+    def _host(self, part: ExpandedDocument, named: Text | None, name: str, span: Span) -> tuple[Host | None, bool]:
         """The host of an entry or service, and whether it is unknown."""
         if named is None:
-            if expanded.only is None and expanded.hosts and (expanded.is_own or not expanded.document.hosts):
-                self._no_host(expanded, name, span)
-            return expanded.only, expanded.only is None and bool(expanded.hosts)
-        hosts = expanded.hosts if expanded.document.hosts else {}
+            if part.only is None and part.hosts and (part.is_own or not part.document.hosts):
+                self._no_host(part, name, span)
+            return part.only, part.only is None and bool(part.hosts)
+        hosts = part.hosts if part.document.hosts else {}
         if named.text not in hosts:
-            hint = did_you_mean(
-                named.text,
-                hosts,
-                otherwise=f"the hosts are {', '.join(hosts)}"
-                if hosts
-                else "`hosts:` defines hosts; without it, all processes run on this machine",
-            )
-            self._report(expanded, codes.UNKNOWN_HOST, named.span, name=named.text, hint=hint)
+            otherwise = f"the hosts are {', '.join(hosts)}" if hosts else _NO_HOSTS
+            hint = did_you_mean(named.text, hosts, otherwise=otherwise)
+            self._report(part, codes.UNKNOWN_HOST.at(named.span, name=named.text, hint=hint))
         return hosts.get(named.text), named.text not in hosts
 
-    def _no_host(self, expanded: ExpandedDocument, name: str, span: Span) -> None:
+    def _no_host(self, part: ExpandedDocument, name: str, span: Span) -> None:
         """Reports an entry without a host; for an included document only once, for all of its entries."""
-        host = next(iter(expanded.hosts))
-        if expanded.span is None:
+        host = next(iter(part.hosts))
+        if part.span is None:
             self.diagnostics.append(codes.NO_HOST.at(span, name=name, hint=f"add `host: {host}`, or another host"))
-        elif not expanded.is_homeless:
-            expanded.is_homeless = True
-            path = os.path.basename(expanded.document.path)
-            group = expanded.scope.rstrip(".").rpartition(".")[2] or path.partition(".")[0]
-            self.diagnostics.append(
-                codes.NO_HOST.at(
-                    expanded.span,
-                    name=expanded.scope.rstrip(".") or path,
-                    hint=f"write `groups: {{{group}: {{include: {path}, host: {host}}}}}`, or `hosts:` in {path}",
-                )
-            )
+        elif not part.is_homeless:
+            part.is_homeless = True
+            path = os.path.basename(part.document.path)
+            group = part.scope.rstrip(".").rpartition(".")[2] or path.partition(".")[0]
+            hint = f"write `groups: {{{group}: {{include: {path}, host: {host}}}}}`, or `hosts:` in {path}"
+            self.diagnostics.append(codes.NO_HOST.at(part.span, name=part.scope.rstrip(".") or path, hint=hint))
 
-    def _report(
-        self, expanded: ExpandedDocument, code: Code, span: Span, *, hint: str | Hint = "", **facts: str
-    ) -> None:
-        if expanded.is_own:
-            self.diagnostics.append(code.at(span, hint=hint, related=(), more="", fixes=(), **facts))
+    def _report(self, part: ExpandedDocument, fault: Diagnostic) -> None:
+        if part.is_own:
+            self.diagnostics.append(fault)
 
 
 def _ssh_address(host: Host) -> str:
@@ -337,12 +307,8 @@ def _span_of(target: Target) -> Span:
     return target.storm.span if isinstance(target, LinkedStorm) else target.group.span
 
 
-def _instance(entry: Entry, number: int) -> Entry:
-    """The entry with `{i}` replaced by the number in every text."""
-    return _replaced(entry, str(number))
-
-
 def _replaced(part: _Part, number: str) -> _Part:
+    """The part of an entry with `{i}` replaced by the number in every text."""
     replaced: object = part
     if isinstance(part, str):
         replaced = part.replace(INDEX, number)

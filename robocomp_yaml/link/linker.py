@@ -28,12 +28,9 @@ if TYPE_CHECKING:
     from robocomp_yaml.link.deployment_documents import DeploymentDocuments
     from robocomp_yaml.model.component import Component, Use
 
-_VERBS = {
-    "implements": "implements",
-    "requires": "requires",
-    "publishes": "publishes",
-    "subscribes": "subscribes to",
-}
+_ADD_FOLDER = (
+    "put its document beside this one, or list its folder under `interfaces:` in rcyaml.yaml, or pass it with -I"
+)
 
 
 class Linker(msgspec.Struct):
@@ -161,18 +158,11 @@ class Linker(msgspec.Struct):
             target = self.documents.get(path)
             name = os.path.basename(path).removesuffix(SUFFIX)
             if other_case:
-                self.diagnostics.append(
-                    codes.IMPORT_CASE.at(
-                        imported.span,
-                        name=imported.text,
-                        found=name,
-                        hint=Hint(f"write '{name}'", imported.stem, name, safe=True),
-                    )
-                )
+                hint = Hint(f"write '{name}'", imported.stem, name, safe=True)
+                self.diagnostics.append(codes.IMPORT_CASE.at(imported.span, name=imported.text, found=name, hint=hint))
             if target.real in documents or target.real == document.real:
-                self.diagnostics.append(
-                    codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text, fixes=[removal(imported.span)])
-                )
+                fix = removal(imported.span)
+                self.diagnostics.append(codes.DUPLICATE_IMPORT.at(imported.span, name=imported.text, fixes=[fix]))
                 continue
             documents[target.real] = target
             if not isinstance(target.model, Module):
@@ -185,14 +175,7 @@ class Linker(msgspec.Struct):
     ) -> None:
         itself = os.path.basename(document.path).removesuffix(SUFFIX)
         known = [name for name in self.search.known(document.path, workspace) if name != itself]
-        hint = did_you_mean(
-            imported.text,
-            known,
-            others,
-            open_=True,
-            otherwise="put its document beside this one, or list its folder under `interfaces:` in rcyaml.yaml, or "
-            "pass it with -I",
-        )
+        hint = did_you_mean(imported.text, known, others, open_=True, otherwise=_ADD_FOLDER)
         self.diagnostics.append(codes.UNRESOLVED_IMPORT.at(imported.span, name=imported.text, hint=hint))
 
     def _join(self) -> None:
@@ -221,14 +204,9 @@ class Linker(msgspec.Struct):
                 Related(f"{one.stem} imports {next_.stem}", _import_of(one, next_).span)
                 for one, next_ in pairwise(circle)
             ]
-            self.diagnostics.append(
-                idsl.IMPORT_CYCLE.at(
-                    steps[0].span,
-                    cycle=" → ".join(module.stem for module in circle),
-                    related=steps[1:],
-                    hint="move the definitions that both need to a third document",
-                )
-            )
+            cycle = " → ".join(module.stem for module in circle)
+            hint = "move the definitions that both need to a third document"
+            self.diagnostics.append(idsl.IMPORT_CYCLE.at(steps[0].span, cycle=cycle, related=steps[1:], hint=hint))
         return circles
 
     def _importable(self, document: Document, interface: str) -> str | None:
@@ -252,8 +230,10 @@ def _import_of(module: Module, other: Module) -> Import:
 def _link_ports(linked: LinkedComponent, importable: Callable[[str], str | None]) -> Iterator[Diagnostic]:
     """Resolves the interfaces of a component's ports; an unknown one makes the component `broken`. `importable` returns
     the document to import for an interface, or None."""
+    from robocomp_yaml.model.component import LISTS  # interfaces alone need no components
+
     component = linked.component
-    for list_, verb in _VERBS.items():
+    for list_ in LISTS:
         ports = []
         for use in getattr(component, list_):
             matches = list(_lookup(linked, use))
@@ -267,7 +247,7 @@ def _link_ports(linked: LinkedComponent, importable: Callable[[str], str | None]
                 yield cdsl.UNKNOWN_INTERFACE.at(
                     use.span,
                     component=component.name,
-                    verb=verb,
+                    verb="subscribes to" if list_ == "subscribes" else list_,
                     name=use.interface,
                     hint=_hint(linked, use, importable, {other.interface for other in getattr(component, list_)}),
                 )

@@ -54,16 +54,10 @@ class LinkedModule(msgspec.Struct, frozen=True, eq=False):
 
         Results are cached, because references are resolved often, and only after the imports are linked."""
         if ref.text not in self._resolved:
-            self._resolved[ref.text] = self._look_up(ref)
+            qualified = (s for s in (self, *self.imports) if ref.module in (s.module.name, s.module.stem))
+            scopes = (s for s in (qualified if ref.module else [self]) if ref.name in s._own)
+            self._resolved[ref.text] = next(((s, s._own[ref.name]) for s in scopes), None)
         return self._resolved[ref.text]
-
-    def _look_up(self, ref: TypeRef) -> tuple[LinkedModule, Definition] | None:
-        qualifier = ref.module
-        for scope in (self, *self.imports):
-            qualifiers = (*([""] if scope is self else []), scope.module.name, scope.module.stem)
-            if qualifier in qualifiers and ref.name in scope._own:
-                return scope, scope._own[ref.name]
-        return None
 
     def closure(self) -> list[LinkedModule]:
         """This module and all that it imports, directly or not, once each. Importers follow the modules they import."""

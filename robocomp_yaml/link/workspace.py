@@ -10,13 +10,13 @@ import msgspec
 
 from robocomp_yaml.diag.codes import files as codes
 from robocomp_yaml.diag.diagnostic import SEVERITIES, Diagnostic
+from robocomp_yaml.link.documents import read_tree
 from robocomp_yaml.model.build_interface import entries, items
 from robocomp_yaml.plugins import NONE, Plugins
 from robocomp_yaml.source import schema
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import Disk
-from robocomp_yaml.source.text import decode
-from robocomp_yaml.source.tree import Mapping, Scalar, parse
+from robocomp_yaml.source.tree import Mapping, Scalar
 
 SUFFIX = ".idsl.yaml"
 
@@ -69,13 +69,7 @@ def read(root: str, disk: Disk | None = None) -> tuple[WorkspaceSettings, list[D
     disk = disk or Disk()
     workspace = WorkspaceSettings(root, declared=True)
     path = os.path.normpath(os.path.join(root, WORKSPACE_FILE))
-    raw, diagnostics = disk.read(path)
-    if raw is None:
-        return workspace, diagnostics
-    content, diagnostics = decode(path, raw)
-    if content is None:
-        return workspace, diagnostics
-    tree, diagnostics = parse(path, content)
+    tree, diagnostics = read_tree(path, disk)
     if tree is None:
         return workspace, [d for d in diagnostics if d.code != codes.EMPTY.id]
     diagnostics = schema.validate("workspace", tree)

@@ -131,13 +131,8 @@ def _ready(node: Node | None) -> model.Ready | None:
         _integer(node, "port"),
         _command(node.get("command")),
         text(node, "log"),
-        span=_ready_span(node),
+        span=next((node.entries[key][1].span for key in ("port", "command", "log") if key in node.entries), node.span),
     )
-
-
-def _ready_span(node: Mapping) -> Span:
-    """The span of the value that defines readiness."""
-    return next((node.entries[key][1].span for key in ("port", "command", "log") if key in node.entries), node.span)
 
 
 def _command(node: Node | None) -> tuple[str, ...]:

@@ -106,6 +106,15 @@ class MachineIndex(msgspec.Struct):
         return any(child.kind == model.FINAL for child in state.states)
 
 
+def indexes(machine: model.StateMachine | None) -> Iterator[MachineIndex]:
+    """The indexes of a machine, and of the machines that it invokes, directly or not."""
+    if machine is not None:
+        index = MachineIndex(machine)
+        yield index
+        for invoked in index.invoked():
+            yield from indexes(invoked)
+
+
 def is_unconditional(transition: model.Transition, datamodel: str) -> bool:
     """Whether the transition has no condition, or one that is always true."""
     if transition.condition is None:

@@ -9,7 +9,7 @@ import msgspec
 
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.model.machine_index import MachineIndex
+from robocomp_yaml.model.machine_index import MachineIndex, indexes
 from robocomp_yaml.model.statemachine import HISTORY, PYTHON, If, Script, State, StateMachine
 
 STATE, GUARD, ACTION, EVENT = "the state", "the guard", "the action", "the event"
@@ -85,8 +85,9 @@ def actions(machine: StateMachine) -> list[NamedPart]:
 
 
 def _methods(machine: StateMachine) -> Iterator[NamedPart]:
-    index = MachineIndex(machine)
-    if machine.datamodel != PYTHON:
+    for index in indexes(machine):
+        if index.machine.datamodel == PYTHON:
+            continue
         texts = [transition.condition for _, transition in index.transitions()]
         for action in index.actions():
             if isinstance(action, If):
@@ -94,12 +95,9 @@ def _methods(machine: StateMachine) -> Iterator[NamedPart]:
             elif isinstance(action, Script):
                 for name in _read(conditions.script, action.code):
                     yield NamedPart(ACTION, Text(name, span=action.code.span), name)
-        for text in texts:
-            if text is not None:
-                for name in _read(_guards, text):
-                    yield NamedPart(GUARD, Text(name, span=text.span), name)
-    for invoked in index.invoked():
-        yield from _methods(invoked)
+        for text in filter(None, texts):
+            for name in _read(_guards, text):
+                yield NamedPart(GUARD, Text(name, span=text.span), name)
 
 
 def _guards(text: str) -> list[str]:

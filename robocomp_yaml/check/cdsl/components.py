@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from collections.abc import Iterator
 from itertools import count
 
-from msgspec.structs import replace
-
+from robocomp_yaml.check import repeated
 from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.codes.files import NAME_TOO_LONG
 from robocomp_yaml.diag.diagnostic import Diagnostic, Related
@@ -23,57 +23,47 @@ _LONGEST_SUFFIX = "_autogen"  # CMake's folder for generated Qt code
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    folders: dict[str, LinkedComponent] = {}
-    for linked in sorted(program.components.values(), key=lambda c: c.component.path):
+    for linked in program.components.values():
         component = linked.component
         if is_too_long(component.name + _LONGEST_SUFFIX):
             limit = LONGEST_NAME - len(_LONGEST_SUFFIX)
             yield NAME_TOO_LONG.at(component.span, name=shortened(component.name), limit=limit, hint="shorten it")
         yield from _names(linked)
         yield from _topics(linked)
-        folder = os.path.dirname(linked.component.path)
-        first = folders.setdefault(folder, linked).component
-        if first is not linked.component:
-            yield codes.SAME_FOLDER.at(
-                linked.component.span,
-                name=linked.component.name,
-                other=first.name,
-                hint="give each component a folder of its own",
-                related=[Related("the other component", first.span)],
-            )
         yield from _libraries(component)
-    yield from _same_names(program)
+    components = sorted((linked.component for linked in program.components.values()), key=lambda each: each.path)
+    for first, component in repeated(components, lambda each: os.path.dirname(each.path)):
+        yield codes.SAME_FOLDER.at(
+            component.span,
+            name=component.name,
+            other=first.name,
+            hint="give each component a folder of its own",
+            related=[Related("the other component", first.span)],
+        )
+    yield from _same_names(components)
 
 
-def _same_names(program: Program) -> Iterator[Diagnostic]:
+def _same_names(components: list[Component]) -> Iterator[Diagnostic]:
     """A component's name is unique in its workspace, except that the same component may be in several languages.
     Documents without a workspace count as one workspace. The component with the longer path is reported, because copies
     are called `speech2`, `speech (copy)` or `old/speech`."""
-    by_name: dict[str, list[LinkedComponent]] = {}
-    for linked in program.components.values():
-        by_name.setdefault(linked.component.name, []).append(linked)
-    for name, same in by_name.items():
-        if len(same) == 1:
-            continue
-        first: dict[tuple[str, str], LinkedComponent] = {}
-        free = (f"{name}{n}" for n in count(2) if f"{name}{n}" not in by_name)
-        for linked in sorted(same, key=lambda each: (len(each.component.path), each.component.path)):
-            component = linked.component
-            root = root_above(os.path.dirname(component.path))
-            workspace = "" if root is None else os.path.realpath(root)
-            other = first.setdefault((workspace, component.language.name), linked).component
-            if other is not component:
-                yield codes.SAME_NAME.at(
-                    component.span,
-                    name=name,
-                    other=other.path,
-                    related=[Related("the other component", other.span)],
-                    hint=f"rename the copy: `component: {next(free)}`",
-                )
 
+    def identity(component: Component) -> tuple[str, str, str]:
+        root = root_above(os.path.dirname(component.path))
+        return component.name, component.language.name, "" if root is None else os.path.realpath(root)
 
-def _is_same(one: Port, other: Port) -> bool:
-    return replace(one.use, span=other.use.span) == other.use
+    names = Counter(component.name for component in components)
+    same = [component for component in components if names[component.name] > 1]
+    for other, component in repeated(sorted(same, key=lambda each: len(each.path)), identity):
+        free = next(f"{component.name}{n}" for n in count(2) if f"{component.name}{n}" not in names)
+        names[free] = 1
+        yield codes.SAME_NAME.at(
+            component.span,
+            name=component.name,
+            other=other.path,
+            related=[Related("the other component", other.span)],
+            hint=f"rename the copy: `component: {free}`",
+        )
 
 
 def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
@@ -93,7 +83,7 @@ def _names(linked: LinkedComponent) -> Iterator[Diagnostic]:
                     list=list_,
                     hint="remove it" if list_ != "requires" else f"write {entry}, or remove it",
                     related=[Related("the first one", names[port.name].use.span)],
-                    fixes=[removal(port.use.span, safe=list_ != "requires" and _is_same(port, names[port.name]))],
+                    fixes=[removal(port.use.span, safe=list_ != "requires" and port.use == names[port.name].use)],
                 )
                 continue
             names[port.name] = port

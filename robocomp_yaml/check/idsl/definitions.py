@@ -23,23 +23,15 @@ def check(program: Program) -> Iterator[Diagnostic]:
             if isinstance(definition, Enum):
                 yield from _numbers(definition)
                 if not definition.enumerators:
-                    yield codes.EMPTY_TYPE.at(
-                        definition.list_span,
-                        kind="enum",
-                        name=definition.name,
-                        parts="enumerators",
-                        hint="add at least one: {enum: [first]}",
-                    )
+                    yield _empty(definition, "enum", "enumerators", "add at least one: {enum: [first]}")
             elif isinstance(definition, Struct) and not definition.members:
-                yield codes.EMPTY_TYPE.at(
-                    definition.list_span,
-                    kind="struct",
-                    name=definition.name,
-                    parts="members",
-                    hint="add a member: {struct: {x: float}}",
-                )
+                yield _empty(definition, "struct", "members", "add a member: {struct: {x: float}}")
             elif isinstance(definition, Map):
                 yield from _key(linked, definition.key)
+
+
+def _empty(definition: Enum | Struct, kind: str, parts: str, hint: str) -> Diagnostic:
+    return codes.EMPTY_TYPE.at(definition.list_span, kind=kind, name=definition.name, parts=parts, hint=hint)
 
 
 def _cycles(linked: LinkedModule) -> Iterator[Diagnostic]:

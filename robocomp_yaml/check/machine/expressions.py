@@ -14,8 +14,8 @@ from robocomp_yaml.link.program import Program
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model import statemachine as model
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.model.machine_index import MachineIndex
-from robocomp_yaml.model.statemachine import NULL, PYTHON, StateMachine
+from robocomp_yaml.model.machine_index import MachineIndex, indexes
+from robocomp_yaml.model.statemachine import NULL, PYTHON
 
 _VALUE, _CONDITION, _SCRIPT = "the value", "the condition", "the script"
 _Expression = tuple[str, Text | None]
@@ -23,24 +23,22 @@ _Expression = tuple[str, Text | None]
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
-        if linked.machine is not None and STATEMACHINE in linked.component.language.target.has:
-            yield from _machine(linked.machine, linked.component.language.target)
+        language = linked.component.language.target
+        for index in indexes(linked.machine) if STATEMACHINE in language.has else ():
+            yield from _machine(index, language)
 
 
-def _machine(machine: StateMachine, language: TargetLanguage) -> Iterator[Diagnostic]:
-    """Checks a machine, and those that it invokes, for a component in this language."""
-    index = MachineIndex(machine)
-    name = machine.datamodel or NULL
+def _machine(index: MachineIndex, language: TargetLanguage) -> Iterator[Diagnostic]:
+    """Checks a machine of a component in this language."""
+    name = index.machine.datamodel or NULL
     if name not in language.datamodels:
         others = [other for other in language.datamodels if other != NULL]
         hint = f'write "{others[0]}"' if others else "remove it; then conditions consist of guards of the worker"
-        yield codes.DATAMODEL.at(machine.datamodel_span, name=name, language=language.title, hint=hint)
+        yield codes.DATAMODEL.at(index.machine.datamodel_span, name=name, language=language.title, hint=hint)
     else:
         faults = _faults_in_python if name == PYTHON else _faults_in_null
         for what, text in _expressions(index):
             yield from faults(index, what, text) if text is not None else ()
-    for invoked in index.invoked():
-        yield from _machine(invoked, language)
 
 
 def _expressions(index: MachineIndex) -> Iterator[_Expression]:

@@ -9,7 +9,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.model.machine_index import MANY, MachineIndex, is_unconditional, prefixes
+from robocomp_yaml.model.machine_index import MANY, MachineIndex, indexes, is_unconditional, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PARALLEL, Send, State, StateMachine, Transition
 from robocomp_yaml.semantics.events import beginning
 
@@ -18,19 +18,12 @@ _PLATFORM = ("done.", "error", "*", ".*")
 
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
-        if linked.machine is not None and linked.machine.root.states:
-            yield from _of(linked.machine)
-
-
-def _of(machine: StateMachine) -> Iterator[Diagnostic]:
-    index = MachineIndex(machine)
-    yield from _unreachable(index)
-    yield from _endless(index)
-    yield from _unheard(index)
-    yield from _never_sent(index)
-    for invoked in index.invoked():
-        if invoked.root.states:
-            yield from _of(invoked)
+        for index in indexes(linked.machine):
+            if index.machine.root.states:
+                yield from _unreachable(index)
+                yield from _endless(index)
+                yield from _unheard(index)
+                yield from _never_sent(index)
 
 
 def _unreachable(index: MachineIndex) -> Iterator[Diagnostic]:
@@ -86,13 +79,9 @@ def _endless(index: MachineIndex) -> Iterator[Diagnostic]:
         if state is not None and state.number in path:
             members = list(path.values())
             circle = members[list(path).index(state.number) :]
-            span = next(t.span for s in _sources(index, state) for t in s.transitions if not t.events)
+            span = next(t.span for s in [state, *index.ancestors(state)] for t in s.transitions if not t.events)
             names = " → ".join(member.id or "(without a name)" for member in (*circle, state))
             yield codes.ENDLESS.at(span, circle=names, hint="give one of the transitions an event or a condition")
-
-
-def _sources(index: MachineIndex, state: State) -> list[State]:
-    return [state, *index.ancestors(state)]
 
 
 def _at_once(index: MachineIndex, state: State) -> State | None:
@@ -102,7 +91,7 @@ def _at_once(index: MachineIndex, state: State) -> State | None:
         if state.kind == PARALLEL or len(inner) != 1 or inner[0].kind == HISTORY:
             return None
         state = inner[0]
-    ancestors = _sources(index, state)
+    ancestors = [state, *index.ancestors(state)]
     if any(ancestor.kind == PARALLEL for ancestor in ancestors):
         return None
     transition = next((t for source in ancestors for t in source.transitions if not t.events), None)
@@ -114,14 +103,12 @@ def _at_once(index: MachineIndex, state: State) -> State | None:
 
 def _sent(machine: StateMachine) -> tuple[list[Text], bool]:
     """The events that a machine and its invoked machines raise or send, and whether these are all."""
-    index = MachineIndex(machine)
-    events = [event for event, _ in index.sends()]
-    complete = not any(isinstance(action, Send) and action.event.expr for action in index.actions())
-    complete &= all(invoke.source.expr is None for invoke in index.invokes())
-    for invoked in index.invoked():
-        inner, inner_complete = _sent(invoked)
-        events += inner
-        complete &= inner_complete
+    events: list[Text] = []
+    complete = True
+    for index in indexes(machine):
+        events += (event for event, _ in index.sends())
+        complete &= not any(isinstance(action, Send) and action.event.expr for action in index.actions())
+        complete &= all(invoke.source.expr is None for invoke in index.invokes())
     return events, complete
 
 

@@ -13,7 +13,7 @@ from robocomp_yaml.diag.fix import removal
 from robocomp_yaml.link.program import Program
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.model.machine_index import MachineIndex, is_unconditional, prefixes
+from robocomp_yaml.model.machine_index import indexes, is_unconditional, prefixes
 from robocomp_yaml.model.statemachine import HISTORY, PYTHON, State, StateMachine, Transition
 from robocomp_yaml.semantics.events import beginning
 
@@ -31,18 +31,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
         if linked.machine is not None:
             yield from _listed_twice(linked.machine)
-            yield from _of(linked.machine)
-
-
-def _of(machine: StateMachine) -> Iterator[Diagnostic]:
-    index = MachineIndex(machine)
-    for state in index.states:
-        if state.kind == HISTORY:
-            yield from _history(state)
-        else:
-            yield from _dead(state, machine)
-    for invoked in index.invoked():
-        yield from _of(invoked)
+        for index in indexes(linked.machine):
+            for state in index.states:
+                yield from _history(state) if state.kind == HISTORY else _dead(state, index.machine)
 
 
 def _listed_twice(machine: StateMachine) -> Iterator[Diagnostic]:

@@ -15,7 +15,7 @@ from robocomp_yaml.languages.record import STATEMACHINE, TargetLanguage
 from robocomp_yaml.link.program import LinkedComponent, Program
 from robocomp_yaml.model import machine_names as names
 from robocomp_yaml.model.located import Text
-from robocomp_yaml.model.machine_index import MANY, MachineIndex
+from robocomp_yaml.model.machine_index import MANY, MachineIndex, indexes
 from robocomp_yaml.model.statemachine import FINAL, HISTORY, PARALLEL, State, StateMachine, Transition
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -28,16 +28,16 @@ _WORKERS = frozenset(
 def check(program: Program) -> Iterator[Diagnostic]:
     for linked in program.components.values():
         if linked.machine is not None:
-            yield from _of(linked.machine, is_invoked=False)
+            for index in indexes(linked.machine):
+                yield from _states(index, is_invoked=index.machine is not linked.machine)
             yield from _events(linked.machine)
             more = program.plugins_of(linked.component.path).languages
             yield from _in_code(linked, linked.machine, with_capability(STATEMACHINE, more))
 
 
-def _of(machine: StateMachine, is_invoked: bool) -> Iterator[Diagnostic]:
-    index = MachineIndex(machine)
-    if not any(state.kind != HISTORY for state in machine.root.states):
-        yield codes.NO_STATE.at(machine.span)
+def _states(index: MachineIndex, is_invoked: bool) -> Iterator[Diagnostic]:
+    if all(state.kind == HISTORY for state in index.machine.root.states):
+        yield codes.NO_STATE.at(index.machine.span)
         return
     yield from _names(index, is_invoked)
     yield from _strays(index)
@@ -47,8 +47,6 @@ def _of(machine: StateMachine, is_invoked: bool) -> Iterator[Diagnostic]:
         yield from _final(index, state)
     for _, transition in index.transitions():
         yield from _targets(index, transition)
-    for invoked in index.invoked():
-        yield from _of(invoked, is_invoked=True)
 
 
 def _names(index: MachineIndex, is_invoked: bool) -> Iterator[Diagnostic]:
