@@ -14,7 +14,7 @@ from robocomp_yaml.plugins import Plugins
 from robocomp_yaml.source.allowances import OURS, Allowance, allowances
 from robocomp_yaml.source.spelled import Text, Texts
 
-_ABOUT_THEM = ("RC0060", "RC0061", "RC0062", "RC0063", "RC0064")
+_ABOUT_ALLOWANCES = ("RC0060", "RC0061", "RC0062", "RC0063", "RC0064")
 
 
 class AllowanceVerdict(msgspec.Struct, frozen=True):
@@ -55,7 +55,7 @@ class Allowances(msgspec.Struct, frozen=True):
             covering = [each for each in file if each.code == one.code and each.covers(one.span)]
             if not covering:
                 reported.append(one)
-            elif one.code in _ABOUT_THEM or ERROR == one.severity == lint(one.span.file).get(one.code, ERROR):
+            elif one.code in _ABOUT_ALLOWANCES or ERROR == one.severity == lint(one.span.file).get(one.code, ERROR):
                 errors.update(covering)
                 reported.append(one)
             else:
@@ -77,7 +77,7 @@ class Allowances(msgspec.Struct, frozen=True):
 def _of_errors(errors: Iterable[Allowance]) -> Iterator[Diagnostic]:
     """Reports allowances of errors, and of diagnostics about such comments."""
     for one in sorted(errors, key=lambda one: (one.span, one.code)):
-        why = "it is about such comments" if one.code in _ABOUT_THEM else "it is an error"
+        why = "it is about such comments" if one.code in _ABOUT_ALLOWANCES else "it is an error"
         yield codes.ALLOW_ERROR.at(one.span, code=one.code, why=why, hint="correct the error, and remove this comment")
 
 

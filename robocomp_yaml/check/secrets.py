@@ -56,12 +56,9 @@ def _of_configurations(program: Program) -> Iterator[Diagnostic]:
         for instance in deployment.instances.values():
             path, config, component = instance.flat, instance.entry.config, instance.component
             location = (instance.document.path, os.path.realpath(path)) if path else ("", "")
-            if (
-                config is None
-                or location in reported
-                or path not in program.disk.contents
-                or not _others_can_read(path)
-            ):
+            if config is None or location in reported:
+                continue
+            if path not in program.disk.contents or not _others_can_read(path):
                 continue
             reported.add(location)
             names = set(declared(component.parameters.parameters.root)) if component is not None else set()

@@ -69,7 +69,7 @@ class Attachments(msgspec.Struct):
         if model.parameters:
             path = os.path.normpath(os.path.join(folder, model.parameters))
             if not self._references.is_document(path, ("pdsl",)):
-                advice = self._references.advice(model.parameters, folder, "parameters", ("pdsl",))
+                advice = self._references.hint_for(model.parameters, folder, "parameters", ("pdsl",))
                 fault = codes.NO_PARAMETERS.at(model.parameters_span, name=model.parameters, hint=advice.hint)
                 self.diagnostics.append(fault)
                 tie(linked.parameters, broken=True)
@@ -126,33 +126,31 @@ class Attachments(msgspec.Struct):
         if not self._references.is_document(path, kinds):
             root = self.root_of(document.path)
             is_name = os.path.basename(name) == name and not name.endswith((".yaml", ".yml"))
-            found = self._with_name(name, root) if is_name else []
+            matches = self._with_name(name, root) if is_name else []
             is_plain = is_parameters and "/" not in name and not name.endswith(".yaml")
-            references_ = self._references
-            advice = (
-                references_.advice_for_name(name, folder)
-                if is_plain
-                else references_.advice(name, folder, "component", kinds)
-            )
-            if found:
-                fault = codes.NAMED.at(span, name=name, hint=references.write(found, folder, "component", name))
-                is_near = not is_parameters or any(os.path.dirname(path) == folder for path in found)
+            if is_plain:
+                advice = self._references.hint_for_name(name, folder)
+            else:
+                advice = self._references.hint_for(name, folder, "component", kinds)
+            if matches:
+                fault = codes.NAMED.at(span, name=name, hint=references.entry_hint(matches, folder, "component", name))
+                is_near = not is_parameters or any(os.path.dirname(path) == folder for path in matches)
                 # Parameters without a component beside them may have its name by chance, as migrated ones have.
                 self.diagnostics.append(fault if is_near else fault.as_severity("warning"))
                 if not is_near:
                     return
             elif advice.hint or not is_plain:
                 alike = [] if advice.is_known else self._with_name(os.path.basename(name), root)
-                hint = references.write(alike, folder, "component", name) if alike else advice.hint
+                hint = references.entry_hint(alike, folder, "component", name) if alike else advice.hint
                 self.diagnostics.append(codes.NO_COMPONENT.at(span, name=name, hint=hint))
             else:
                 return
             self._component_of[document.real] = ""
-            found = self._references.beside(folder, "cdsl") if is_parameters and not found else found
-            found = self._references.components_of(document.path) or found
-            if len(found) != 1:
+            matches = self._references.beside(folder, "cdsl") if is_parameters and not matches else matches
+            matches = self._references.components_of(document.path) or matches
+            if len(matches) != 1:
                 return
-            path = found[0]  # continue as if the reference were right
+            path = matches[0]  # continue as if the reference were right
         target = self.documents.get(path)
         self._component_of[document.real] = target.real
         if is_parameters:
@@ -177,7 +175,7 @@ class Attachments(msgspec.Struct):
             path = os.path.normpath(os.path.join(os.path.dirname(document.path), str(layer.value)))
             if not (path.endswith(".yaml") and disk.has_file(path) and kind_of(path, disk) in ("config", None)):
                 folder = os.path.dirname(document.path)
-                advice = self._references.advice(str(layer.value), folder, "extends", ("config",), document.path)
+                advice = self._references.hint_for(str(layer.value), folder, "extends", ("config",), document.path)
                 self.diagnostics.append(value_codes.NO_LAYER.at(layer.span, name=layer.value, hint=advice.hint))
                 tie(self.tables.values[document.real], broken=True)
                 continue
@@ -192,11 +190,10 @@ class Attachments(msgspec.Struct):
         self.diagnostics += self._elsewhere()
         for document in list(self.documents.read.values()):
             if isinstance(document.model, ParameterDocument) and document.real not in self.tables.parameters:
-                parameters, found = resolve(document.model)
-                self.diagnostics += found
-                self.tables.parameters[document.real] = LinkedParameters(
-                    parameters, document.model, broken=hides_types(found)
-                )
+                parameters, faults = resolve(document.model)
+                self.diagnostics += faults
+                linked = LinkedParameters(parameters, document.model, broken=hides_types(faults))
+                self.tables.parameters[document.real] = linked
                 self.diagnostics += self._unclaimed(document.model)
         self._join_layers()
 
@@ -207,14 +204,10 @@ class Attachments(msgspec.Struct):
                 path, own = self.documents.read[other].path, component.component
                 is_beside = os.path.dirname(other) == os.path.dirname(real)
                 if not is_beside and not own.parameters:
-                    folder = os.path.dirname(own.path)
-                    yield codes.NOT_BESIDE.at(
-                        span,
-                        component=own.name,
-                        related=[Related("the component", own.span)],
-                        hint=f"{references.write([path], folder, 'parameters')} in {own.path}, or move this document "
-                        "beside it",
-                    )
+                    entry = references.entry_hint([path], os.path.dirname(own.path), "parameters")
+                    hint = f"{entry} in {own.path}, or move this document beside it"
+                    related = [Related("the component", own.span)]
+                    yield codes.NOT_BESIDE.at(span, component=own.name, related=related, hint=hint)
 
     def _unclaimed(self, document: ParameterDocument) -> Iterator[Diagnostic]:
         """Reports parameters that name no component, beside a component without parameters."""
@@ -225,7 +218,7 @@ class Attachments(msgspec.Struct):
             yield codes.UNCLAIMED.at(
                 document.span,
                 component=component.component.name,
-                hint=references.write(beside, folder, "component"),
+                hint=references.entry_hint(beside, folder, "component"),
                 related=[Related("the component", component.component.span)],
             )
 
@@ -234,21 +227,23 @@ class Attachments(msgspec.Struct):
         reals = list(dict.fromkeys(other for other, _ in named))
         for other, span in named[1:]:
             if other != reals[0]:
-                first, name = self.documents.read[reals[0]], component.component.name
-                hint, related = "remove one of them", [Related("the first reference", named[0][1])]
-                other_name = os.path.basename(first.path)
-                self.diagnostics.append(
-                    codes.DISAGREEMENT.at(span, component=name, other=other_name, hint=hint, related=related)
+                fault = codes.DISAGREEMENT.at(
+                    span,
+                    component=component.component.name,
+                    other=os.path.basename(self.documents.read[reals[0]].path),
+                    hint="remove one of them",
+                    related=[Related("the first reference", named[0][1])],
                 )
+                self.diagnostics.append(fault)
         period = component.component.period
         document = self.documents.read[reals[0]].model if reals else None
         if reals and not isinstance(document, ParameterDocument):
             own = LinkedParameters(of_no_document(period), component=component, broken=True)
             tie(component, parameters=own, broken=True)
         elif isinstance(document, ParameterDocument):
-            parameters, found = resolve(document, period)
-            self.diagnostics += found
-            broken = hides_types(found)
+            parameters, faults = resolve(document, period)
+            self.diagnostics += faults
+            broken = hides_types(faults)
             own = LinkedParameters(parameters, document, broken, component=component)
             tie(component, parameters=own, broken=component.broken or broken)
             self.tables.parameters.setdefault(reals[0], component.parameters)
@@ -306,19 +301,16 @@ def _is_compiled(document: Document) -> bool:
 def _misplaced(linked: LinkedValues, home: list[str], components: Sequence[LinkedComponent]) -> Iterator[Diagnostic]:
     """Reports `etc/config.yaml` of a component that names another component."""
     own = linked.parameters
-    if (
-        own is None
-        or own.component is None
-        or not components
-        or any(component.parameters is own for component in components)
-    ):
+    if own is None or own.component is None or not components:
+        return
+    if any(component.parameters is own for component in components):
         return
     folder, other = os.path.dirname(linked.document.path), own.component.component.name
     yield codes.MISPLACED.at(
         linked.document.span,
         component=components[0].component.name,
         other=other,
-        hint=references.write(home, folder, "component"),
+        hint=references.entry_hint(home, folder, "component"),
         related=[Related("the component", components[0].component.span)],
     )
 

@@ -49,16 +49,16 @@ class References(msgspec.Struct, frozen=True):
             return []
         return self.beside(os.path.normpath(os.path.join(folder, os.pardir)), "cdsl")
 
-    def advice(self, text: str, folder: str, key: str, kinds: tuple[str, ...], own: str = "") -> ReferenceHint:
+    def hint_for(self, text: str, folder: str, key: str, kinds: tuple[str, ...], own: str = "") -> ReferenceHint:
         """The hint for `text` under a key, which refers to no document of these kinds, relative to the folder. The hint
         does not name `own`, the document with the text."""
         path = os.path.normpath(os.path.join(folder, text))
         if meant := self._completed(path, kinds):
-            return ReferenceHint(write([meant], folder, key, text, safe=True), is_known=True)
+            return ReferenceHint(entry_hint([meant], folder, key, text, safe=True), is_known=True)
         if self.disk.has_folder(path):
             found = [other for kind in kinds for other in self.beside(path, kind)]
             named = " or ".join(f"NAME.{kind}.yaml" for kind in kinds)
-            hint = write(found, folder, key, text)
+            hint = entry_hint(found, folder, key, text)
             words = f"that is a folder{f': {hint}' if found else f' without a {named}'}"
             return ReferenceHint(replace(hint, text=words), is_known=True)
         where = os.path.dirname(path)
@@ -66,18 +66,16 @@ class References(msgspec.Struct, frozen=True):
             kind = kind_of(path, self.disk)
             what = f"is a document of {_WORDS[kind]}" if kind else "is not a document of rcyaml"
             near = [other for expected in kinds for other in self.beside(where, expected)]
-            hint = write(near, folder, key, text)
+            hint = entry_hint(near, folder, key, text)
             return ReferenceHint(replace(hint, text=f"that {what}" + (f"; {hint}" if near else "")), is_known=True)
         if not self.disk.has_folder(where or "."):
             return ReferenceHint(Hint(f"the folder '{where}' does not exist"))
         names = {os.path.basename(other): other for kind in kinds for other in self.beside(where, kind)}
         names.pop(os.path.basename(own) if os.path.dirname(own) == where else "", None)
-        near_by = suggest(os.path.basename(path), names)
-        return (
-            ReferenceHint(meaning(text, os.path.relpath(names[near_by], folder or "."))) if near_by else ReferenceHint()
-        )
+        similar = suggest(os.path.basename(path), names)
+        return ReferenceHint(meaning(text, os.path.relpath(names[similar], folder or ".")) if similar else NO_HINT)
 
-    def advice_for_name(self, name: str, folder: str) -> ReferenceHint:
+    def hint_for_name(self, name: str, folder: str) -> ReferenceHint:
         """The hint for a plain name under `component:` of a parameter document; none if the name may be that of a
         component without a document."""
         path = os.path.normpath(os.path.join(folder, name))
@@ -85,9 +83,9 @@ class References(msgspec.Struct, frozen=True):
         components = self.beside(folder, "cdsl")
         if meant or self.disk.has_folder(path) or len(components) != 1 or len(self.beside(folder, "pdsl")) > 1:
             is_near = meant or self.disk.has_folder(path)
-            return self.advice(name, folder, "component", ("cdsl",)) if is_near else ReferenceHint()
+            return self.hint_for(name, folder, "component", ("cdsl",)) if is_near else ReferenceHint()
         # The folder has one component and one parameter document.
-        return ReferenceHint(write(components, folder, "component", name), is_known=True)
+        return ReferenceHint(entry_hint(components, folder, "component", name), is_known=True)
 
     def _completed(self, path: str, kinds: tuple[str, ...]) -> str:
         """The document to which a path refers if its suffix is completed; '' if there is none."""
@@ -104,7 +102,7 @@ def stem(path: str) -> str:
     return name.removesuffix(f"{kind_of(path) or ''}.yaml").removesuffix(".")
 
 
-def write(paths: list[str], folder: str, key: str, word: str = "", *, safe: bool = False) -> Hint:
+def entry_hint(paths: list[str], folder: str, key: str, word: str = "", *, safe: bool = False) -> Hint:
     """A hint to write an entry that names one of these documents. A single document replaces `word` in a fix."""
     entry = f"`{key}: [{{}}]`" if key == "extends" else f"`{key}: {{}}`"
     named = [os.path.relpath(path, folder or ".") for path in paths[:3]]

@@ -68,32 +68,30 @@ class DeploymentDocuments(msgspec.Struct):
                     yield self.documents.get(path, "config")
 
     def _component(self, model: Deployment, target: Text) -> str | None:
-        found = paths.component_paths(model, target.text, self.documents.disk)
-        if len(found) > 1:
-            names = " or ".join(os.path.join(target.text, os.path.basename(path)) for path in found)
+        components = paths.component_paths(model, target.text, self.documents.disk)
+        if len(components) > 1:
+            names = " or ".join(os.path.join(target.text, os.path.basename(path)) for path in components)
             self.diagnostics.append(codes.SEVERAL_COMPONENTS.at(target.span, path=target.text, hint=f"name {names}"))
-        elif not found:
+        elif not components:
             path = paths.joined(paths.document_folder(model), target.text)
             hint = self._nearby(path, ".cdsl.yaml", "cdsl.yaml")
             self.diagnostics.append(codes.NO_COMPONENT.at(target.span, path=target.text, hint=hint))
-        return found[0] if len(found) == 1 else None
+        return components[0] if len(components) == 1 else None
 
     def _config(self, model: Deployment, folder: str, config: Text) -> str | None:
         candidates = paths.config_paths(model, folder, config.text)
         for path in candidates:
             if self.documents.disk.has_file(path):
                 return path
-        hint, listed = (
-            self._nearby(candidates[0]) or self._nearby(candidates[1]),
-            " and no ".join(dict.fromkeys(candidates)),
-        )
+        hint = self._nearby(candidates[0]) or self._nearby(candidates[1])
+        listed = " and no ".join(dict.fromkeys(candidates))
         self.diagnostics.append(codes.NO_CONFIG.at(config.span, path=config.text, places=listed, hint=hint))
         return None
 
     def _follow_include(self, model: Deployment, include: Text) -> Iterator[Document]:
-        found = paths.include_path(model, include.text, self.documents.disk)
-        if found is not None:
-            yield self.documents.get(found)
+        path = paths.include_path(model, include.text, self.documents.disk)
+        if path is not None:
+            yield self.documents.get(path)
             return
         path = paths.joined(paths.document_folder(model), include.text)
         hint = self._nearby(path, ".ddsl.yaml", without=model.path)
@@ -153,21 +151,21 @@ def too_large(deployments: Mapping[str, Deployment], disk: Disk) -> dict[str, Di
     """The deployments, by real path, that are too large or too deep, each with its diagnostic. The diagnostic is None
     for those that only include such a deployment, so that the error is reported once."""
     sizes: dict[str, tuple[int, int]] = {}
-    found: dict[str, Diagnostic | None] = {}
+    faults: dict[str, Diagnostic | None] = {}
     included = {real: list(_included(model, disk)) for real, model in deployments.items()}
     for real in inner_first(deployments, lambda real: [other for other in included[real] if other in included]):
         model, inner = deployments[real], [other for other in included[real] if other in sizes]
         size = sum(entry.instances or 1 for entry in model.entries) + sum(sizes[other][0] for other in inner)
         depth = 1 + max((sizes[other][1] for other in inner), default=0)
         sizes[real] = size, depth
-        if any(other in found for other in inner):
-            found[real] = None
+        if any(other in faults for other in inner):
+            faults[real] = None
         elif size > MAX_INSTANCES:
-            found[real] = codes.TOO_LARGE.at(model.span, problem=f"has {size} processes, more than {MAX_INSTANCES}")
+            faults[real] = codes.TOO_LARGE.at(model.span, problem=f"has {size} processes, more than {MAX_INSTANCES}")
         elif depth > MAX_DEPTH:
             problem = f"nests includes {depth} deep, more than {MAX_DEPTH}"
-            found[real] = codes.TOO_LARGE.at(model.span, problem=problem)
-    return found
+            faults[real] = codes.TOO_LARGE.at(model.span, problem=problem)
+    return faults
 
 
 def _included(model: Deployment, disk: Disk) -> Iterator[str]:

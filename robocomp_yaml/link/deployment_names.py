@@ -49,12 +49,8 @@ class DeploymentNames(msgspec.Struct):
         for name in group.group.members:
             for target in self._find(part, name, f"the group '{group.group.name}'", group) or ():
                 if isinstance(target, LinkedStorm):
-                    self._unknown(
-                        part,
-                        name,
-                        f"the group '{group.group.name}'",
-                        Hint("a service cannot be a member of a group"),
-                    )
+                    hint = Hint("a service cannot be a member of a group")
+                    self._unknown(part, name, f"the group '{group.group.name}'", hint)
                 else:
                     yield target
         yield from self.included.get(group, ())
