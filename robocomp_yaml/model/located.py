@@ -39,5 +39,8 @@ class Text(Spanned, frozen=True):
 
     text: str
 
+    def __hash__(self) -> int:  # the same for equal texts, and much faster
+        return hash(self.text)
+
     def __str__(self) -> str:
         return self.text
