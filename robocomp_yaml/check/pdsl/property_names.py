@@ -45,7 +45,7 @@ def _property_names(linked: LinkedParameters) -> Iterator[Diagnostic]:
         if key in taken:
             yield codes.PROPERTY_CLASH.at(spans[path], name=path, other=taken[key], property=key)
         elif has_tail and first in _ICE:
-            yield codes.PROPERTY_CLASH.at(spans[path], name=path, other="a setting of Ice", property=f"{first}.…")
+            yield codes.PROPERTY_CLASH.at(spans[path], name=path, other="a property of Ice", property=f"{first}.…")
         elif has_tail and first in _RESERVED:
             yield codes.PROPERTY_CLASH.at(spans[path], name=path, other=_RESERVED[first], property=f"{first}.…")
         elif has_tail and first in taken and first not in warned:

@@ -44,7 +44,7 @@ _INT = "{type: int, default: 1}"
             ],
         ),
         (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other are both the property 'OtherProxy'"]),
-        (f"Ice: {{group: {{x: {_INT}}}}}", "", ["RC3116 'Ice.x' and a setting of Ice are both the property 'Ice.…'"]),
+        (f"Ice: {{group: {{x: {_INT}}}}}", "", ["RC3116 'Ice.x' and a property of Ice are both the property 'Ice.…'"]),
         (f"a: {_INT}, b: {_INT}", "a: X, b: X", ["RC3116 'b' and 'a' are both the property 'X'"]),
         (
             f"a: {_INT}, ids: {{list: int, default: []}}",
