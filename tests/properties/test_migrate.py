@@ -248,7 +248,7 @@ def cdsl_text(draw: st.DrawFn, component: Component) -> str:
     if component.gui:
         clauses.append(f"gui Qt({component.gui.base});")
     if component.options:
-        clauses.append(f"options {', '.join(option.name for option in component.options)};")
+        clauses.append(f"options {', '.join(option.text for option in component.options)};")
     for clause in draw(st.permutations(clauses)):
         out.space()
         out.put(clause)
