@@ -23,8 +23,8 @@ import msgspec
 from msgspec.structs import replace
 
 from robocomp_yaml.check import checks, secrets
-from robocomp_yaml.check.allowed import Allowed, Judged
-from robocomp_yaml.check.networks import of_networks
+from robocomp_yaml.check.allowed import Allowances, AllowanceVerdict
+from robocomp_yaml.check.networks import check_networks
 from robocomp_yaml.diag.diagnostic import Diagnostic, in_order
 from robocomp_yaml.diag.hidden import Hidden
 from robocomp_yaml.link.documents import Documents
@@ -51,7 +51,7 @@ class Analysis(msgspec.Struct, frozen=True):
     disk: Disk
     derived: DerivedNetworks
     texts: Texts
-    allowed: Allowed
+    allowed: Allowances
     diagnostics: tuple[Diagnostic, ...] = ()
     used: frozenset[Allowance] = frozenset()
 

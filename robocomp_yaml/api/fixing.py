@@ -123,14 +123,17 @@ def _requested(analysis: Analysis) -> set[str]:
     files."""
     program, read = analysis.program, analysis.linker.documents.read
     machines = {
-        path for real, linked in program.components.items() if real in program.asked for path in linked.machine_files
+        path
+        for real, linked in program.components.items()
+        if real in program.requested
+        for path in linked.machine_files
     }
     settings = {
         path for each in analysis.linker.workspaces.values()
         if any(stays_inside(folder, os.path.abspath(each.root)) for folder in analysis.discovered.folders)
         and (path := os.path.normpath(os.path.join(each.root, WORKSPACE_FILE))) in analysis.disk.contents
     }  # fmt: skip
-    return {read[real].path for real in program.asked if real in read} | machines | settings
+    return {read[real].path for real in program.requested if real in read} | machines | settings
 
 
 def _text(content: bytes) -> str:

@@ -188,9 +188,9 @@ class Workspace:
                 else:
                     yield from written.of_written(analysis.program, analysis.diagnostics, analysis.linker)
         if analysis.networks:
-            from robocomp_yaml.check.networks import of_environment
+            from robocomp_yaml.check.networks import check_environment
 
-            yield from of_environment(analysis.derived, environment=environment)
+            yield from check_environment(analysis.derived, environment=environment)
 
     def _missing(self) -> Iterator[Diagnostic]:
         from robocomp_yaml.emit.environment import missing

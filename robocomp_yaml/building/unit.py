@@ -14,7 +14,7 @@ from robocomp_yaml.emit.layout import GENERATED, SLICE, SOURCES, runtime_folder
 from robocomp_yaml.emit.slice import file_name
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import Workspace, named_from_here
+from robocomp_yaml.link.workspace import WorkspaceSettings, component_argument
 
 
 class Unit(msgspec.Struct, frozen=True):
@@ -50,7 +50,7 @@ class Unit(msgspec.Struct, frozen=True):
         return os.path.normpath(os.path.join(self.folder, below))
 
 
-def unit_of(linked: LinkedComponent, workspace: Workspace) -> Unit:
+def unit_of(linked: LinkedComponent, workspace: WorkspaceSettings) -> Unit:
     component = linked.component
     folder = os.path.dirname(component.path) or "."
     target = component.language.target

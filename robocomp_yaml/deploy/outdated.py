@@ -14,7 +14,7 @@ from robocomp_yaml.emit import slice as slice_target
 from robocomp_yaml.emit.layout import SLICE, STATED, fingerprint, stated
 from robocomp_yaml.link.deployments import LinkedDeployment
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
-from robocomp_yaml.link.workspace import named_from_here
+from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.source.regular import text
 
 

@@ -55,7 +55,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
     def slice_root(linked: LinkedModule) -> str:
         return options.output or options.workspace_of(linked.module.path).slice_folder
 
-    asked = {program.modules[real]: real for real in program.asked & program.modules.keys()}
+    asked = {program.modules[real]: real for real in program.requested & program.modules.keys()}
 
     def beside(root: str) -> Callable[[LinkedModule], bool]:
         return lambda other: other in asked and slice_root(other) == root
@@ -71,7 +71,7 @@ def build(program: Program, diagnostics: Iterable[Diagnostic], options: Options)
         else:
             result.left_out.add(asked[linked])
     shared = Shared(options, slices, program.disk)
-    for real in sorted(program.asked_components(), key=lambda r: program.components[r].component.path):
+    for real in sorted(program.requested_components(), key=lambda r: program.components[r].component.path):
         component = program.components[real]
         if options.only and not options.only(component):
             continue
@@ -110,7 +110,7 @@ def _unused(program: Program, state: _State, left_out: set[str]) -> set[str]:
     paths = {real: linked.document.path for real, linked in program.parameters.items() if linked.document}
     paths |= {real: linked.document.path for real, linked in program.values.items()}
     paths |= {real: linked.deployment.path for real, linked in program.deployments.items()}
-    unread = program.asked - program.modules.keys() - program.components.keys() - paths.keys()
+    unread = program.requested - program.modules.keys() - program.components.keys() - paths.keys()
     return unread | broken | {real for real, path in paths.items() if path in state.faulty}
 
 

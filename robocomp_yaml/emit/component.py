@@ -16,7 +16,7 @@ from robocomp_yaml.emit.lowering.component import BEHAVIOR, COMMON
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE, document_schema
 from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.plugins import LANGUAGES
@@ -86,7 +86,7 @@ def _telling(linked: LinkedComponent, options: Options) -> AbstractContextManage
     return owner[0].guarded(f"language '{name}'") if owner else nullcontext()
 
 
-def places(linked: LinkedComponent, workspace: Workspace, root: str) -> list[str]:
+def places(linked: LinkedComponent, workspace: WorkspaceSettings, root: str) -> list[str]:
     """Where files of the repository are looked for, relative to `root`: beside the document, then in the workspace."""
     folder = os.path.dirname(linked.component.path) or "."
     return list(dict.fromkeys(os.path.relpath(place, root) for place in (folder, workspace.root or ".")))

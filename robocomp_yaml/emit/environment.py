@@ -16,11 +16,11 @@ from importlib import metadata
 
 import msgspec
 
-from robocomp_yaml.diag.codes import uses as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.emit.uses import constraints
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.model.component import CMAKE, LINK, PIP, PKG_CONFIG, Library
 
 _SECONDS = 120
@@ -51,7 +51,9 @@ class _Looked(msgspec.Struct):
         return self.answers[key]
 
 
-def missing(components: Iterable[LinkedComponent], workspace_of: Callable[[str], Workspace]) -> Iterator[Diagnostic]:
+def missing(
+    components: Iterable[LinkedComponent], workspace_of: Callable[[str], WorkspaceSettings]
+) -> Iterator[Diagnostic]:
     """A warning for each file, folder and library that is not there, or not in a version that will do."""
     wanted = list(components)
     native = {

@@ -15,7 +15,7 @@ import msgspec
 from robocomp_yaml.emit import runtime
 from robocomp_yaml.languages.record import TargetLanguage
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.source.digest import digest
 
 SETTINGS = "etc"
@@ -50,7 +50,7 @@ def is_settings(path: str) -> bool:
     return os.path.basename(os.path.dirname(path)) == SETTINGS
 
 
-def layout(linked: LinkedComponent, workspace: Workspace, root: str, slices: str, made_for: str) -> Layout:
+def layout(linked: LinkedComponent, workspace: WorkspaceSettings, root: str, slices: str, made_for: str) -> Layout:
     """Where the parts of a component are whose folder is `root`, if it may share them. `slices` is the folder that the
     Slice of all its modules goes to, which has the fingerprint `made_for`; '' where there is none."""
     target = linked.component.language.target
@@ -62,7 +62,7 @@ def layout(linked: LinkedComponent, workspace: Workspace, root: str, slices: str
     return Layout(_from(root, slices), _from(root, shared), made_for)
 
 
-def runtime_folder(workspace: Workspace, target: TargetLanguage) -> str:
+def runtime_folder(workspace: WorkspaceSettings, target: TargetLanguage) -> str:
     """Where the run time of a language stands that the components of a workspace share."""
     return os.path.normpath(os.path.join(workspace.runtime_folder, target.name, target.runtime_root))
 

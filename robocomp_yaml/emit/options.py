@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 
 if TYPE_CHECKING:
     from robocomp_yaml.emit.ports import Ports
@@ -24,7 +24,7 @@ class Options(msgspec.Struct):
     output: str | None
     below: Sequence[str]
     targets: frozenset[str]
-    workspace_of: Callable[[str], Workspace]
+    workspace_of: Callable[[str], WorkspaceSettings]
     ports: Callable[[LinkedComponent], Ports]
     only: Callable[[LinkedComponent], bool] | None = None
     standalone: bool = False

@@ -9,7 +9,7 @@ from robocomp_yaml.emit import runtime
 from robocomp_yaml.emit.layout import ALONE, Layout, fingerprint, layout, runtime_folder
 from robocomp_yaml.emit.options import Options
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule
-from robocomp_yaml.link.workspace import Workspace
+from robocomp_yaml.link.workspace import WorkspaceSettings
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan
@@ -37,7 +37,7 @@ class Shared:
         texts = {file.path: file.text for file in self._slices(linked.modules())}
         return layout(linked, workspace, root, workspace.slice_folder, fingerprint(texts))
 
-    def _is_of(self, workspace: Workspace, scope: LinkedModule) -> bool:
+    def _is_of(self, workspace: WorkspaceSettings, scope: LinkedModule) -> bool:
         other = self._options.workspace_of(scope.module.path)
         return other.declared and os.path.realpath(other.root) == os.path.realpath(workspace.root)
 
@@ -62,7 +62,7 @@ class Shared:
                 yield RootPlan(root, owner, tuple(self._slices([scope])), partial=True)
 
 
-def _is_beside(workspace: Workspace, scope: LinkedModule, disk: Disk) -> bool:
+def _is_beside(workspace: WorkspaceSettings, scope: LinkedModule, disk: Disk) -> bool:
     """Whether it stands in front of another document of its name, which others import, and which has the place."""
     name = os.path.basename(scope.module.path)
     for folder in workspace.interfaces:

@@ -11,7 +11,7 @@ from robocomp_yaml.diag.codes import migration as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.legacy.convert import Converted
 from robocomp_yaml.legacy.draft import ComponentDraft, ImportDraft, ModuleDraft, ModuleNames, Reference, base_name
-from robocomp_yaml.link.workspace import Search, Workspace
+from robocomp_yaml.link.workspace import ImportSearch, WorkspaceSettings
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.disk import names_in
 
@@ -21,7 +21,7 @@ INTERFACES = "idsl"
 class InterfaceFiles(msgspec.Struct, frozen=True):
     """The interface files of a run by their stem, and the search path for all others."""
 
-    search: Search
+    search: ImportSearch
     by_stem: dict[str, list[Converted]] = {}
     _listed: dict[str, dict[str, str]] = {}
 

@@ -13,7 +13,7 @@ from robocomp_yaml.legacy.document import List, Map, Notes, text
 from robocomp_yaml.legacy.outputs import OutputRoot
 from robocomp_yaml.link import workspace as link_workspace
 from robocomp_yaml.link import workspace_files
-from robocomp_yaml.link.workspace import Workspace, root_above
+from robocomp_yaml.link.workspace import WorkspaceSettings, root_above
 from robocomp_yaml.source.discover import WORKSPACE_FILE
 from robocomp_yaml.source.inside import stays_inside
 
@@ -22,7 +22,7 @@ class Workspaces(msgspec.Struct, frozen=True):
     """The workspaces of a run. `new` are the folders that become workspaces by it."""
 
     new: list[str] = []
-    _known: dict[str, Workspace] = {}
+    _known: dict[str, WorkspaceSettings] = {}
 
     def of(self, document: str) -> Workspace:
         """Return the workspace of a document, which may not exist yet."""
@@ -35,7 +35,7 @@ class Workspaces(msgspec.Struct, frozen=True):
             elif above is not None:
                 self._known[folder] = link_workspace.read(above)[0]
             else:
-                self._known[folder] = Workspace(folder)
+                self._known[folder] = WorkspaceSettings(folder)
         return self._known[folder]
 
 

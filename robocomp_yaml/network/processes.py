@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from robocomp_yaml.diag.terminal import typed
 from robocomp_yaml.link.program import LinkedComponent
-from robocomp_yaml.link.workspace import named_from_here
+from robocomp_yaml.link.workspace import component_argument
 from robocomp_yaml.model import deployment as model
 from robocomp_yaml.model.deployment import CONFIG
 from robocomp_yaml.network.draft import MANAGER, PUBLISH, STORM_INSTANCE, Draft, StormDraft
@@ -93,7 +93,7 @@ def _build(draft: Draft) -> str:
     compile_ = f"`{typed('rcyaml', 'compile', path)}`"
     if not component.component.language.target.build:
         return f"{compile_} writes it"
-    name = named_from_here(component.component.name, path)
+    name = component_argument(component.component.name, path)
     return f"{compile_}, then `{typed('rcyaml', 'build', name)}`"
 
 

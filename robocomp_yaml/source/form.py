@@ -9,7 +9,7 @@ from xml.parsers import expat
 
 import msgspec
 
-from robocomp_yaml.diag.codes import forms as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 
@@ -37,7 +37,7 @@ def read(path: str, raw: bytes) -> tuple[Form | None, list[Diagnostic]]:
     try:
         reader.parser.Parse(raw, True)
     except _Refused as refused:
-        return None, [codes.REFUSED.at(reader.here(), what=refused.what)]
+        return None, [codes.FORM_WITH_ENTITIES.at(reader.here(), what=refused.what)]
     except (expat.ExpatError, ValueError, LookupError) as error:  # the latter two: an encoding that nobody knows
         reason = expat.ErrorString(error.code) if isinstance(error, expat.ExpatError) else str(error)
         return None, [codes.NOT_A_FORM.at(reader.here(), reason=reason)]

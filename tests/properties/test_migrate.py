@@ -12,9 +12,8 @@ from hypothesis.strategies import SearchStrategy
 from robocomp_yaml.legacy import document, ledger
 from robocomp_yaml.legacy.convert import Converted, convert
 from robocomp_yaml.legacy.draft import ConfigDraft
-from robocomp_yaml.legacy.sources import LegacyFile
-from robocomp_yaml.model import build_component, build_interface
-from robocomp_yaml.model.component import Component, Gui, Language, Option, Use
+from robocomp_yaml.model import build_component, build_interface, located
+from robocomp_yaml.model.component import Component, Gui, Language, Use
 from robocomp_yaml.model.interface import (
     BASIC_TYPES,
     Enum,
@@ -230,7 +229,7 @@ def components(draw: st.DrawFn) -> Component:
         tuple(Import(name) for name in draw(st.lists(NAMES, max_size=3, unique=True))),
         ports(), ports(), ports(), ports(),
         gui=draw(st.none() | st.sampled_from(["QWidget", "QDialog"]).map(lambda base: Gui("qt", base))),
-        options=tuple(map(Option, draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True)))),
+        options=tuple(map(located.Text, draw(st.lists(st.sampled_from(["dsr", "agmagent"]), max_size=2, unique=True)))),
     )  # fmt: skip
 
 
@@ -249,7 +248,7 @@ def cdsl_text(draw: st.DrawFn, component: Component) -> str:
     if component.gui:
         clauses.append(f"gui Qt({component.gui.base});")
     if component.options:
-        clauses.append(f"options {', '.join(option.name for option in component.options)};")
+        clauses.append(f"options {', '.join(option.text for option in component.options)};")
     for clause in draw(st.permutations(clauses)):
         out.space()
         out.put(clause)
@@ -280,10 +279,10 @@ PIECES = st.lists(st.sampled_from([*SAMPLE.split(" "), *OTHERS]))
     st.sampled_from(["x.idsl", "x.ice", "x.cdsl", "x", "x.conf", "x.toml", "x.jcdsl", "x.pdsl", "x.pconf"]),
     PIECES.map(" ".join) | st.text() | st.binary(),
 )
-def test_no_input_fails_and_every_line_is_counted(name: str, text: str | bytes) -> None:
+def test_nothing_makes_it_stumble_and_every_line_is_counted(name: str, text: str | bytes) -> None:
     result, written = _converted(name, text)
     assert result.refused == any(d.severity == "error" for d in result.diagnostics)
-    entry = ledger.LedgerEntry(LegacyFile(name, "", ""), result, diagnostics=[*result.diagnostics])
+    entry = ledger.Entry(result, diagnostics=[*result.diagnostics])
     if result.source is not None:
         assert entry.lines().total() == result.source.lines
         for diagnostic in result.diagnostics:

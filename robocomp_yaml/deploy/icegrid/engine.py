@@ -64,7 +64,7 @@ class IceGridEngine:
     async def open(self, network: Network, *, create: bool) -> bool:
         self._network, self._files = network, GridFiles(network.folder)
         if missing := _missing():
-            raise DeployFailed(grids.NO_REGISTRY.at(Span(network.path), reason=missing))
+            raise DeployFailed(deploying.NO_REGISTRY.at(Span(network.path), reason=missing))
         self._grid = await self._call("", "reached", self._reach, create)
         if self._grid is None:
             return False

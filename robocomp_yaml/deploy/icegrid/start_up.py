@@ -153,7 +153,7 @@ def _start(host: NetworkHost, script: str) -> daemons.NodeStart:
 
 
 def _failed(network: Network, reason: str) -> DeployFailed:
-    return DeployFailed(grids.NO_REGISTRY.at(Span(network.path), reason=reason))
+    return DeployFailed(codes.NO_REGISTRY.at(Span(network.path), reason=reason))
 
 
 _CONNECT_WITHIN, _RUN_WITHIN = 8.0, 30.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from robocomp_yaml.model import conditions
 from robocomp_yaml.model import statemachine as model
+from robocomp_yaml.model.located import Text
 from robocomp_yaml.semantics import tables
 
 
@@ -76,7 +77,7 @@ class _Lowering:
         )
         return len(self.transitions) - 1
 
-    def _condition(self, text: model.Text | None) -> tables.Condition:
+    def _condition(self, text: Text | None) -> tables.Condition:
         if text is None:
             return tables.Condition()
         if self.is_python:
@@ -153,5 +154,5 @@ class _Lowering:
                 return [tables.Action("foreach", item.text, over, _name(index), branches=(body,))]
 
 
-def _name(text: model.Text | None) -> str:
+def _name(text: Text | None) -> str:
     return text.text if text else ""

@@ -38,15 +38,15 @@ def view(
 ) -> MachineView:
     """`in_code` gives names as the language has them, `events_of` is what stands before the name of an event."""
     called = [action.name for action in names.actions(machine)]
-    states = names.with_handler(machine)
+    states = names.states_with_handlers(machine)
     return MachineView(
         [StateView(one.id, comment(f"The state '{one.id}' has been entered.\n\n{one.doc}")) for one in states],
         [guard.name for guard in names.guards(machine)],
         [name for name in called if name not in names.CALLABLE],
         called,
         next((f"{events_of}{event.method}()" for event in events(machine, in_code)), "there are none"),
-        in_code(names.robocomps_machine(machine)),
-        names.robocomps_signals(machine),
+        in_code(names.robocomp_machine(machine)),
+        names.robocomp_signals(machine),
     )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Set
 import msgspec
 from msgspec.structs import replace
 
-from robocomp_yaml.diag.codes import languages as codes
+from robocomp_yaml.diag.codes import cdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.emit.layout import SOURCES

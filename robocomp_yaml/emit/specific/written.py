@@ -13,7 +13,7 @@ from robocomp_yaml.link.program import LinkedComponent, Program
 
 def has_code(program: Program) -> bool:
     """Whether a component that the user asked for has files of the user's own."""
-    return any(_is_written(program.components[real]) for real in program.asked_components())
+    return any(_is_written(program.components[real]) for real in program.requested_components())
 
 
 def of_written(program: Program, diagnostics: Sequence[Diagnostic], linker: Linker) -> Iterator[Diagnostic]:
@@ -25,7 +25,7 @@ def of_written(program: Program, diagnostics: Sequence[Diagnostic], linker: Link
     from robocomp_yaml.emit.specific.review import review
     from robocomp_yaml.transactions.plan import RootPlan
 
-    languages = {program.components[real].component.language.name for real in program.asked_components()}
+    languages = {program.components[real].component.language.name for real in program.requested_components()}
     options = Options(
         None, (), frozenset({*languages, "config"}), linker.workspace_of, lambda linked: assign([linked], program.disk),
         only=_is_written,

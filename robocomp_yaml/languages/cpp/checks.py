@@ -16,7 +16,7 @@ from robocomp_yaml.languages.cpp import LANGUAGE
 from robocomp_yaml.languages.cpp.globals import GLOBALS
 from robocomp_yaml.languages.cpp.macros import EVER, FAMILIES, is_macro
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
-from robocomp_yaml.link.references import Name, exceptions_of, groups, kind_of, types_of
+from robocomp_yaml.link.references import Identifier, exceptions_of, groups, kind_of, types_of
 from robocomp_yaml.model.interface import Enum, ExceptionType, Interface, Member, Method, Module, Struct, TypeRef
 from robocomp_yaml.source.disk import Disk
 from robocomp_yaml.source.migrated import is_migrated
@@ -48,7 +48,7 @@ class _Module(msgspec.Struct):
         yield from self.macro(Name("module", module.name, module.span))
         yield from self.module_name()
         for definition in module.definitions:
-            yield from self.macro(Name(kind_of(definition), definition.name, definition.span))
+            yield from self.macro(Identifier(kind_of(definition), definition.name, definition.span))
             inside = list(groups(definition))
             for group in inside:
                 for name in group:
@@ -70,7 +70,7 @@ class _Module(msgspec.Struct):
                         yield from self.in_result(method)
                     yield from self.results(definition)
 
-    def macro(self, name: Name) -> Iterator[Diagnostic]:
+    def macro(self, name: Identifier) -> Iterator[Diagnostic]:
         if name.text not in EVER and not name.text.startswith(FAMILIES):
             return  # the usual case: users need not be examined
         hit = [user for user in self.users if _is_macro_for(name.text, user)]
@@ -99,7 +99,7 @@ class _Module(msgspec.Struct):
         """In a list of parameters, a name hides the type of the same name from the parameters after it."""
         for number, member in enumerate(members):
             if any(self.is_own(other.type, member.name) for other in members[number + 1 :]):
-                yield self.clash(Name(kind, member.name, member.span))
+                yield self.clash(Identifier(kind, member.name, member.span))
 
     def named_as_enum(self, members: tuple[Member, ...]) -> Iterator[Diagnostic]:
         """The constructor of an exception takes enums by value, where a member of the same name hides the type."""
@@ -108,7 +108,7 @@ class _Module(msgspec.Struct):
             if any(self.is_own(other.type, member.name) for other in behind):
                 continue  # reported as hidden
             if any(self.is_own(other.type, member.name) and self.is_enum(other.type) for other in members):
-                yield self.clash(Name("member", member.name, member.span))
+                yield self.clash(Identifier("member", member.name, member.span))
 
     def in_result(self, method: Method) -> Iterator[Diagnostic]:
         """A method with several results returns a struct, whose members have the names of the outputs."""
@@ -118,18 +118,18 @@ class _Module(msgspec.Struct):
         for number, output in enumerate(method.outputs):
             hides = any(self.is_own(other.type, output.name) for other in method.outputs[number + 1 :])
             if not hides and any(self.is_own(ref, output.name) for ref in types):
-                yield self.clash(Name("parameter", output.name, output.span))
+                yield self.clash(Identifier("parameter", output.name, output.span))
 
     def results(self, interface: Interface) -> Iterator[Diagnostic]:
         """The name of that struct."""
         made = result_structs(interface)
         for method in interface.methods:
             if method.name in made:
-                yield self.clash(Name("method", method.name, method.span))
+                yield self.clash(Identifier("method", method.name, method.span))
         for ref in types_of(interface):
             if ref.name in made and self.is_own(ref, ref.name):
                 method = made[ref.name]
-                yield self.clash(Name("method", method.name, method.span), ref.name)
+                yield self.clash(Identifier("method", method.name, method.span), ref.name)
 
     def is_own(self, ref: TypeRef, name: str) -> bool:
         """Whether a type is the one of this module that has the name; types of others are written with their module."""
@@ -153,7 +153,7 @@ class _Module(msgspec.Struct):
         return msgspec.structs.replace(diagnostic, severity=ERROR, related=related)
 
 
-def _clash(name: Name, other: str = "") -> Diagnostic:
+def _clash(name: Identifier, other: str = "") -> Diagnostic:
     first = name.text[0].lower() + name.text[1:]
     better = first if first != name.text else f"the{name.text[0].upper()}{name.text[1:]}"
     hint = f"call it '{better}'" if not other else f"rename the method: its results become a '{other}'"

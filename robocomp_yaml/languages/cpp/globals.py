@@ -1,6 +1,6 @@
 """Names of the C library's functions, types and variables, which are in no namespace: nothing in C++ can have them.
 
-ComponentBuild by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
+Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
 """
 
 from __future__ import annotations

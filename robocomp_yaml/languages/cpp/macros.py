@@ -1,6 +1,6 @@
 """Names of the macros that the headers of generated C++ define: nothing else in C++ can have them.
 
-ComponentBuild by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
+Made by `make macros`, which adds what the compiler at hand knows. Do not edit: change tests/ice/cpp_macros.py.
 """
 
 from __future__ import annotations

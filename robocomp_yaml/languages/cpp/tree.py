@@ -100,7 +100,7 @@ class BuildTree(msgspec.Struct, frozen=True):
 
     def configure(self, job: Job) -> Failure | None:
         """Runs CMake; returns the failure, if any. Raises FileNotFoundError if CMake is not installed."""
-        job.report(Step(0, 0, f"Configuring {_shown(self.folder)}"))
+        job.report(BuildStep(0, 0, f"Configuring {_shown(self.folder)}"))
         cache, source = self.cache, os.path.abspath(self.source)
         if cache and os.path.realpath(cache.get("CMAKE_HOME_DIRECTORY", "")) != os.path.realpath(source):
             with suppress(OSError):  # the tree or its sources were moved

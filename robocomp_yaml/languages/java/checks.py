@@ -11,7 +11,7 @@ from robocomp_yaml.languages._shared.checks import needed_by, result_structs, us
 from robocomp_yaml.languages.java import LANGUAGE
 from robocomp_yaml.languages.java.names import PACKAGE
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
-from robocomp_yaml.link.references import Name, groups, kind_of, types_of
+from robocomp_yaml.link.references import Identifier, groups, kind_of, types_of
 from robocomp_yaml.model.interface import ExceptionType, Interface, Map, Member, Sequence, Struct, TypeRef
 
 # slice2java does not escape these, and Java rejects them (`tests/ice/test_java_names.py` compares with both).
@@ -35,7 +35,7 @@ def _impossible(scope: LinkedModule) -> Iterator[tuple[Name, str]]:
     """The illegal names, each with a proposed one."""
     for definition in scope.module.definitions:
         if definition.name in TYPES and not isinstance(definition, Sequence | Map):
-            yield Name(kind_of(definition), definition.name, definition.span), _other(definition.name)
+            yield Identifier(kind_of(definition), definition.name, definition.span), _other(definition.name)
         for group in groups(definition):
             for name in group:
                 if name.text in INSIDE.get(name.kind, ()):
@@ -60,7 +60,7 @@ def _hiding(
     for member in members:
         hidden = any(_is_hidden(ref, member, scope) for ref in types)
         if hidden or member.name == own:
-            yield Name("member", member.name, member.span), _other(member.name)
+            yield Identifier("member", member.name, member.span), _other(member.name)
 
 
 def _is_hidden(ref: TypeRef, member: Member, scope: LinkedModule) -> bool:
@@ -79,7 +79,7 @@ def _hidden(interface: Interface) -> Iterator[tuple[Name, str]]:
     for ref in types_of(interface):
         if ref.name in made:
             method = made[ref.name]
-            yield Name("method", method.name, method.span), f"{method.name}Now"
+            yield Identifier("method", method.name, method.span), f"{method.name}Now"
 
 
 def _other(name: str) -> str:

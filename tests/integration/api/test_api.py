@@ -46,9 +46,7 @@ def test_check_and_the_command_report_the_same(place: Path, rcyaml: Rcyaml) -> N
     assert [(one.code, one.message, one.span.file, one.span.line) for one in found] == [
         (one["code"], one["message"], one["file"], one["line"]) for one in printed
     ]
-    assert str(found[0]) == (
-        "interfaces/Bad.idsl.yaml:2:11: error[RC1101]: there is no interface document called 'Speach'"
-    )
+    assert str(found[0]) == ("interfaces/Bad.idsl.yaml:2:11: error[RC1101]: unknown import 'Speach'")
 
 
 def test_an_overlay_is_used_everywhere(place: Path) -> None:

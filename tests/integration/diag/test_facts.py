@@ -112,7 +112,7 @@ def test_facts_are_values() -> None:
     one = idsl.ENUM_NUMBER.at(span, name="left", number=-1, largest=7)
     other = idsl.ENUM_NUMBER.at(span, largest=7, number=-1, name="left")
     assert one == other and len({one, other}) == 1
-    assert one.message == "the enumerator 'left' has the number -1, which is not from 0 to 7"
+    assert one.message == "the enumerator 'left' has the number -1, which is not between 0 and 7"
     assert dict(one.facts) == {"name": "left", "number": -1, "largest": 7}
     assert one.fact("number") == -1 and one.fact("colour") is None
     kept = json.loads(json.dumps(msgspec.to_builtins(one)))

@@ -1,4 +1,4 @@
-"""Constraints: what holds for which values, what has no meaning, and where and in which words that is said."""
+"""Constraints: their results for values, wrong constraints, and the locations and words of their diagnostics."""
 
 from __future__ import annotations
 
@@ -140,13 +140,13 @@ def constrained(constraint: str, parameters: str = PARAMETERS, types: str = TYPE
         ('n <> 1', '<> 1', 'this is no expression', ''),
     ],
 )  # fmt: skip
-def test_what_has_no_meaning_is_refused_where_it_begins(constraint: str, rest: str, message: str, hint: str) -> None:
+def test_a_wrong_part_is_rejected_at_its_start(constraint: str, rest: str, message: str, hint: str) -> None:
     (found,) = analysed(constrained(constraint), "c.pdsl.yaml").diagnostics
     begins = found.span.column - 1 - len("constraints: ['")
     assert (found.code, constraint[begins:], found.message, str(found.hint)) == ("RC3119", rest, message, hint)
 
 
-def test_it_is_refused_where_it_is_too_long_or_too_deep() -> None:
+def test_a_constraint_that_is_too_long_or_too_deep_is_rejected() -> None:
     for constraint, message in (
         ("n > 1" + " " * 2000, "an expression has at most 2000 characters"),
         ("-" * 60 + "n > 1", "this expression is nested too deep"),
@@ -157,7 +157,7 @@ def test_it_is_refused_where_it_is_too_long_or_too_deep() -> None:
     assert not analysed(constrained("n > 0" + " " * (2000 - len("n > 0"))), "c.pdsl.yaml").diagnostics
 
 
-def test_other_letters_move_no_place() -> None:
+def test_locations_after_letters_that_are_not_ascii() -> None:
     (found,) = analysed(constrained('t == "ñandú" and nn > 1'), "c.pdsl.yaml").diagnostics
     assert found.span.column - 1 - len("constraints: ['") == len('t == "ñandú" and ')
 
@@ -190,8 +190,8 @@ GIVEN = "low: 2, high: 5, part: 0.5, on: true, name: arm, mode: fast, ls: [3, 1,
         "not has(note) and low == 2", "is + low == 5", "period.compute == 50 * low",
     ],
 )  # fmt: skip
-def test_what_holds(constraint: str) -> None:
-    """And where it does not hold, it is said."""
+def test_constraints_that_hold(constraint: str) -> None:
+    """The negation of each is reported."""
     documents = constrained(constraint, VALUES, TYPES)
     assert refused(documents, GIVEN) == []
     denied = constrained(f"not ({constraint})", VALUES, TYPES)
@@ -208,20 +208,20 @@ def test_what_holds(constraint: str) -> None:
         ("", True),
     ],
 )
-def test_a_constraint_is_about_all_values_given_or_not(values: str, holds: bool) -> None:
+def test_a_constraint_is_about_set_values_and_defaults(values: str, holds: bool) -> None:
     parameters = "low: {type: int, default: 1}, high: {type: int, default: 2}"
     more = "constraints: [{that: low < high, else: low must be below high}]\n"
     assert refused(pdsl(parameters, more=more), values) == ([] if holds else ["low must be below high"])
 
 
-def test_defaults_that_break_a_constraint_are_the_documents_fault() -> None:
+def test_defaults_that_violate_a_constraint() -> None:
     documents = pdsl("low: {type: int, default: 3}, high: {type: int, default: 2}", more="constraints: [low < high]\n")
     (found,) = analysed(documents, "c.pdsl.yaml").diagnostics
     assert (found.code, found.message) == ("RC3120", "the defaults break this constraint: this must hold: low < high")
 
 
 @pytest.mark.parametrize("constraint", ["high / low > 1", "high % low == 0", "ls[5] == 1", 'm["z"] > 0', "min(ls) > 0"])
-def test_what_cannot_be_worked_out_does_not_hold(constraint: str) -> None:
+def test_a_constraint_that_cannot_be_computed_does_not_hold(constraint: str) -> None:
     documents = constrained(constraint, "low: int, high: int, ls: {list: int}, m: {map: int}", "")
     assert len(refused(documents, "low: 0, high: 4, ls: [], m: {}")) == 1
 
@@ -229,15 +229,15 @@ def test_what_cannot_be_worked_out_does_not_hold(constraint: str) -> None:
 @pytest.mark.parametrize(
     "constraint", ["all(one > 9 for one in ls)", "not any(one > 0 for one in ls)", "unique(ls)", "sum(ls) == 0"]
 )
-def test_of_nothing_all_holds_and_none(constraint: str) -> None:
+def test_quantifiers_over_nothing(constraint: str) -> None:
     assert refused(constrained(constraint, "ls: {list: int}", ""), "ls: []") == []
 
 
 @pytest.mark.parametrize(
     ("values", "holds"), [("", True), ("note: x", False), ("note: {env: NOTE}", True), ("note: x, names: [x]", True)]
 )
-def test_a_constraint_can_ask_whether_there_is_a_value(values: str, holds: bool) -> None:
-    """What a reference stands for is known only where the component runs."""
+def test_a_constraint_on_whether_a_value_is_set(values: str, holds: bool) -> None:
+    """The value of a reference is known only when the component runs."""
     parameters = "note: {type: string, optional: true}, names: {list: string, default: []}"
     documents = pdsl(
         parameters, more="constraints: [{that: not has(note) or note in names, else: a note has a name}]\n"
@@ -245,7 +245,7 @@ def test_a_constraint_can_ask_whether_there_is_a_value(values: str, holds: bool)
     assert refused(documents, values) == ([] if holds else ["a note has a name"])
 
 
-def test_a_constraint_goes_by_names_in_code() -> None:
+def test_a_constraint_uses_names_in_code() -> None:
     documents = pdsl(
         "from: {type: int, as: start, default: 1}, g: {group: {a-b: {type: int, as: ab, default: 2}}}",
         more="constraints: [start < g.ab]\n",
@@ -278,9 +278,7 @@ T = "T: {struct: {x: int, tag: {type: string, optional: true}}}"
         ("has(need.x)", "", True),
     ],
 )
-def test_what_a_reference_stands_for_is_there_and_so_is_what_has_to_be_given(
-    constraint: str, values: str, holds: bool
-) -> None:
+def test_references_and_required_values_count_as_set(constraint: str, values: str, holds: bool) -> None:
     documents = pdsl(OPTIONAL, T, f"constraints: [{constraint!r}]\n")
     given = ", ".join(each for each in ("low: 1, r: [1], need: {x: 1}", values) if each)
     assert refused(documents, given) == ([] if holds else [f"this must hold: {constraint}"])
@@ -301,7 +299,7 @@ def test_what_a_reference_stands_for_is_there_and_so_is_what_has_to_be_given(
         "unique(n)",
     ],
 )
-def test_what_has_no_meaning_is_said_once_and_harms_no_values(constraint: str) -> None:
+def test_a_wrong_constraint_is_reported_once_and_affects_no_values(constraint: str) -> None:
     documents = pdsl("n: int, t: string", more=f"constraints: [{constraint!r}, n > 0]\n")
     text = "component: c.cdsl.yaml\nparameters: {n: 1, t: a}\n"
     assert [one.code for one in said({**documents, "c.config.yaml": text})] == ["RC3119"]

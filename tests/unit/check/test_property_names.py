@@ -1,4 +1,4 @@
-"""Parameters whose properties would be those of others: of each other, of Ice, of the component's connections."""
+"""Parameters whose properties clash: with each other, with those of Ice, or with those of the component's ports."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 Check = Callable[..., list[dict[str, object]]]
 TREE = {
     "Arm.idsl.yaml": "module: RoboCompArm\ninterfaces: {Arm: {methods: {stop: {}}}}\n"
-    "topics: {Moved: {methods: {told: {in: {n: int}}}}}\n",
+    "topics: {Moved: {methods: {reported: {in: {n: int}}}}}\n",
     "c.cdsl.yaml": "component: C\nlanguage: cpp\nimports: [Arm]\nimplements: [Arm]\nrequires: [{Other: Arm}]\n"
     "subscribes: [Moved]\nparameters: c.pdsl.yaml\n",
 }
@@ -18,7 +18,7 @@ _INT = "{type: int, default: 1}"
 
 
 @pytest.mark.parametrize(
-    ("parameters", "legacy", "told"),
+    ("parameters", "legacy", "reported"),
     [
         (f"arm: {_INT}", "", []),
         (
@@ -44,7 +44,7 @@ _INT = "{type: int, default: 1}"
             ],
         ),
         (f"OtherProxy: {_INT}", "", ["RC3116 'OtherProxy' and the proxy Other are both the property 'OtherProxy'"]),
-        (f"Ice: {{group: {{x: {_INT}}}}}", "", ["RC3116 'Ice.x' and a setting of Ice are both the property 'Ice.…'"]),
+        (f"Ice: {{group: {{x: {_INT}}}}}", "", ["RC3116 'Ice.x' and a property of Ice are both the property 'Ice.…'"]),
         (f"a: {_INT}, b: {_INT}", "a: X, b: X", ["RC3116 'b' and 'a' are both the property 'X'"]),
         (
             f"a: {_INT}, ids: {{list: int, default: []}}",
@@ -53,7 +53,7 @@ _INT = "{type: int, default: 1}"
         ),
     ],
 )
-def test_clashes(diagnostics: Check, tmp_path: Path, parameters: str, legacy: str, told: list[str]) -> None:
+def test_clashes(diagnostics: Check, tmp_path: Path, parameters: str, legacy: str, reported: list[str]) -> None:
     pdsl = f"component: c.cdsl.yaml\nparameters: {{{parameters}}}\nlegacy: {{{legacy}}}\n"
     found = diagnostics({**TREE, "c.pdsl.yaml": pdsl})
-    assert [f"{each['code']} {each['message']}" for each in found] == told
+    assert [f"{each['code']} {each['message']}" for each in found] == reported

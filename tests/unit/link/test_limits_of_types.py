@@ -1,4 +1,4 @@
-"""Limits of parameters: which values they leave, how those of a type and of a parameter join, and which say nothing."""
+"""Limits of parameters: allowed values, limits of a type and a parameter together, and limits without effect."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TYPES = {
 
 
 def fitting(spec: str, candidates: str, types: str = "") -> str:
-    """Those of the candidates that a parameter can have."""
+    """The candidates that a parameter can have."""
     documents = pdsl(f"a: {spec}", types)
     assert wrong(f"a: {spec}", types) == []
     return ", ".join(one for one in candidates.split(", ") if not refused(documents, f"a: {one}"))
@@ -39,7 +39,7 @@ def fitting(spec: str, candidates: str, types: str = "") -> str:
         ("{type: int, values: [1, 5]}", "1, 5"),
         ("{type: double, values: [1, 5]}", "1, 5"),
         ("{type: int, range: [2, 5], values: [5, 2]}", "2, 5"),
-        # A type's own limits and those of the place that names it hold together.
+        # The limits of a type and those of the parameter hold together.
         ("{type: Few, range: [3, 9]}", "3, 4"),
         ("{type: Few, range: [0, 2]}", "2"),
         ("{type: Few, range: [0, 9]}", "2, 3, 4"),
@@ -157,7 +157,7 @@ MISFIT, EMPTY, UNREACHABLE = "RC3108", "RC3109", "RC3110"
 @pytest.mark.parametrize(
     ("spec", "types", "code", "at", "message"),
     [
-        # Limits that leave nothing
+        # Limits that no value fulfils
         ("{type: int, range: [3, 2]}", "", EMPTY, "[3, 2]", "no number is from 3 to 2"),
         ("{type: int, range: {above: 3, below: 4}}", "", EMPTY, "{above: 3, below: 4}", "no number is above 3 and below 4"),
         ("{type: float, range: {above: 3, to: 3}}", "", EMPTY, "{above: 3, to: 3}", "no number is above 3 and at most 3"),
@@ -175,7 +175,7 @@ MISFIT, EMPTY, UNREACHABLE = "RC3108", "RC3109", "RC3110"
         ("{list: {type: int, values: [1, 2]}, size: 3, unique: true}", "", EMPTY, "true", "3 entries, all different, of only 2 values"),
         ("{list: bool, size: {from: 3}, unique: true}", "", EMPTY, "true", "3 entries, all different, of only 2 values"),
         ("{list: E, size: 4, unique: true}", "E: {enum: [a, b, c]}", EMPTY, "true", "4 entries, all different, of only 3 values"),
-        # Limits of which a part is never reached
+        # Limits with a part that is never reached
         ("{type: int, range: [0, 1e10]}", "", UNREACHABLE, "1e10", "1e10 cannot be reached: int goes from -2147483648 to 2147483647"),
         ("{type: int, range: {from: -2147483649}}", "", UNREACHABLE, "-2147483649", "-2147483649 cannot be reached: int goes from -2147483648 to 2147483647"),
         ("{type: int, values: [2147483648]}", "", UNREACHABLE, "2147483648", "2147483648 cannot be reached: int goes from -2147483648 to 2147483647"),
@@ -191,7 +191,7 @@ MISFIT, EMPTY, UNREACHABLE = "RC3108", "RC3109", "RC3110"
         ("{type: T, values: [x, y]}", "T: {type: string, pattern: x}", UNREACHABLE, "y", "'y' does not match the pattern"),
         ("{type: T, pattern: x}", "T: {type: string, values: [x, y]}", UNREACHABLE, "y", "'y' does not match the pattern"),
         ("{type: E, range: [a, b], values: [a, c]}", "E: {enum: [a, b, c]}", UNREACHABLE, "c", "'c' lies outside of the range"),
-        # Limits that say nothing
+        # Limits without effect
         ("{type: bool, range: [0, 1]}", "", MISFIT, "[0, 1]", "'range' says nothing about a value that is true or false"),
         ("{type: string, range: [0, 1]}", "", MISFIT, "[0, 1]", "'range' says nothing about a value that is text"),
         ("{list: int, range: [0, 1]}", "", MISFIT, "[0, 1]", "'range' says nothing about a value that is a list"),
@@ -207,7 +207,7 @@ MISFIT, EMPTY, UNREACHABLE = "RC3108", "RC3109", "RC3110"
         ("{type: int, unique: true}", "", MISFIT, "true", "'unique' is for lists of plain values"),
         ("{list: {list: int}, unique: true}", "", MISFIT, "true", "'unique' is for lists of plain values"),
         ("{map: int, unique: true}", "", MISFIT, "true", "'unique' is for lists of plain values"),
-        # Limits that are none
+        # Wrong limits
         ("{type: int, range: [0.5, 1]}", "", MISFIT, "0.5", "'range' of whole numbers has whole limits"),
         ("{type: float, range: [x, 1]}", "", MISFIT, "x", "'range' needs numbers, not 'x'"),
         ("{type: float, range: {from: 1, above: 1}}", "", MISFIT, "{from: 1, above: 1}", "'range' has either 'from' or 'above', not both"),
@@ -219,7 +219,7 @@ MISFIT, EMPTY, UNREACHABLE = "RC3108", "RC3109", "RC3110"
         ("{type: T, pattern: x}", "T: {type: string, pattern: y}", MISFIT, "x", "'pattern' stands at the type already"),
     ],
 )  # fmt: skip
-def test_limits_that_cannot_be_meant(spec: str, types: str, code: str, at: str, message: str) -> None:
+def test_contradictory_limits(spec: str, types: str, code: str, at: str, message: str) -> None:
     message = f"nothing fits: {message}" if code == EMPTY else message
     assert wrong(f"a: {spec}", types) == [(code, at, message)]
 
@@ -232,7 +232,7 @@ def test_limits_that_cannot_be_meant(spec: str, types: str, code: str, at: str, 
         ("{list: P, unique: true}", "P: {struct: {x: int}}", "for records, a constraint says it: unique(m.name for m in motors)"),
     ],
 )  # fmt: skip
-def test_what_is_meant_instead(spec: str, types: str, hint: str) -> None:
+def test_the_hints_at_limits(spec: str, types: str, hint: str) -> None:
     (found,) = said(pdsl(f"a: {spec}", types), "c.pdsl.yaml")
     assert found.hint == hint
 
@@ -241,14 +241,14 @@ def test_what_is_meant_instead(spec: str, types: str, hint: str) -> None:
     ("pattern", "at"),
     [("'a[b'", "["), ('"a(?=b)"', "("), ('"\\\\d[b"', '"\\\\d[b"')],
 )
-def test_a_pattern_is_refused_at_the_character(pattern: str, at: str) -> None:
-    """Where its spelling tells: behind an escape it does not."""
+def test_a_pattern_is_rejected_at_the_character(pattern: str, at: str) -> None:
+    """The location is exact unless there is an escape before it."""
     text = f"component: c.cdsl.yaml\nparameters:\n  a: {{type: string, pattern: {pattern}}}\n"
     (found,) = said({**pdsl(""), "c.pdsl.yaml": text}, "c.pdsl.yaml")
     assert (found.code, found.at) == ("RC3111", at)
 
 
-def test_all_that_is_wrong_with_values_is_said() -> None:
+def test_all_faults_in_values_are_reported() -> None:
     found = wrong("a: {type: int, values: [7, 7, x, 8]}")
     assert [(at, message) for _, at, message in found] == [
         ("7", "'7' stands twice"),
@@ -257,7 +257,7 @@ def test_all_that_is_wrong_with_values_is_said() -> None:
     assert len(wrong("a: {type: E, values: [b, c, a]}", "E: {enum: [a]}")) == 2
 
 
-def test_a_limit_that_is_wrong_limits_nothing() -> None:
+def test_a_wrong_limit_has_no_effect() -> None:
     documents = pdsl(
         "a: {type: int, range: [3, 2]}, b: {type: int, values: [x]}, c: {type: E, values: [y]}", "E: {enum: [x]}"
     )

@@ -1,4 +1,4 @@
-"""Parameters as documents write them: types by name, groups, what is editable, optional or secret, and `period`."""
+"""Parameters in documents: types by name, groups, editable, optional and secret parameters, and `period`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from robocomp_yaml.parameters.types import Member, RecordType, is_secret
 
 
 def parameters(flow: str, types: str = "", component: str = "") -> dict[str, Member]:
-    """Every parameter by its path, those of groups behind a dot."""
+    """Every parameter by its path, `group.parameter` for those of groups."""
     documents = pdsl(flow, types)
     documents["c.cdsl.yaml"] += component
     linked = program(documents).components[f"{ROOT}/c.cdsl.yaml"].parameters
@@ -42,7 +42,7 @@ def names(found: dict[str, Member], what: str) -> str:
         ("g: {editable: false, group: {h: {editable: true, group: {x: int}}}}", "g.h g.h.x"),
     ],
 )
-def test_an_editable_group_makes_its_members_editable_unless_they_say_otherwise(flow: str, editable: str) -> None:
+def test_members_inherit_editable_from_their_group(flow: str, editable: str) -> None:
     assert names(parameters(flow), "editable") == editable
 
 
@@ -54,7 +54,7 @@ def test_an_editable_group_makes_its_members_editable_unless_they_say_otherwise(
         ("g: {group: {y: {type: int, default: 1}}}, h: {group: {z: {type: int, optional: true}}}", ""),
     ],
 )
-def test_what_has_no_default_and_is_not_optional_is_required(flow: str, required: str) -> None:
+def test_parameters_without_default_that_are_not_optional_are_required(flow: str, required: str) -> None:
     assert names(parameters(flow), "required") == required
 
 
@@ -70,7 +70,7 @@ def test_what_has_no_default_and_is_not_optional_is_required(flow: str, required
         ("g: {group: {password: string, x: int}}", "", "g.password"),
     ],
 )
-def test_a_secret_is_known_by_its_name_or_by_the_document(flow: str, types: str, secret: str) -> None:
+def test_a_parameter_is_secret_by_its_name_or_by_its_key(flow: str, types: str, secret: str) -> None:
     found = parameters(flow, types)
     assert " ".join(path for path, member in found.items() if is_secret(member.type)) == secret
 
@@ -97,7 +97,7 @@ def test_each_component_has_its_periods(flow: str, component: str, compute: int 
     assert ("period.draw" in found) == ("draw" in flow)
 
 
-def test_periods_that_nobody_wrote_are_positive_milliseconds_and_editable() -> None:
+def test_default_periods_are_positive_milliseconds_and_editable() -> None:
     found = parameters("a: int")
     assert found["period"].editable and found["period.compute"].editable and found["period.compute"].unit == "ms"
     assert refused(pdsl("a: int"), "a: 1, period: {compute: 0, emergency: -1}") == [
@@ -106,7 +106,7 @@ def test_periods_that_nobody_wrote_are_positive_milliseconds_and_editable() -> N
     ]
 
 
-def test_a_component_and_its_parameters_say_one_period() -> None:
+def test_a_component_and_its_parameters_agree_on_the_period() -> None:
     documents = pdsl("period: {group: {compute: {type: int, default: 30}}}")
     documents["c.cdsl.yaml"] += "period: 20\n"
     (found,) = said(documents)
@@ -158,19 +158,19 @@ def test_a_component_and_its_parameters_say_one_period() -> None:
         ('a: {list: int, unique: true, default: [1, 1]}', '', 'RC3113', '1', 'the default of a holds 1 twice', ''),
         ('a-b: int', '', 'RC3114', 'a-b', "'a-b' cannot be a name in code", 'for instance as: a_b'),
         ('2d: int', '', 'RC3114', '2d', "'2d' cannot be a name in code", 'for instance as: p2d'),
-        ('class: int, class_: int', '', 'RC3115', 'class_', "'class_' and 'class' are both called 'class_' in Python", 'give one of them another name in code with as:'),
+        ('class: int, class_: int', '', 'RC3115', 'class_', "'class_' and 'class' are both called 'class_' in Python", 'set another name in code for one of them with as:'),
     ],
 )  # fmt: skip
-def test_what_is_wrong_with_a_parameter(flow: str, types: str, code: str, at: str, message: str, hint: str) -> None:
+def test_wrong_parameters(flow: str, types: str, code: str, at: str, message: str, hint: str) -> None:
     assert [found[:4] for found in said(pdsl(flow, types), "c.pdsl.yaml")] == [(code, at, message, hint)]
 
 
-def test_a_type_is_named_anywhere_also_before_it_stands() -> None:
+def test_a_type_may_be_used_before_its_definition() -> None:
     types = "C: {struct: {a: A, b: {list: B}}}, B: {list: A}, A: {enum: [x, y]}"
     assert not said(pdsl("a: {list: {map: C}}, b: {list: A, default: [x]}", types), "c.pdsl.yaml")
 
 
-def test_too_many_values_and_types_too_deep_are_refused() -> None:
+def test_too_many_values_and_types_too_deep_are_rejected() -> None:
     wide = "P: {struct: {" + ", ".join(f"x{number}: int" for number in range(100)) + "}}"
     many = ", ".join(f"p{number}: {{type: P, optional: true}}" for number in range(50))
     assert not said(pdsl(many, wide), "c.pdsl.yaml")
@@ -183,6 +183,6 @@ def test_too_many_values_and_types_too_deep_are_refused() -> None:
     assert not said(pdsl("a: {type: T0}", chain), "c.pdsl.yaml")
 
 
-def test_a_fault_in_a_type_is_said_once_and_hides_what_is_unused() -> None:
+def test_a_fault_in_a_type_is_reported_once_and_hides_unused_types() -> None:
     found = said(pdsl("a: {type: T}, b: {type: T}", "T: {type: itn}, U: {enum: [x]}"), "c.pdsl.yaml")
     assert [one.code for one in found] == ["RC3103"]
