@@ -40,7 +40,7 @@ def kind(type_: Type) -> composite.Kind:
         case BasicType(name="string", values=values, pattern=pattern):
             made = _Text(tuple(str(literal.value) for literal in values), pattern)
         case BasicType(name=name, values=values, range=limits, unit=unit):
-            numbers = tuple(literal.value for literal in values)
+            numbers: Any = tuple(literal.value for literal in values)
             number = plain.whole if type_.is_integer else plain.decimal
             made = number(name, values=numbers, unit=unit, **(limits.limits if limits else {}))
         case EnumType(name=name, allowed=allowed):

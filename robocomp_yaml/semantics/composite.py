@@ -166,16 +166,8 @@ class Recording:
         return None
 
 
-def listing(element: Kind, **more: Any) -> Kind:
-    return Listing(element, **more)
-
-
-def naming(element: Kind, **more: Any) -> Kind:
-    return Naming(element, **more)
-
-
-def record(made: type[Record]) -> Kind:
-    return Recording(made)
+# What generated code calls.
+listing, naming, record = Listing, Naming, Recording
 
 
 def group(made: type[Record]) -> Kind:

@@ -136,20 +136,19 @@ FUNCTIONS: dict[str, Callable[[Any], Any]] = {
 
 
 def all_of(parts: Iterable[Any]) -> Any:
-    unknown = False
-    for part in parts:
-        if part is None:
-            unknown = True
-        elif not part:
-            return False
-    return None if unknown else True
+    return _decided(parts, False)
 
 
 def any_of(parts: Iterable[Any]) -> Any:
+    return _decided(parts, True)
+
+
+def _decided(parts: Iterable[Any], by: bool) -> Any:
+    """`by` once a part is it, None where a part is unknown instead, else the opposite."""
     unknown = False
     for part in parts:
         if part is None:
             unknown = True
-        elif part:
-            return True
-    return None if unknown else False
+        elif bool(part) is by:
+            return by
+    return None if unknown else not by

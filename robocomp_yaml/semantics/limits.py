@@ -6,8 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from math import isfinite, trunc
 from numbers import Integral, Real
-from types import MappingProxyType
-from typing import Any, Optional, Union
+from typing import Any, Union
 
 Number = Union[int, float]
 LIMITS: dict[str, tuple[Number, Number]] = {
@@ -45,12 +44,14 @@ def is_of(type_: str, data: Any) -> bool:
 
 
 CHOICE, PATTERN, RANGE, LIMIT = "choice", "pattern", "range", "limit"
-_NO_ENDS: Mapping[str, Number] = MappingProxyType({})
-Matches = Optional[Callable[[str], bool]]
 
 
 def outside(
-    type_: str, value: Any, values: Collection[Any] = (), ends: Mapping[str, Number] = _NO_ENDS, matches: Matches = None
+    type_: str,
+    value: Any,
+    values: Collection[Any] = (),
+    ends: Mapping[str, Number] | None = None,
+    matches: Callable[[str], bool] | None = None,
 ) -> str:
     """Why a value of the right kind is not allowed: CHOICE for none of the values there are, PATTERN for a text that
     does not match, RANGE for a number beyond the ends that `holds` takes, LIMIT for one that its type cannot hold; or
@@ -59,7 +60,7 @@ def outside(
         return "" if value in values else CHOICE
     if type_ not in LIMITS:
         return "" if matches is None or matches(value) else PATTERN
-    if not holds(value, **ends):
+    if not holds(value, **(ends or {})):
         return RANGE
     least, most = LIMITS[type_]
     return "" if least <= value <= most else LIMIT

@@ -39,9 +39,13 @@ class Plain:
     takes_any_text = False
     is_secret = False
 
-    def __init__(self, name: str, words: str = "") -> None:
+    def __init__(self, name: str) -> None:
         self.name = name
-        self.words = words or limits.WORDS[name]  # what a value is
+
+    @property
+    def words(self) -> str:
+        """What a value is, for messages."""
+        return limits.WORDS[self.name]
 
     def take(self, raw: Any, path: Path, taking: Taking) -> Any:
         """The value that `raw` stands for; a problem goes to `taking` where there is none."""
@@ -92,9 +96,9 @@ def shown(raw: Any) -> str:
     """A value for messages, shortened."""
     if isinstance(raw, references.Referred):
         return raw.reference
-    text = repr(url(raw)) if isinstance(raw, str) else texts.spelled(raw)
     if raw is None or isinstance(raw, (list, tuple)) or hasattr(raw, "keys"):
-        text = "nothing" if raw is None else "a mapping" if hasattr(raw, "keys") else "a list"
+        return "nothing" if raw is None else "a mapping" if hasattr(raw, "keys") else "a list"
+    text = repr(url(raw)) if isinstance(raw, str) else texts.spelled(raw)
     return text if len(text) <= 60 else f"{text[:59]}…"
 
 
@@ -109,20 +113,10 @@ class Truth(Plain):
 class Numeric(Plain):
     """Numbers, within limits: `at_least` and `at_most` may be reached, `above` and `below` not."""
 
-    def __init__(
-        self,
-        name: str,
-        values: Sequence[Number] = (),
-        at_least: Number | None = None,
-        at_most: Number | None = None,
-        above: Number | None = None,
-        below: Number | None = None,
-        unit: str = "",
-    ) -> None:
+    def __init__(self, name: str, values: Sequence[Number] = (), unit: str = "", **ends: Number) -> None:
         super().__init__(name)
         self.values = values
-        ends = {"at_least": at_least, "at_most": at_most, "above": above, "below": below}
-        self._ends = {name: end for name, end in ends.items() if end is not None}
+        self._ends = ends
         self.unit = unit
 
     def limit(self, value: Any) -> str:
@@ -169,9 +163,9 @@ class Text(Plain):
 
     def limit(self, value: Any) -> str:
         fault = limits.outside(self.name, value, self.values, matches=self.matches)
-        return (
-            f"be {self.one_of(self.values)}" if fault == limits.CHOICE else f"match {self._shown_as}" if fault else ""
-        )
+        if fault == limits.CHOICE:
+            return f"be {self.one_of(self.values)}"
+        return f"match {self._shown_as}" if fault else ""
 
 
 class Choice(Plain):
@@ -179,9 +173,13 @@ class Choice(Plain):
 
     takes_any_text = True
 
-    def __init__(self, name: str, names: Sequence[str]) -> None:
-        super().__init__(name, self.one_of(names))
+    def __init__(self, name: str, *names: str) -> None:
+        super().__init__(name)
         self.names = names
+
+    @property
+    def words(self) -> str:
+        return self.one_of(self.names)
 
     def of(self, raw: Any) -> Any:
         return str(raw) if limits.is_of("string", raw) else None
@@ -190,31 +188,11 @@ class Choice(Plain):
         return f"be {self.words}" if limits.outside(self.name, value, self.names) else ""
 
 
-def truth() -> Plain:
-    return Truth()
-
-
-def whole(name: str, **more: Any) -> Plain:
-    """`name` is int (32 bits) or long (64)."""
-    return Whole(name, **more)
-
-
-def decimal(name: str, **more: Any) -> Plain:
-    """`name` is float or double: the range, since values are kept as Python's floats."""
-    return Decimal(name, **more)
-
-
-def text(**more: Any) -> Plain:
-    return Text(**more)
-
-
-def choice(name: str, *names: str) -> Plain:
-    return Choice(name, names)
+# What generated code calls.
+truth, whole, decimal, text, choice = Truth, Whole, Decimal, Text, Choice
 
 
 def secret(kind: Plain) -> Plain:
     """The same type, of values that are never shown."""
     kind.is_secret = True
-    if isinstance(kind, Choice):
-        kind.words = kind.one_of(kind.names)
     return kind

@@ -7,7 +7,6 @@ What stands here reads what `rcyaml compile` writes, and the files that componen
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Any
 
 from . import references, rows, spellings, texts
@@ -15,8 +14,6 @@ from .composite import Kind, Listing, Naming, Recording
 from .paths import unescaped
 from .plain import Plain, Text
 from .spellings import Spelling
-
-_NONE: Mapping[str, Any] = MappingProxyType({})
 
 
 class Reader:
@@ -28,12 +25,12 @@ class Reader:
         properties: Mapping[str, str],
         table: Mapping[str, Spelling],
         follow: Callable[[str], Any] = references.resolved,
-        known: Mapping[str, Any] = _NONE,
+        known: Mapping[str, Any] | None = None,
     ) -> None:
         self._properties = properties
         self._spellings = table
         self._follow = follow
-        self._known = known
+        self._known = known or {}
         self._quoted = spellings.quotes_texts(properties)
         self.used: set[str] = set()
         self._stems: set[str] = set()  # every beginning of a key, so that "is there anything below" is one look-up
