@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from typing import TypeAlias
 
 import msgspec
 
@@ -19,6 +20,12 @@ _ATOM = pattern(r"\[(?:\\.|[^\]\\])*\]|\\.|.", re.DOTALL)
 _COUNT = pattern(r"[*+?]|\{(\d+)(,(\d*))?\}")
 
 
+Alternatives: TypeAlias = "list[list[tuple[Atom, int, int | None]]]"
+"""Sequences of (atom, least, most)."""
+Atom: TypeAlias = "str | Alternatives"
+"""The text of a character or of a class of them, or a group."""
+
+
 class TooLarge(ValueError):
     pass
 
@@ -26,35 +33,35 @@ class TooLarge(ValueError):
 @cache
 def matcher(portable: str) -> Matcher:
     """For what `patterns.pattern` writes. Raises TooLarge, where counts of counts come to more than MAX_PLACES."""
-    parser = _Parser(portable)
-    parsed = parser.alternatives()
-    if _size(parsed) > MAX_PLACES:
+    alternatives = parsed(portable)
+    if _size(alternatives) > MAX_PLACES:
         raise TooLarge
     made = Matcher()
-    made.end = made.add(parsed, made.place())
+    made.end = made.add(alternatives, made.place())
     return made
 
 
-class _Parser(msgspec.Struct):
-    """Alternatives are lists of sequences, these of (atom, least, most); an atom is the text of a class of characters,
-    or alternatives."""
+def parsed(portable: str) -> Alternatives:
+    return _Parser(portable).alternatives()
 
+
+class _Parser(msgspec.Struct):
     text: str
     at: int = 0
 
-    def alternatives(self) -> list[list[tuple[str | list, int, int | None]]]:  # type: ignore[type-arg]
+    def alternatives(self) -> Alternatives:
         found = [self.sequence()]
         while self.text.startswith("|", self.at):
             self.at += 1
             found.append(self.sequence())
         return found
 
-    def sequence(self) -> list[tuple[str | list, int, int | None]]:  # type: ignore[type-arg]
+    def sequence(self) -> list[tuple[Atom, int, int | None]]:
         found = []
         while self.at < len(self.text) and self.text[self.at] not in "|)":
             if self.text.startswith("(?:", self.at):
                 self.at += 3
-                atom: str | list = self.alternatives()  # type: ignore[type-arg]
+                atom: Atom = self.alternatives()
                 self.at += 1
             else:
                 whole = _ATOM.match(self.text, self.at)
@@ -74,7 +81,7 @@ class _Parser(msgspec.Struct):
         return least, (least if found[2] is None else int(found[3]) if found[3] else None)
 
 
-def _size(alternatives: list[list[tuple[str | list, int, int | None]]]) -> int:  # type: ignore[type-arg]
+def _size(alternatives: Alternatives) -> int:
     return 1 + sum(
         (1 if isinstance(atom, str) else _size(atom)) * max(1, least + 1 if most is None else most)
         for sequence in alternatives for atom, least, most in sequence
@@ -95,7 +102,7 @@ class Matcher:
         self.steps.append(None)
         return len(self.free) - 1
 
-    def add(self, part: str | list, start: int) -> int:  # type: ignore[type-arg]
+    def add(self, part: Atom, start: int) -> int:
         """The place that one is at behind a part that begins at `start`."""
         end = self.place()
         if isinstance(part, str):
@@ -109,7 +116,7 @@ class Matcher:
             self.free[here].append(end)
         return end
 
-    def repeat(self, atom: str | list, least: int, most: int | None, here: int) -> int:  # type: ignore[type-arg]
+    def repeat(self, atom: Atom, least: int, most: int | None, here: int) -> int:
         for _ in range(least):
             here = self.add(atom, self.behind(here))
         end = self.place()

@@ -18,7 +18,7 @@ _SHORTHANDS = {
     "w": [(0x30, 0x39), (0x41, 0x5A), (0x5F, 0x5F), (0x61, 0x7A)],
     "s": [(0x09, 0x0D), (0x20, 0x20)],
 }
-_CONTROLS = {"t": "\t", "n": "\n", "r": "\r", "f": "\f", "v": "\v"}
+CONTROLS = {"t": "\t", "n": "\n", "r": "\r", "f": "\f", "v": "\v"}
 _SPELLED = {"\t": "\\t", "\n": "\\n", "\r": "\\r", "\f": "\\f", "\v": "\\v"}
 _SYNTAX = frozenset("^$\\.*+?()[]{}|/")
 _COUNT = pattern(r"\{(\d{1,4})(,(\d{1,4})?)?\}")
@@ -70,7 +70,6 @@ class _Parser(msgspec.Struct):
     shift: int
     at: int = 0
     depth: int = 0
-    out: list[str] = []
 
     def fail(self, problem: str, index: int | None = None) -> NotPortable:
         return NotPortable(problem, (self.at if index is None else index) + self.shift)
@@ -158,8 +157,8 @@ class _Parser(msgspec.Struct):
 
     def single(self, char: str, start: int) -> str:
         """The character that stands behind a backslash."""
-        if char in _CONTROLS:
-            return _CONTROLS[char]
+        if char in CONTROLS:
+            return CONTROLS[char]
         if not char:
             raise self.fail("a backslash stands at the end", start)
         if char.isalnum() or (char.isspace() and char != " "):
