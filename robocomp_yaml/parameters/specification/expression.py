@@ -47,90 +47,85 @@ class NotInLanguage(ValueError):
         self.index, self.hint = index, hint
 
 
-class Literal(Located, frozen=True):
+class _Part(Located, frozen=True, kw_only=True):
+    """`at` is the index of the character that it is known by."""
+
+    at: int = 0
+
+
+class Literal(_Part, frozen=True):
     """A number, a text, true or false."""
 
     value: bool | int | float | str
-    at: int = 0
 
 
-class Listing(Located, frozen=True):
+class Listing(_Part, frozen=True):
     """`[a, b]`, for `in`."""
 
     items: tuple[Expression, ...]
-    at: int = 0
 
 
-class Name(Located, frozen=True):
+class Name(_Part, frozen=True):
     """A parameter, a group, or the variable of a `for`."""
 
     name: str
-    at: int = 0
 
 
-class Attribute(Located, frozen=True):
+class Attribute(_Part, frozen=True):
     of: Expression
     name: str
-    at: int = 0
 
 
-class Index(Located, frozen=True):
+class Index(_Part, frozen=True):
     """An entry of a list by its number, or of a map by its key."""
 
     of: Expression
     index: Expression
-    at: int = 0
 
 
-class Unary(Located, frozen=True):
+class Unary(_Part, frozen=True):
     """`operator` is 'not', '-' or '+'."""
 
     operator: str
     operand: Expression
-    at: int = 0
 
 
-class Binary(Located, frozen=True):
+class Binary(_Part, frozen=True):
     """`operator` is one of + - * / % (`/` gives a fraction, `%` takes the divisor's sign, as in Python)."""
 
     operator: str
     left: Expression
     right: Expression
-    at: int = 0
 
 
-class Compare(Located, frozen=True):
+class Compare(_Part, frozen=True):
     """`first < second <= third`: each pair must hold. Operators: < <= > >= == != in 'not in'."""
 
     first: Expression
     rest: tuple[tuple[str, Expression], ...]
-    at: int = 0
 
 
-class Logic(Located, frozen=True):
+class Logic(_Part, frozen=True):
     """`operator` is 'and' or 'or'."""
 
     operator: str
     operands: tuple[Expression, ...]
-    at: int = 0
 
 
-class Each(Located, frozen=True):
+class Each(_Part, frozen=True):
     """`element for variable in source if condition`: the argument of all, any, sum, min, max or unique."""
 
     element: Expression
     variable: str
     source: Expression
     condition: Expression | None = None
-    at: int = 0
 
 
-class Call(Located, frozen=True):
+class Call(_Part, frozen=True):
     """`function` is one of FUNCTIONS."""
 
     function: str
     arguments: tuple[Expression | Each, ...]
-    at: int = 0
 
 
 Expression = Literal | Listing | Name | Attribute | Index | Unary | Binary | Compare | Logic | Call
