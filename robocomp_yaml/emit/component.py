@@ -17,7 +17,7 @@ from robocomp_yaml.emit.options import Options
 from robocomp_yaml.emit.ports import Ports, assign
 from robocomp_yaml.link.program import LinkedComponent, LinkedModule, Program
 from robocomp_yaml.link.workspace import Workspace
-from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE, document_schema
+from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE, document_schema
 from robocomp_yaml.parameters.specification.document import ValuesDocument
 from robocomp_yaml.plugins import LANGUAGES
 from robocomp_yaml.transactions.plan import FilePlan, RootPlan

@@ -248,6 +248,13 @@ def unit_of(type_: Type) -> str:
     return type_.unit if isinstance(type_, BasicType) else ""
 
 
+def json_type(type_: ScalarType) -> str:
+    """A plain type as JSON Schema calls it."""
+    if isinstance(type_, EnumType) or not (type_.is_number or type_.name == "bool"):
+        return "string"
+    return "boolean" if type_.name == "bool" else "integer" if type_.is_integer else "number"
+
+
 def is_secret(type_: Type) -> bool:
     """Whether a plain value is a secret, or the plain values that a list or map holds are."""
     type_ = innermost(type_)

@@ -11,10 +11,9 @@ from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.parameters.documents import LayeredValues, ResolvedParameters
+from robocomp_yaml.parameters.json_schema import DOCUMENT, EFFECTIVE, fits
 from robocomp_yaml.parameters.layers.completion import complete_at_once, completed
 from robocomp_yaml.parameters.layers.merge import Place, data_of, merged, section
-from robocomp_yaml.parameters.schema.gate import fits
-from robocomp_yaml.parameters.schema.json_schema import DOCUMENT, EFFECTIVE
 from robocomp_yaml.parameters.types import MapType, Parameters, RecordType, Type
 from robocomp_yaml.parameters.verdict.judge import judge, missing, wrong_size
 from robocomp_yaml.parameters.verdict.specification import is_usable

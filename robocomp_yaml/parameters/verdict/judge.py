@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
-from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.fix import NO_HINT, Fix, Hint, removal
@@ -17,11 +16,12 @@ from robocomp_yaml.parameters.types import (
     EnumType,
     ListType,
     MapType,
-    Member,
     RecordType,
     ScalarType,
     Type,
     is_secret,
+    json_type,
+    unit_of,
 )
 from robocomp_yaml.parameters.verdict.plain import KIND, wrong
 from robocomp_yaml.parameters.words import kind_in_words
@@ -29,7 +29,7 @@ from robocomp_yaml.secrets import HIDDEN, url
 from robocomp_yaml.semantics import references
 from robocomp_yaml.semantics.limits import CHOICE, PATTERN, RANGE, bounds, entries, one_of
 from robocomp_yaml.semantics.paths import Path, in_words
-from robocomp_yaml.source.retyped import BOOL, INTEGER, NUMBER, STRING, TRUTHS, retyped
+from robocomp_yaml.source.retyped import TRUTHS, retyped
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 
@@ -66,15 +66,14 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:39]}…"
 
 
-def _at(
-    code: Code, node: Node, key: Scalar | None, *, hint: str | Hint = "", fixes: Iterable[Fix] = (), **facts: str
-) -> Diagnostic:
-    """At the value; at its key where the value is empty or fills many lines."""
-    span = node.span
-    empty = isinstance(node, Scalar) and not node.lexeme and not node.quoted
-    at_key = key is not None and (empty or span.line != span.end_line)
-    place = key.span if key is not None and at_key else span
-    return code.at(place, hint=hint, related=(), more="", fixes=fixes, **facts)
+def _place(node: Node, key: Scalar | None) -> Span:
+    """A value's; its key's where the value is empty or fills many lines."""
+    is_at_key = _is_empty(node) or node.span.line != node.span.end_line
+    return key.span if key is not None and is_at_key else node.span
+
+
+def _is_empty(node: Node) -> bool:
+    return isinstance(node, Scalar) and not node.lexeme and not node.quoted
 
 
 def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
@@ -92,34 +91,22 @@ def _wrong_type(type_: Type, node: Node, path: Path, key: Scalar | None) -> Diag
             hint = f"write {meant}"
     elif isinstance(type_, BasicType) and type_.name == "string" and isinstance(node, Scalar) and node.lexeme:
         hint = f'text needs quotes here: "{node.lexeme}"'
-    wanted = f"{kind_in_words(type_)}{_unit(type_)}"
-    return _at(
-        codes.WRONG_TYPE,
-        node,
-        key,
-        path=in_words(path),
-        wanted=wanted,
-        found=shown(node, type_),
-        hint=hint,
-        fixes=_retyped(type_, node),
-    )
+    wanted = _wanted(type_) if isinstance(type_, BasicType) else kind_in_words(type_)
+    found, fixes = shown(node, type_), _retyped(type_, node)
+    place = _place(node, key)
+    return codes.WRONG_TYPE.at(place, path=in_words(path), wanted=wanted, found=found, hint=hint, fixes=fixes)
 
 
 def _retyped(type_: Type, node: Node) -> tuple[Fix, ...]:
     if not isinstance(node, Scalar) or not isinstance(type_, BasicType) or is_secret(type_):
         return ()
-    wanted = (
-        BOOL
-        if type_.name == "bool"
-        else STRING
-        if type_.name == "string"
-        else (INTEGER if type_.is_integer else NUMBER)
-    )
-    return retyped([wanted], node.lexeme, node.data, node.span)
+    return retyped([json_type(type_)], node.lexeme, node.data, node.span)
 
 
-def _unit(type_: Type) -> str:
-    return f" ({type_.unit})" if isinstance(type_, BasicType) and type_.unit else ""
+def _wanted(type_: Type) -> str:
+    """What a value of a type is, with the unit of its numbers."""
+    unit = unit_of(type_)
+    return f"{kind_in_words(type_)} ({unit})" if unit else kind_in_words(type_)
 
 
 def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> Iterator[Diagnostic]:
@@ -132,7 +119,7 @@ def _scalar(type_: ScalarType, node: Node, path: Path, key: Scalar | None) -> It
     elif fault == PATTERN:
         assert isinstance(type_, BasicType) and type_.pattern is not None
         value = HIDDEN if type_.secret else f"'{_short(str(node.data))}'"
-        yield _at(codes.NO_MATCH, node, key, path=in_words(path), value=value, pattern=type_.pattern.text)
+        yield codes.NO_MATCH.at(_place(node, key), path=in_words(path), value=value, pattern=type_.pattern.text)
     elif fault:
         yield _outside(type_, fault, node, path, key)
 
@@ -146,10 +133,8 @@ def _reference(node: Node, path: Path) -> Iterator[Diagnostic]:
             problem = f"has '{other.lexeme}' beside '{kind}'"
             yield codes.BAD_REFERENCE.at(other.span, path=in_words(path), problem=problem)
     if problem := references.problem(kind, name.data):
-        is_empty = isinstance(name, Scalar) and not name.lexeme and not name.quoted
-        yield codes.BAD_REFERENCE.at(
-            key.span if is_empty else name.span, path=in_words(path), problem=problem, hint=_REFERENCE_HINTS[kind]
-        )
+        span, hint = key.span if _is_empty(name) else name.span, _REFERENCE_HINTS[kind]
+        yield codes.BAD_REFERENCE.at(span, path=in_words(path), problem=problem, hint=hint)
 
 
 _REFERENCE_HINTS = {
@@ -161,7 +146,7 @@ _REFERENCE_HINTS = {
 def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar | None) -> Diagnostic:
     """Of the right kind, and not allowed."""
     assert isinstance(node, Scalar)
-    unit = f" {type_.unit}" if isinstance(type_, BasicType) and type_.unit else ""
+    unit = f" {unit}" if (unit := unit_of(type_)) else ""
     hint: str | Hint = NO_HINT
     value = _short(node.lexeme)
     if isinstance(node.data, str):
@@ -174,8 +159,8 @@ def _outside(type_: ScalarType, fault: str, node: Node, path: Path, key: Scalar 
         wanted = f"{type_.range.in_words}{unit}"
     else:
         wanted = bounds(type_.name)
-    value = HIDDEN if type_.secret else value
-    return _at(codes.OUT_OF_RANGE, node, key, path=in_words(path), value=f"{value}{unit}", wanted=wanted, hint=hint)
+    value = f"{HIDDEN if type_.secret else value}{unit}"
+    return codes.OUT_OF_RANGE.at(_place(node, key), path=in_words(path), value=value, wanted=wanted, hint=hint)
 
 
 def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
@@ -189,12 +174,8 @@ def _list(type_: ListType, node: Node, path: Path, complete: bool, key: Scalar |
         if type_.unique:
             known = item.data if isinstance(item.data, str | int | float) else repr(item.data)
             if known in seen:
-                yield codes.NOT_UNIQUE.at(
-                    item.span,
-                    path=in_words(path),
-                    value=shown(item, type_.element),
-                    fixes=[removal(item.span, safe=False)],
-                )
+                value, fixes = shown(item, type_.element), [removal(item.span, safe=False)]
+                yield codes.NOT_UNIQUE.at(item.span, path=in_words(path), value=value, fixes=fixes)
             seen.add(known)
 
 
@@ -202,8 +183,8 @@ def wrong_size(
     type_: ListType | MapType, count: int, node: Node, path: Path, key: Scalar | None
 ) -> Iterator[Diagnostic]:
     if not type_.size.holds(count):
-        wanted = type_.size.in_words
-        yield _at(codes.WRONG_SIZE, node, key, path=in_words(path), count=entries(count), wanted=wanted)
+        size = type_.size.in_words
+        yield codes.WRONG_SIZE.at(_place(node, key), path=in_words(path), count=entries(count), wanted=size)
 
 
 def _map(type_: MapType, node: Node, path: Path, complete: bool, key: Scalar | None) -> Iterator[Diagnostic]:
@@ -250,9 +231,4 @@ def missing(type_: RecordType, given: set[str], path: Path, span: Span) -> Itera
         if isinstance(member.type, RecordType) and member.type.is_group:
             yield from missing(member.type, set(), (*path, member.name), span)
         elif member.required:
-            yield codes.MISSING.at(span, path=in_words((*path, member.name)), hint=_wish(member))
-
-
-def _wish(member: Member) -> str:
-    unit = f" ({member.unit})" if member.unit else ""
-    return f"give it {kind_in_words(member.type)}{unit}"
+            yield codes.MISSING.at(span, path=in_words((*path, member.name)), hint=f"give it {_wanted(member.type)}")

@@ -11,8 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+import jsonschema_rs
 import msgspec
 
+from robocomp_yaml.parameters.documents import ResolvedParameters
 from robocomp_yaml.parameters.examples.example import example, example_of
 from robocomp_yaml.parameters.hidden import holds_secret
 from robocomp_yaml.parameters.types import (
@@ -26,6 +28,7 @@ from robocomp_yaml.parameters.types import (
     ScalarType,
     Size,
     Type,
+    json_type,
 )
 from robocomp_yaml.parameters.words import for_editors, in_words, label, prose
 from robocomp_yaml.semantics.limits import LIMITS
@@ -77,6 +80,13 @@ _REFERENCE_CHOICE = {
 }
 
 
+def fits(linked: ResolvedParameters, mode: str, data: object) -> bool:
+    """The verdict on what stands under `parameters:`, in one of the modes. What does not fit is judged again, for words
+    and places."""
+    gate = linked.once(mode, lambda: jsonschema_rs.Draft7Validator(values_schema(linked.parameters, mode)))
+    return gate.is_valid(data)
+
+
 def values_schema(parameters: Parameters, mode: str) -> Schema:
     """The schema of what stands under `parameters:`, by itself."""
     maker = _Maker(mode)
@@ -84,11 +94,11 @@ def values_schema(parameters: Parameters, mode: str) -> Schema:
     return {"$schema": "http://json-schema.org/draft-07/schema#", **made, "definitions": maker.definitions}
 
 
-def complete_schema(type_: Type) -> Schema:
-    """The schema of one complete value."""
+def gate_of_complete(type_: Type) -> jsonschema_rs.Draft7Validator:
+    """A gate for one value that lacks nothing."""
     maker = _Maker(COMPLETE)
     made = maker.type(type_)
-    return {**made, "definitions": maker.definitions}
+    return jsonschema_rs.Draft7Validator({**made, "definitions": maker.definitions})
 
 
 def document_schema(parameters: Parameters, name: str, ports: Mapping[str, Iterable[str]], mode: str) -> Schema:
@@ -170,7 +180,7 @@ class _Maker(msgspec.Struct):
     def scalar(self, type_: ScalarType, nullable: bool) -> Schema:
         limits = self.limits(type_)
         said = {"errorMessage": f"this is {in_words(type_)}"} if self.for_editors else {}
-        kind = _json_type(type_)
+        kind = json_type(type_)
         otherwise: Schema
         if "enum" in limits:
             otherwise = {"enum": [*limits["enum"], *([None] if nullable else [])], **said}
@@ -244,12 +254,6 @@ class _Maker(msgspec.Struct):
             made["markdownDescription"] = "\n\n".join(part for part in (prose(doc), prose(facts)) if part)
             made |= {"examples": [shown]} if can_be_shown else {}
         return made
-
-
-def _json_type(type_: ScalarType) -> str:
-    if isinstance(type_, BasicType) and type_.name in LIMITS:
-        return "integer" if type_.is_integer else "number"
-    return "boolean" if type_.name == "bool" and isinstance(type_, BasicType) else "string"
 
 
 def _types(name: str, nullable: bool) -> str | list[str]:
