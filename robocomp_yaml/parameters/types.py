@@ -248,6 +248,11 @@ def unit_of(type_: Type) -> str:
     return type_.unit if isinstance(type_, BasicType) else ""
 
 
+def is_text(type_: Type) -> bool:
+    """Whether the values of a type are texts: an enumerator is one."""
+    return isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
+
+
 def json_type(type_: ScalarType) -> str:
     """A plain type as JSON Schema calls it."""
     if isinstance(type_, EnumType) or not (type_.is_number or type_.name == "bool"):

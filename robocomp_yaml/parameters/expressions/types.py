@@ -30,6 +30,7 @@ from robocomp_yaml.parameters.types import (
     MapType,
     RecordType,
     Type,
+    is_text,
 )
 from robocomp_yaml.parameters.words import in_brief
 
@@ -74,10 +75,6 @@ def is_bool(type_: Type) -> bool:
 
 def is_number(type_: Type) -> bool:
     return isinstance(type_, BasicType) and type_.is_number
-
-
-def is_text(type_: Type) -> bool:
-    return isinstance(type_, EnumType) or (isinstance(type_, BasicType) and type_.name == "string")
 
 
 def comparable(one: Type, other: Type) -> bool:
