@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import msgspec
 
+from robocomp_yaml.diag.span import Span
+
 if TYPE_CHECKING:
     from robocomp_yaml.parameters.specification.document import ParameterDocument, ValuesDocument
     from robocomp_yaml.parameters.types import Parameters
@@ -41,6 +43,13 @@ class LayeredValues(msgspec.Struct, frozen=True, eq=False):
     parameters: ResolvedParameters | None = None
     is_extended: bool = False
     broken: bool = False
+
+    @property
+    def head(self) -> Span:
+        """Where the document's values begin."""
+        root = self.document.root
+        entry = root.entries.get("parameters") or root.entries.get("component")
+        return entry[0].span if entry else Span(root.file)
 
     def layers(self) -> list[Self]:
         """This document and all that it builds on: the most general first, each once, this one last."""

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 from typing import Any
 
 from robocomp_yaml import secrets
-from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type, below
+from robocomp_yaml.parameters.types import BasicType, EnumType, ListType, MapType, RecordType, Type, below, nested
 from robocomp_yaml.semantics import paths
 from robocomp_yaml.semantics.references import is_sound
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
@@ -14,27 +14,14 @@ from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence
 
 def holds_secret(type_: Type) -> bool:
     """Whether a plain value is a secret, or anything that is inside."""
-    match type_:
-        case BasicType() | EnumType():
-            return type_.secret
-        case ListType(element=element) | MapType(element=element):
-            return holds_secret(element)
-        case _:
-            return any(holds_secret(member.type) for member in type_.members)
+    return any(isinstance(each, BasicType | EnumType) and each.secret for each in nested(type_))
 
 
 def declared(type_: Type) -> Iterator[str]:
     """The names of members that a document calls secret."""
-    match type_:
-        case ListType(element=element) | MapType(element=element):
-            yield from declared(element)
-        case RecordType(members=members):
-            for member in members:
-                if member.secret:
-                    yield member.name
-                yield from declared(member.type)
-        case _:
-            return
+    for record in nested(type_):
+        if isinstance(record, RecordType):
+            yield from (member.name for member in record.members if member.secret)
 
 
 def hidden(type_: Type, data: Any) -> Any:

@@ -235,6 +235,16 @@ def below(type_: Type | None, step: str | int) -> Type | None:
     return type_.element if isinstance(type_, MapType) else None
 
 
+def nested(type_: Type) -> Iterator[Type]:
+    """A type, and all that lists, maps and records of it hold."""
+    yield type_
+    if isinstance(type_, ListType | MapType):
+        yield from nested(type_.element)
+    elif isinstance(type_, RecordType):
+        for member in type_.members:
+            yield from nested(member.type)
+
+
 def innermost(type_: Type) -> ScalarType | RecordType:
     """What lists and maps, at any depth, hold."""
     while isinstance(type_, ListType | MapType):
@@ -266,11 +276,11 @@ def is_secret(type_: Type) -> bool:
     return not isinstance(type_, RecordType) and type_.secret
 
 
-def leaves(record: RecordType, prefix: str = "") -> Iterator[tuple[str, Member]]:
-    """Every parameter by its dotted path, groups opened."""
+def leaves(record: RecordType, prefix: str = "", *, groups: bool = False) -> Iterator[tuple[str, Member]]:
+    """Every parameter by its dotted path, groups opened; with `groups`, these too."""
     for member in record.members:
-        path = f"{prefix}{member.name}"
-        if isinstance(member.type, RecordType) and member.type.is_group:
-            yield from leaves(member.type, f"{path}.")
-        else:
+        path, is_group = f"{prefix}{member.name}", isinstance(member.type, RecordType) and member.type.is_group
+        if groups or not is_group:
             yield path, member
+        if isinstance(member.type, RecordType) and is_group:
+            yield from leaves(member.type, f"{path}.", groups=groups)

@@ -14,6 +14,7 @@ from typing import Any
 
 import msgspec
 
+from robocomp_yaml.semantics.limits import entries
 from robocomp_yaml.semantics.paths import Step
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, end_of, last_end, parse
 from robocomp_yaml.source.yaml_text import quoted, scalar, single_quoted
@@ -83,7 +84,7 @@ def _child(node: Node, step: Step) -> tuple[Scalar | None, Node] | None:
     if isinstance(node, Sequence) and isinstance(step, int):
         count = len(node.items)
         if step > count:
-            raise NotEditable(f"the list has {count} entr{'y' if count == 1 else 'ies'} here", node)
+            raise NotEditable(f"the list has {entries(count)} here", node)
         return (None, node.items[step]) if step < count else None
     return None
 
@@ -184,8 +185,8 @@ def _left_out(text: str, node: Node, key: Scalar | None, step: Step, above: Coll
     if key is None or not above or not is_block:
         return None
     outer = key.span.column - 1
-    entries = iter(node.entries.values()) if isinstance(node, Mapping) else iter(())
-    indent = next((first.span.column - 1 for first, _ in entries), _inside(text, key))
+    keys = (first for first, _ in node.entries.values()) if isinstance(node, Mapping) else iter(())
+    indent = next((first.span.column - 1 for first in keys), _inside(text, key))
     found, before = None, ""
     for line in _LINE.finditer(text, _end_of_line(text, key.end)):
         body = line["body"]

@@ -47,7 +47,7 @@ def effective(values: LayeredValues) -> tuple[Effective | None, Sequence[Diagnos
     program works them out once for each of its documents."""
     linked, found = values.parameters, list[Diagnostic]()
     assert linked is not None
-    root, place, head = linked.parameters.root, merged(values), _head(values)
+    root, place, head = linked.parameters.root, merged(values), values.head
     data = _of_single_layer(values)
     whole = complete_at_once(linked, data) if data is not None else None
     # A single layer that is effective as it stands is right as a layer, too: one look is enough.
@@ -77,13 +77,6 @@ def _not_misspelled(found: list[Diagnostic], missing_ones: Iterable[Diagnostic])
             around = str(fault.fact("path")).rpartition(".")[0]
             meant.add(f"{around}.{name}" if around else name)
     return [fault for fault in missing_ones if fault.fact("path") not in meant]
-
-
-def _head(values: LayeredValues) -> Span:
-    """Where a document's values begin."""
-    root = values.document.root
-    entry = root.entries.get("parameters") or root.entries.get("component")
-    return entry[0].span if entry else Span(root.file)
 
 
 def _incomplete(type_: Type, place: Place | None, path: Path, head: Span) -> Iterator[Diagnostic]:

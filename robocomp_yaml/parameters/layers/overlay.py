@@ -9,7 +9,7 @@ import msgspec
 
 from robocomp_yaml.parameters.layers.merge import Place
 from robocomp_yaml.parameters.types import ListType, Member, RecordType, Type, below
-from robocomp_yaml.semantics import paths
+from robocomp_yaml.semantics import limits, paths
 from robocomp_yaml.source.tree import Mapping, Node, Scalar, Sequence, mapping_at, sequence_at, text_at
 
 Entries = dict[str, tuple[Scalar, Node]]
@@ -86,18 +86,15 @@ def _replaced(node: Node | None, steps: list[str], key: Scalar, new: Node) -> No
     step, *rest = steps
     if isinstance(node, Sequence):
         if not step.isdigit() or int(step) >= len(node.items):
-            raise LookupError(f"the list has {_count(len(node.items))}, counted from 0")
+            raise LookupError(f"the list has {limits.entries(len(node.items))}, counted from 0")
         at = int(step)
         items = [_replaced(item, rest, key, new) if index == at else item for index, item in enumerate(node.items)]
         return sequence_at(node.span, items)
     if isinstance(node, Mapping):
         inside = node.entries.get(step, (key, None))[1]
-        entries = node.entries | {step: (text_at(key.span, step), _replaced(inside, rest, key, new))}
-        return mapping_at(node.span, entries)
+        return mapping_at(
+            node.span, node.entries | {step: (text_at(key.span, step), _replaced(inside, rest, key, new))}
+        )
     if node is None and not step.isdigit():
         return mapping_at(key.span, {step: (text_at(key.span, step), _replaced(None, rest, key, new))})
     raise LookupError("there is no list yet to change" if node is None else "there is a plain value")
-
-
-def _count(number: int) -> str:
-    return f"{number} entr{'y' if number == 1 else 'ies'}"

@@ -10,7 +10,7 @@ from robocomp_yaml.diag.diagnostic import Diagnostic
 from robocomp_yaml.diag.suggest import did_you_mean
 from robocomp_yaml.parameters.documents import ResolvedParameters
 from robocomp_yaml.parameters.spelling.templates import fault
-from robocomp_yaml.parameters.types import Member, Parameters, RecordType, Type, leaves
+from robocomp_yaml.parameters.types import Member, Parameters, RecordType, leaves
 from robocomp_yaml.parameters.verdict.judge import judge
 from robocomp_yaml.semantics.paths import Path
 from robocomp_yaml.semantics.references import is_reference
@@ -78,7 +78,7 @@ def _references(node: Node) -> Iterator[Mapping]:
 
 def spelling_faults(parameters: Parameters) -> Iterator[Diagnostic]:
     """Entries of the legacy table that name no parameter, or cannot spell what it holds."""
-    known = dict(_paths(parameters.root))
+    known = {path: member.type for path, member in leaves(parameters.root, groups=True)}
     for spelling in parameters.spellings:
         type_ = known.get(spelling.path)
         if type_ is None:
@@ -87,11 +87,3 @@ def spelling_faults(parameters: Parameters) -> Iterator[Diagnostic]:
             yield codes.BAD_SPELLING.at(spelling.span, path=spelling.path, problem="names no parameter", hint=hint)
         elif problem := fault(spelling, type_):
             yield codes.BAD_SPELLING.at(spelling.span, path=spelling.path, problem=problem)
-
-
-def _paths(record: RecordType, prefix: str = "") -> Iterator[tuple[str, Type]]:
-    """Parameters and groups by their paths."""
-    for member in record.members:
-        yield f"{prefix}{member.name}", member.type
-        if member.is_group and isinstance(member.type, RecordType):
-            yield from _paths(member.type, f"{prefix}{member.name}.")

@@ -10,7 +10,6 @@ from msgspec.structs import replace
 
 from robocomp_yaml.diag.codes import values as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic
-from robocomp_yaml.diag.span import Span
 from robocomp_yaml.model.build_interface import text
 from robocomp_yaml.parameters.documents import LayeredValues
 from robocomp_yaml.parameters.layers.effective import Effective
@@ -51,9 +50,7 @@ def properties(
     """The properties of a document and its layers, and what of it no property can hold. `quoted`: text stands in
     quotes, as it does in flat TOML anyway. `beside`: they are for a file in the document's folder."""
     form = dialect(values)
-    root = values.document.root
-    entry = root.entries.get("parameters") or root.entries.get("component")
-    head = entry[0].span if entry else Span(root.file)
+    head = values.head
     quote = quoted or form == FLAT_TOML
     sections = [
         Section("Where this component serves its interfaces", list(_endpoints(values, form, quote))),
@@ -100,15 +97,10 @@ def property_text(sections: list[Section], name: str, source: str) -> str:
 
 
 def section_text(sections: list[Section]) -> str:
-    return "".join(f"{line}\n" for line in _lines(sections))
-
-
-def _lines(sections: list[Section]) -> Iterator[str]:
-    for section in sections:
-        yield ""
-        yield f"# {section.title}."
-        for made in section.properties:
-            yield entry_line(made.key, made.value)
+    blocks = (
+        [f"# {each.title}.", *(entry_line(made.key, made.value) for made in each.properties)] for each in sections
+    )
+    return "".join("\n" + "".join(f"{line}\n" for line in block) for block in blocks)
 
 
 def secret_keys(sections: list[Section]) -> tuple[str, ...]:
