@@ -25,6 +25,7 @@ from robocomp_yaml.parameters.types import (
     ScalarType,
     Type,
     leaves,
+    nested,
 )
 from robocomp_yaml.parameters.expressions import evaluate
 from robocomp_yaml.parameters.defaults import defaults, with_defaults
@@ -33,8 +34,8 @@ from robocomp_yaml.parameters.verdict.plain import wrong
 
 _STEPS = 3000  # of one search
 _MOST_STEPS = 12_000  # of all, with up to ten parameters; with more, each step takes longer
-_PLACES = 200
-_VALUES = 14  # tried for one place
+_MOST_SLOTS = 200
+_VALUES = 14  # tried for one slot
 _UNKNOWN = {"env": "UNKNOWN"}  # what a reference is before the component starts
 _COUNTS = (None, 2, 3, 0, 1, 4, 6)  # of the entries of lists and maps, where they may be so many; None: the usual
 
@@ -95,16 +96,21 @@ class _Form(msgspec.Struct, frozen=True):
     keys: tuple[str, ...] = ()
 
 
-class _Place(msgspec.Struct):
-    """A plain value inside of an example, by its way from the top."""
+class _Slot(msgspec.Struct):
+    """A plain value of an example, by the path of the parameter and the steps inside of its value."""
 
-    steps: tuple[str | int, ...]
+    path: Path
+    inside: tuple[str | int, ...]
     type: ScalarType
     first: list[Any] = []
     is_optional: bool = False
 
     @property
-    def column(self) -> tuple[str, ...]:
+    def steps(self) -> tuple[Any, ...]:
+        return (self.path, *self.inside)
+
+    @property
+    def column(self) -> tuple[Any, ...]:
         """What it shares with its like in other entries of a list."""
         return tuple("" if isinstance(step, int) else step for step in self.steps)
 
@@ -167,26 +173,23 @@ class _Search:
         both: Mapping[Path, Any] | None,
     ) -> dict[Path, Any] | None:
         data = {path: shape for path, shape in shapes.items() if path not in optional}
-        places = []
+        slots = []
         for path, shape in shapes.items():
             member = self.members[path]
-            found = list(_places(member.type, shape, path, path in optional))
+            found = list(_slots(member.type, shape, path, (), path in optional))
             if (constraints and self.concerns(path)) or _is_unique(member.type):
-                places += found
+                slots += found
                 continue
-            for place in found:
-                value = next(iter(self._values(place)), None)
+            for slot in found:
+                value = next(iter(self._values(slot)), None)
                 if value is None:
                     return None
-                if len(place.steps) > len(path):
-                    _put(shape, place.steps[len(path) :], value)
-                else:
-                    data[path] = value
-        if len(places) > _PLACES:
+                _put(data, slot.steps, value)
+        if len(slots) > _MOST_SLOTS:
             return None
-        columns = list(dict.fromkeys(place.column for place in places))
+        columns = list(dict.fromkeys(slot.column for slot in slots))
         # Whether something is there decides most; what is compared with each other is chosen in a row.
-        places.sort(key=lambda place: (not place.is_optional, columns.index(place.column)))
+        slots.sort(key=lambda slot: (not slot.is_optional, columns.index(slot.column)))
 
         def goes_well() -> bool:
             self.steps += 1
@@ -196,32 +199,25 @@ class _Search:
             ) and all(_differs(self.members[path].type, value) for path, value in data.items())
 
         def search(at: int) -> bool:
-            if at == len(places):
+            if at == len(slots):
                 return goes_well()
-            place = places[at]
-            path = tuple(str(step) for step in place.steps[: _depth(place, self.members)])
-            inside = place.steps[len(path) :]
-            if place.is_optional and not inside:
-                data.pop(path, None)
+            slot = slots[at]
+            can_be_absent = slot.is_optional and not slot.inside
+            if can_be_absent:
+                data.pop(slot.path, None)
                 if search(at + 1):
                     return True
-            for value in self._values(place):
+            for value in self._values(slot):
                 if self.steps >= _STEPS or (constraints and self.left <= 0):
                     return False
-                if inside:
-                    if path not in data:
-                        data[path] = shapes[path]
-                    _put(data[path], inside, value)
-                else:
-                    data[path] = value
+                data.setdefault(slot.path, shapes[slot.path])
+                _put(data, slot.steps, value)
                 if goes_well() and search(at + 1):
                     return True
-            if inside:
-                _put(data[path], inside, _UNKNOWN)
+            if can_be_absent:
+                data.pop(slot.path, None)
             else:
-                data.pop(path, None)
-                if not place.is_optional:
-                    data[path] = _UNKNOWN
+                _put(data, slot.steps, _UNKNOWN)
             return False
 
         return dict(data) if search(0) else None
@@ -232,10 +228,7 @@ class _Search:
         root = self.parameters.root
         data = defaults(root)
         for path, value in {**base, **more}.items():
-            here = data
-            for step in path[:-1]:
-                here = here.setdefault(step, {})
-            here[path[-1]] = with_defaults(self.members[path].type, value)
+            _put(data, path, with_defaults(self.members[path].type, value))
         for path, member in self.members.items():  # still to be chosen
             if member.required and _at(data, path) is None:
                 _put(data, path, _UNKNOWN)
@@ -246,17 +239,18 @@ class _Search:
             if not self.is_careful or not any(_is_open(_at(named, path)) for path in evaluate.paths(each.expression))
         )
 
-    def _values(self, place: _Place) -> list[Any]:
-        """What a place may hold, the simplest first."""
-        type_ = place.type
+    def _values(self, slot: _Slot) -> list[Any]:
+        """What a slot may hold, the simplest first."""
+        type_ = slot.type
         if type_.secret:
-            named = max(at for at, step in enumerate(place.steps) if isinstance(step, str))
-            return [reference("_".join(map(str, place.steps[named:])))]
-        found = [*place.first, *islice(simplest(type_), _VALUES)]
+            steps = (*slot.path, *slot.inside)
+            named = max(at for at, step in enumerate(steps) if isinstance(step, str))
+            return [reference("_".join(map(str, steps[named:])))]
+        found = [*slot.first, *islice(simplest(type_), _VALUES)]
         if isinstance(type_, BasicType) and type_.is_number:
             near = [each for each in simplest(type_) if isinstance(each, int | float)]
             whole = sorted((each for each in near if float(each).is_integer()), key=abs)
-            found = [*place.first, *near[:1], *whole[:_VALUES], *near[-4:]]
+            found = [*slot.first, *near[:1], *whole[:_VALUES], *near[-4:]]
             for number in self.numbers:
                 found += [_plain(each) for each in (number, number + 1, number - 1, number / 2, number * 2, -number)]
             if type_.range is not None:
@@ -268,10 +262,6 @@ class _Search:
 
 def _plain(number: float) -> int | float:
     return int(number) if float(number).is_integer() else number
-
-
-def _depth(place: _Place, members: Mapping[Path, Member]) -> int:
-    return next(n for n in range(1, len(place.steps) + 1) if tuple(map(str, place.steps[:n])) in members)
 
 
 def _shape(type_: Type, form: _Form) -> Any:
@@ -292,36 +282,26 @@ def _shape(type_: Type, form: _Form) -> Any:
             return dict(_UNKNOWN)
 
 
-def _places(
-    type_: Type, shape: Any, steps: tuple[str | int, ...], is_optional: bool, default: Any = None
-) -> Iterator[_Place]:
+def _slots(
+    type_: Type, shape: Any, path: Path, inside: tuple[str | int, ...], is_optional: bool, first: Sequence[Any] = ()
+) -> Iterator[_Slot]:
     match type_:
-        case ListType(element=element):
-            for n, item in enumerate(shape):
-                yield from _places(element, item, (*steps, n), is_optional)
-        case MapType(element=element):
-            for name, item in shape.items():
-                yield from _places(element, item, (*steps, name), is_optional)
+        case ListType(element=element) | MapType(element=element):
+            for name, item in shape.items() if isinstance(shape, dict) else enumerate(shape):
+                yield from _slots(element, item, path, (*inside, name), is_optional)
         case RecordType(members=members):
             for member in members:
-                if member.name in shape:
-                    usual = member.default.data if member.default is not None else None
-                    if member.default is None or isinstance(member.type, ScalarType):
-                        yield from _places(member.type, shape[member.name], (*steps, member.name), is_optional, usual)
+                if member.name in shape and (member.default is None or isinstance(member.type, ScalarType)):
+                    first = () if member.default is None else (member.default.data,)
+                    yield from _slots(
+                        member.type, shape[member.name], path, (*inside, member.name), is_optional, first
+                    )
         case BasicType() | EnumType():
-            yield _Place(steps, type_, [] if default is None else [default], is_optional)
+            yield _Slot(path, inside, type_, list(first), is_optional)
 
 
 def _is_unique(type_: Type) -> bool:
-    match type_:
-        case ListType(element=element, unique=unique):
-            return unique or _is_unique(element)
-        case MapType(element=element):
-            return _is_unique(element)
-        case RecordType(members=members):
-            return any(_is_unique(member.type) for member in members)
-        case _:
-            return False
+    return any(isinstance(each, ListType) and each.unique for each in nested(type_))
 
 
 def _is_open(data: Any) -> bool:

@@ -97,10 +97,10 @@ def property_text(sections: list[Section], name: str, source: str) -> str:
 
 
 def section_text(sections: list[Section]) -> str:
-    blocks = (
-        [f"# {each.title}.", *(entry_line(made.key, made.value) for made in each.properties)] for each in sections
-    )
-    return "".join("\n" + "".join(f"{line}\n" for line in block) for block in blocks)
+    lines = []
+    for section in sections:
+        lines += ["", f"# {section.title}.", *(entry_line(made.key, made.value) for made in section.properties)]
+    return "".join(f"{line}\n" for line in lines)
 
 
 def secret_keys(sections: list[Section]) -> tuple[str, ...]:
