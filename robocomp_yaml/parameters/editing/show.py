@@ -90,14 +90,8 @@ def _record(
             given = step(where, member.name)
             own = step(default, member.name) if default is not None else None
             fallback = own if own is not None else member.default.node if member.default else None
-            yield from _value(
-                member.type,
-                data[member.name],
-                given,
-                node_of(fallback),
-                (*path, member.name),
-                editable or member.editable,
-            )
+            inner, is_editable = (*path, member.name), editable or member.editable
+            yield from _value(member.type, data[member.name], given, node_of(fallback), inner, is_editable)
 
 
 def _value(type_: Type, data: Any, where: Where, default: Node | None, path: Path, editable: bool) -> Iterator[Value]:
@@ -147,6 +141,5 @@ def type_at(root: RecordType, steps: Sequence[str]) -> Type | None:
 
 def typed(root: RecordType, steps: list[str]) -> list[Step]:
     """The steps of a path that names something, with numbers for places in lists."""
-    return [
-        int(step) if isinstance(type_at(root, steps[:depth]), ListType) else step for depth, step in enumerate(steps)
-    ]
+    types = (type_at(root, steps[:depth]) for depth in range(len(steps)))
+    return [int(step) if isinstance(type_, ListType) else step for step, type_ in zip(steps, types, strict=True)]

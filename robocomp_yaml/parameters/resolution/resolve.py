@@ -7,8 +7,10 @@ from collections.abc import Iterable, Iterator
 from msgspec.structs import replace
 
 from robocomp_yaml import secrets
+from robocomp_yaml.diag.code import Code
 from robocomp_yaml.diag.codes import pdsl as codes
 from robocomp_yaml.diag.diagnostic import Diagnostic, has_errors
+from robocomp_yaml.diag.fix import Hint
 from robocomp_yaml.diag.span import Span
 from robocomp_yaml.diag.suggest import did_you_mean, meaning
 from robocomp_yaml.parameters.defaults import EMERGENCY, PERIOD
@@ -49,20 +51,15 @@ def resolve(document: ParameterDocument, period: int | None = None) -> tuple[Par
     types = [resolver.named(name) for name, _ in document.types]
     resolver.unused()
     root = RecordType("", members, document.doc)
-    if resolver.found == [] and _size(root, {}) > MAX_VALUES:
-        resolver.found.append(
-            codes.TOO_LARGE.at(document.span, name="parameters", limit=MAX_VALUES, what="values of plain types")
+    if not resolver.found and _size(root, {}) > MAX_VALUES:
+        resolver.report(
+            codes.TOO_LARGE, document.span, name="parameters", limit=MAX_VALUES, what="values of plain types"
         )
     root, problems = with_period(root, period)
     found = [*resolver.found, *problems]
     sound = tuple(_sound(constraints, root, found))
-    return Parameters(
-        root,
-        tuple(t for t in types if isinstance(t, EnumType) or (isinstance(t, RecordType) and t.name)),
-        sound,
-        document.legacy,
-        document.doc,
-    ), found
+    named = tuple(t for t in types if isinstance(t, EnumType) or (isinstance(t, RecordType) and t.name))
+    return Parameters(root, named, sound, document.legacy, document.doc), found
 
 
 def hides_types(found: Iterable[Diagnostic]) -> bool:
@@ -101,11 +98,14 @@ class _Resolver:
         self.open: list[str] = []
         self.used: set[str] = set()
 
+    def report(self, code: Code, span: Span, *, hint: str | Hint = "", **facts: object) -> None:
+        self.found.append(code.at(span, hint=hint, related=(), more="", fixes=(), **facts))
+
     def unused(self) -> None:
         if not self.found:
             for name, spec in self.specs.items():
                 if name not in self.used:
-                    self.found.append(codes.UNUSED_TYPE.at(spec.key_span, name=name))
+                    self.report(codes.UNUSED_TYPE, spec.key_span, name=name)
 
     def named(self, name: str) -> Type | None:
         """One of the document's own types."""
@@ -113,7 +113,7 @@ class _Resolver:
             return self.done[name]
         spec = self.specs[name]
         if name in BASIC_TYPES:
-            self.found.append(codes.BASIC_NAME.at(spec.key_span, name=name))
+            self.report(codes.BASIC_NAME, spec.key_span, name=name)
         self.open.append(name)
         self.done[name] = resolved = self.definition(name, spec)
         self.open.pop()
@@ -126,9 +126,8 @@ class _Resolver:
             names = tuple(literal.lexeme for literal, _ in spec.enumerators)
             for place, (literal, _) in enumerate(spec.enumerators):
                 if literal.lexeme in names[:place]:
-                    self.found.append(
-                        codes.UNREACHABLE.at(literal.span, problem=f"the enumerator '{literal.lexeme}' stands twice")
-                    )
+                    problem = f"the enumerator '{literal.lexeme}' stands twice"
+                    self.report(codes.UNREACHABLE, literal.span, problem=problem)
             enumerators = tuple((literal.lexeme, doc) for literal, doc in spec.enumerators)
             return limited(EnumType(name, enumerators, names, spec.doc), spec.limits, self.found)
         if spec.kind == "struct":
@@ -139,16 +138,16 @@ class _Resolver:
     def has_one_kind(self, spec: Spec, what: str, name: str, possible: tuple[str, ...]) -> bool:
         if not spec.kinds:
             choice = ", ".join(f"{kind}: …" for kind in possible)
-            self.found.append(codes.NO_TYPE.at(spec.span, what=what, name=name, hint=f"write one of {choice}"))
+            self.report(codes.NO_TYPE, spec.span, what=what, name=name, hint=f"write one of {choice}")
         elif len(spec.kinds) > 1:
             kinds = " and ".join(f"'{kind}'" for kind, _ in spec.kinds)
-            self.found.append(codes.TWO_TYPES.at(spec.kinds[1][1], what=what, name=name, kinds=kinds))
+            self.report(codes.TWO_TYPES, spec.kinds[1][1], what=what, name=name, kinds=kinds)
         return len(spec.kinds) == 1
 
     def type(self, spec: Spec, name: str) -> Type | None:
         """The type of a parameter, a member, or of the entries of a list or map; `name` is for messages."""
         if len(self.open) > MAX_DEPTH:
-            self.found.append(codes.TOO_LARGE.at(spec.span, name=name, limit=MAX_DEPTH, what="types inside each other"))
+            self.report(codes.TOO_LARGE, spec.span, name=name, limit=MAX_DEPTH, what="types inside each other")
             return None
         match spec.kind:
             case "type":
@@ -174,12 +173,12 @@ class _Resolver:
             hint = did_you_mean(name, known, otherwise=f"there are: {', '.join(known)}")
             if hint.meant not in self.specs and (ours := _FOREIGN.get(name.lower())):
                 hint = meaning(name, ours)
-            self.found.append(codes.UNKNOWN_TYPE.at(spec.span, name=name, hint=hint))
+            self.report(codes.UNKNOWN_TYPE, spec.span, name=name, hint=hint)
             return None
         self.used.add(name)
         if name in self.open:
             cycle = [*self.open[self.open.index(name) :], name]
-            self.found.append(codes.RECURSIVE_TYPE.at(spec.span, name=name, cycle=" → ".join(cycle)))
+            self.report(codes.RECURSIVE_TYPE, spec.span, name=name, cycle=" → ".join(cycle))
             return None
         return self.named(name)
 
@@ -204,7 +203,7 @@ class _Resolver:
                 continue
             type_ = self.secret(entry, type_) if entry.secret else _named_so(type_) if hidden else type_
             if entry.optional and entry.default is not None:
-                self.found.append(codes.DEFAULT_AND_OPTIONAL.at(entry.default_span or entry.span, name=entry.name))
+                self.report(codes.DEFAULT_AND_OPTIONAL, entry.default_span or entry.span, name=entry.name)
             default = None if entry.default is None else Default(entry.default.data, entry.default)
             yield Member(
                 entry.name,
@@ -222,21 +221,20 @@ class _Resolver:
         limited(type_, entry.spec.limits, self.found)
         problem = "is for values; give it to what the group holds"
         if entry.default is not None:
-            self.found.append(codes.LIMIT_MISFIT.at(entry.default_span or entry.span, key="default", problem=problem))
+            self.report(codes.LIMIT_MISFIT, entry.default_span or entry.span, key="default", problem=problem)
         if entry.optional:
-            self.found.append(codes.LIMIT_MISFIT.at(entry.span, key="optional", problem=problem))
+            self.report(codes.LIMIT_MISFIT, entry.span, key="optional", problem=problem)
 
     def secret(self, entry: Entry, type_: Type) -> Type:
         """The type of a parameter that the document calls secret."""
         assert entry.secret is not None
         if entry.default is not None:
-            self.found.append(codes.SECRET_DEFAULT.at(entry.default_span or entry.span, name=entry.name, hint=(
-                "leave the default out: values documents give {env: NAME} or {file: PATH}"
-            )))  # fmt: skip
+            hint = "leave the default out: values documents give {env: NAME} or {file: PATH}"
+            self.report(codes.SECRET_DEFAULT, entry.default_span or entry.span, name=entry.name, hint=hint)
         if _plain_of(type_) is None:
             words = "a group" if isinstance(type_, RecordType) and type_.is_group else kind_in_words(type_)
             words += ", and not of plain values" if isinstance(type_, ListType) else ""
-            self.found.append(codes.SECRET_MISFIT.at(entry.secret, name=entry.name, words=words))
+            self.report(codes.SECRET_MISFIT, entry.secret, name=entry.name, words=words)
             return type_
         return _as_secret(type_)
 
@@ -248,9 +246,8 @@ class _Resolver:
             try:
                 tree = expression.parse(rule.that.lexeme)
             except expression.NotInLanguage as refused:
-                self.found.append(
-                    codes.BAD_EXPRESSION.at(inside(rule.that, refused.index), problem=str(refused), hint=refused.hint)
-                )
+                place = inside(rule.that, refused.index)
+                self.report(codes.BAD_EXPRESSION, place, problem=str(refused), hint=refused.hint)
                 continue
             yield Constraint(tree, rule.that.lexeme, rule.otherwise, rule.that, span=rule.span)
 
@@ -298,52 +295,41 @@ def _size(type_: Type, known: dict[str, int]) -> int:
 
 def with_period(root: RecordType, period: int | None) -> tuple[RecordType, list[Diagnostic]]:
     """The parameters with `period.compute` and `period.emergency`, as far as the document does not define them."""
-    found: list[Diagnostic] = []
     given = root.member("period")
     if given is not None and not given.is_group:
-        found.append(
-            codes.PERIOD.at(
-                given.span,
-                problem="'period' is the group of the worker's periods",
-                hint="write period: {group: {compute: …}}, or give the parameter another name",
-            )
-        )
-        return root, found
+        problem = "'period' is the group of the worker's periods"
+        hint = "write period: {group: {compute: …}}, or give the parameter another name"
+        return root, [codes.PERIOD.at(given.span, problem=problem, hint=hint)]
+    found: list[Diagnostic] = []
     own = given.type.members if given is not None and isinstance(given.type, RecordType) else ()
     by_name = {member.name: member for member in own}
-    for name in ("compute", "emergency"):
+    for name in _PERIODS:
         member = by_name.get(name)
         if member is not None and not (isinstance(member.type, BasicType) and member.type.name == "int"):
             problem = f"'period.{name}' is a whole number of milliseconds: int"
             found.append(codes.PERIOD.at(member.span, problem=problem))
-    compute = by_name.get("compute") or _period("compute", "How often compute() runs.", period or PERIOD)
+    compute = by_name.get("compute") or _period("compute", period or PERIOD)
     if compute.default is None and not compute.optional:
         compute = replace(compute, default=Default(period or PERIOD))
-    elif period is not None and compute.default is not None and compute.default.data != period and by_name:
-        node = compute.default.node
-        if node is not None:
-            found.append(
-                codes.PERIOD.at(
-                    node.span, problem=f"the component's 'period:' says {period} ms", hint="leave one of the two out"
-                )
-            )
-    emergency = by_name.get("emergency") or _period(
-        "emergency", "The period of RoboComp's emergency(); in other components, for their own code.", EMERGENCY
-    )
-    others = [member for member in own if member.name not in ("compute", "emergency")]
+    elif period is not None and compute.default is not None and compute.default.data != period:
+        if (node := compute.default.node) is not None:
+            problem, hint = f"the component's 'period:' says {period} ms", "leave one of the two out"
+            found.append(codes.PERIOD.at(node.span, problem=problem, hint=hint))
+    emergency = by_name.get("emergency") or _period("emergency", EMERGENCY)
+    others = [member for member in own if member.name not in _PERIODS]
     group = RecordType("", (compute, emergency, *others), "How often the component works.")
-    member = Member(
-        "period",
-        group,
-        given.doc if given else group.doc,
-        code_name="period",
-        editable=True,
-        span=given.span if given else Span(""),
-    )
+    doc, span = (given.doc, given.span) if given is not None else (group.doc, Span(""))
+    made = Member("period", group, doc, code_name="period", editable=True, span=span)
     rest = [other for other in root.members if other.name != "period"]
-    return replace(root, members=(*rest, member)), found
+    return replace(root, members=(*rest, made)), found
 
 
-def _period(name: str, doc: str, default: int) -> Member:
+_PERIODS = {
+    "compute": "How often compute() runs.",
+    "emergency": "The period of RoboComp's emergency(); in other components, for their own code.",
+}
+
+
+def _period(name: str, default: int) -> Member:
     type_ = BasicType("int", Range(Bound(1, False, "1"), None), unit="ms")
-    return Member(name, type_, doc, Default(default), editable=True, code_name=name)
+    return Member(name, type_, _PERIODS[name], Default(default), editable=True, code_name=name)
